@@ -1,0 +1,15 @@
+#include "scene.h"
+
+namespace pbd {
+
+int add_node(Scene& scene, const Vec3& position, double mass, const Vec3& velocity) {
+  const int index = scene.nodes();
+  scene.mass.push_back(mass);
+  scene.initial.x.conservativeResize(3, index + 1);
+  scene.initial.v.conservativeResize(3, index + 1);
+  scene.initial.x.col(index) = position;
+  scene.initial.v.col(index) = velocity;
+  return index;
+}
+
+}  // namespace pbd

@@ -1,0 +1,20 @@
+// Checks a scene before anything is computed.
+#pragma once
+
+#include <string>
+
+#include "scene.h"
+
+namespace pbd {
+
+/// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
+/// out of range or repeated, masses <= 0 or NaN, compliances < 0, non-finite numbers, degenerate or inverted
+/// rest elements, elastic constants out of range, links whose ends coincide while the rest length is 0.
+void validate(const Scene& scene);
+
+/// Throws SetupError, beginning with `where`, unless a rest tetrahedron has a positive volume (or a rest
+/// triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
+void require_proper(const Eigen::Matrix<double, 3, 4>& rest, const std::string& where);
+void require_proper(const Eigen::Matrix3d& rest, const std::string& where);
+
+}  // namespace pbd

@@ -1,0 +1,99 @@
+// One time step: integrator, then (linearise, relax) until the nonlinear residual is small or the budget is
+// spent.
+//
+// With x(v) = x0 + d v and impulse scale s from the integrator, the step's solution (v, p) satisfies
+//   primal   M (v - v_free) = J(x(v))^T p                 (impulses act along the directions at the end of
+//   the step) dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)   (every constraint met, up to its
+//   compliance A)
+// Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
+// N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
+// with scale = |v - v_old|_M + |v_free - v_old|_M.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene.h"
+
+namespace pbd {
+
+/// How a step is solved. Names are those of the lists in integrators.h, outer.h and relaxation.h.
+struct Method {
+  std::string integrator = "implicit_euler";
+  std::string outer = "plain";
+  std::string relaxation = "gauss_seidel";
+  double tolerance = 1e-8;     // on the residuals, relative to `scale`
+  int max_outer = 100;         // outer iterations a step
+  int max_sweeps = 20;         // sweeps of the relaxation an outer iteration
+  double inner_tolerance = 0;  // end an outer iteration's sweeps when the linear residual fell by this factor
+  bool warm_start = true;      // begin with the previous step's impulses
+};
+
+enum class Status { ok, not_converged, diverged };
+inline constexpr std::array<std::string_view, 3> status_names{"ok", "not_converged", "diverged"};
+
+/// What one effect cost in a step.
+struct EffectCost {
+  std::string_view effect;
+  std::int64_t rows = 0;
+  std::int64_t bytes = 0;  // of its rows
+  double seconds = 0;      // linearising and relaxing
+};
+
+/// What a step reached. Residuals are absolute, in sqrt(J).
+struct Report {
+  Status status = Status::ok;
+  std::string_view reason;  // empty if ok
+  int outer_iterations = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t row_updates = 0;
+  double primal = 0;
+  double dual = 0;
+  double scale = 0;
+
+  /// Largest residual relative to `scale`; 0 if both vanish.
+  double residual() const;
+};
+
+/// State of the iteration at an outer iterate, shown to an observer before the iterate is improved.
+struct Iterate {
+  int outer_iteration;
+  std::int64_t sweeps;
+  std::int64_t row_updates;
+  double primal, dual, scale;
+  const Points& x;  // x(v)
+  const Points& v;
+};
+using Observer = std::function<void(const Iterate&)>;
+
+/// Everything a step needs besides scene and state: rows, impulses, factorisations. Allocated once.
+class Workspace {
+ public:
+  /// Validates the scene and looks up the method's names; throws SetupError.
+  Workspace(const Scene& scene, const Method& method);
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  /// Rows, bytes and seconds per effect with rows, in the scene's order, summed over all steps so far.
+  std::vector<EffectCost> costs() const;
+
+  /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R a constraint.
+  std::vector<double> impulses(std::size_t index) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+  friend Report step(const Scene&, const Method&, double, State&, Workspace&, const Observer&);
+};
+
+/// Advances `state` by h seconds. Does not throw: what went wrong stands in the report. A diverged step
+/// leaves `state` as it was.
+Report step(const Scene& scene, const Method& method, double h, State& state, Workspace& workspace,
+            const Observer& observer = {});
+
+}  // namespace pbd

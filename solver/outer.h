@@ -22,6 +22,7 @@ class OuterIteration {
  public:
   virtual Points& v() = 0;                // current iterate; becomes the next one
   virtual const Points& rebuilt() = 0;    // v_free + W J_k^T p at the current linearisation
+  virtual bool first() = 0;               // of the step
   virtual void linearise_at_start() = 0;  // refreshes rows and `rebuilt` at x0
   virtual void relax() = 0;               // improves impulses and v by the linear rows
 

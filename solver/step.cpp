@@ -139,6 +139,7 @@ class StepIteration final : public OuterIteration {
 
   Points& v() override { return data_.v; }
   const Points& rebuilt() override { return data_.rebuilt; }
+  bool first() override { return report_.outer_iterations == 0; }
   void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
 
   void relax() override {
@@ -173,7 +174,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     for_each_block(w.rows.blocks, [](auto& block) {
       for (auto& impulse : block.impulse) impulse.setZero();
     });
-  w.v = w.map.v_free;
+  w.v = state.v;
   w.previous = w.v;
 
   Report report;

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "effects/constraint.h"
 
 namespace pbd {

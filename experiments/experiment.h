@@ -1,8 +1,11 @@
 // What an experiment is given and what it leaves behind.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -33,6 +36,20 @@ class Table {
 
 enum class Tier { quick, full };
 
+inline constexpr std::array<std::string_view, 2> tier_names{"quick", "full"};
+
+/// Begins every random sequence, so that a run can be repeated.
+inline constexpr std::uint64_t seed = 20170401;
+
+/// A statement of an experiment that was measured against a bound.
+struct Verdict {
+  std::string id, statement, quantity;
+  double measured = 0;
+  double bound = 0;
+
+  bool holds() const { return measured <= bound; }  // NaN never holds
+};
+
 /// Thrown by Context::advance when the user asked to stop.
 struct Interrupted {};
 
@@ -56,6 +73,10 @@ class Context {
   /// Records a verdict in `verdicts.csv`: holds if measured <= bound (NaN never holds).
   void verdict(std::string_view id, std::string_view statement, std::string_view quantity, double measured,
                double bound);
+  const std::vector<Verdict>& verdicts() const;
+
+  /// Writes `verdicts.csv`; called once the experiment has ended.
+  void write_verdicts();
 
   /// Runs f(i) for i in [0, count) on `threads()` threads; results must not depend on the order. Do not use
   /// it for work that is timed.

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "commands.h"
+#include "error.h"
+#include "files.h"
+#include "interrupt.h"
+#include "judges.h"
+#include "measure.h"
+#include "progress.h"
+#include "scene_file.h"
+
+namespace pbdcheck {
+namespace {
+
+/// The state after `steps` steps of the scene's own method, with a warning if one of them missed its
+/// tolerance.
+pbd::State advanced(const SceneFile& file, int steps) {
+  pbd::State state = file.scene.initial;
+  pbd::Workspace workspace(file.scene, file.method);
+  for (int i = 0; i < steps && !interrupted(); ++i)
+    if (pbd::step(file.scene, file.method, file.step_s, state, workspace).status != pbd::Status::ok)
+      warn(fmt::format("step {} on the way to the compared one missed its tolerance", i + 1));
+  return state;
+}
+
+void add_trace(Table& table, const std::string& scene, double h, const pbd::Method& method,
+               const Trace& trace) {
+  const std::string status(pbd::status_names[static_cast<std::size_t>(trace.report.status)]);
+  for (const auto& point : trace.points)
+    table.row({scene, h, method.integrator, method.outer, method.relaxation, std::string("none"),
+               std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
+               point.error, status, std::string(trace.report.reason)});
+}
+
+/// The reference's own row: its name stands where a method names its outer iteration.
+void add_judge(Table& table, const std::string& scene, double h, const std::string& name,
+               const Judged& judged) {
+  table.row({scene, h, std::string("implicit_euler"), name, std::string("none"), std::string("none"),
+             std::int64_t{judged.iterations}, std::int64_t{0}, std::int64_t{0}, judged.seconds, 0.0,
+             judged.status, judged.reason});
+}
+
+std::vector<pbd::Method> parsed_methods(const CompareOptions& options, const pbd::Method& base) {
+  if (options.methods.empty())
+    throw pbd::SetupError("compare", "no --method", "one or more --method \"KEY=VALUE ...\"");
+  std::vector<pbd::Method> methods;
+  for (const auto& text : options.methods) methods.push_back(parse_method(text, base, "--method"));
+  for (const auto& method : methods)
+    if (method.integrator != "implicit_euler")
+      throw pbd::SetupError("--method integrator", "`" + method.integrator + "`",
+                            "implicit_euler, the step the references solve");
+  return methods;
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  const SceneFile file = read_scene_file(options.scene, options.settings);
+  const auto methods = parsed_methods(options, file.method);
+  const auto names = reference_names();
+  const std::string name = options.reference.empty() && !names.empty() ? names[0] : options.reference;
+  const pbd::State state = advanced(file, options.at_step);
+  const Judged judged = judge_step(name, file.scene, state, file.step_s);
+  if (judged.status != "ok") warn(fmt::format("reference {} {}: {}", name, judged.status, judged.reason));
+
+  require_writable(options.directory);
+  const std::string scene = options.scene.stem().string();
+  Table table(options.directory / "compare.csv",
+              {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
+               "sweeps", "row_updates", "wall_s", "error", "status", "reason"});
+  add_judge(table, scene, file.step_s, name, judged);
+  bool all_ok = judged.status == "ok";
+  Progress progress("compare", static_cast<std::int64_t>(methods.size()));
+  for (const auto& method : methods) {
+    if (interrupted()) break;
+    const Trace trace = measure(file.scene, state, file.step_s, method, judged.x);
+    all_ok = all_ok && trace.report.status == pbd::Status::ok;
+    add_trace(table, scene, file.step_s, method, trace);
+    progress.advance(method.outer + " " + method.relaxation);
+  }
+  table.close();
+  if (interrupted()) return exit_interrupted;
+  return all_ok ? exit_done : exit_failed;
+}
+
+}  // namespace pbdcheck

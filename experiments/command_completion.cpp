@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include "choices.h"
+#include "commands.h"
+
+namespace pbdcheck {
+namespace {
+
+constexpr const char* bash_script = R"bash(# bash completion of pbdcheck:  source <(pbdcheck completion bash)
+_pbdcheck() {
+  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} program=${COMP_WORDS[0]} words=""
+  COMPREPLY=()
+  case $previous in
+    -o|--output) COMPREPLY=($(compgen -d -- "$word")); return ;;
+    --tier) words="quick full" ;;
+    --export) words="vtk" ;;
+    --reference) words=$("$program" list references 2>/dev/null) ;;
+    *)
+      if ((COMP_CWORD == 1)); then
+        words="list simulate compare run completion --help --version"
+      else
+        case ${COMP_WORDS[1]} in
+          list) words="@KINDS@ --json --help" ;;
+          completion) words="bash" ;;
+          simulate) words="--set --output --export --help" ;;
+          compare) words="--set --method --reference --at-step --output --help" ;;
+          run) words="--all --tier --threads --resume --output --help
+                      $("$program" list experiments 2>/dev/null | cut -d' ' -f1)" ;;
+        esac
+        case ${COMP_WORDS[1]} in
+          simulate|compare) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -S / -- "$word")) ;;
+        esac
+      fi ;;
+  esac
+  COMPREPLY+=($(compgen -W "$words" -- "$word"))
+}
+complete -F _pbdcheck pbdcheck
+)bash";
+
+}  // namespace
+
+int completion(const std::string& shell) {
+  require_name("completion", shell, std::vector<std::string>{"bash"});
+  std::string kinds;
+  for (const auto& kind : list_kinds()) kinds += (kinds.empty() ? "" : " ") + kind;
+  std::string script = bash_script;
+  const std::string placeholder = "@KINDS@";
+  script.replace(script.find(placeholder), placeholder.size(), kinds);
+  fmt::print("{}", script);
+  return exit_done;
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "choices.h"
+#include "commands.h"
+#include "judges.h"
+#include "scene_file.h"
+
+namespace pbdcheck {
+namespace {
+
+struct Item {
+  std::string name;
+  std::string text;  // what it is, may be empty
+};
+
+std::vector<Item> named(const std::vector<std::string>& names) {
+  std::vector<Item> items;
+  for (const auto& name : names) items.push_back({name, ""});
+  return items;
+}
+
+std::vector<Item> experiment_items() {
+  std::vector<Item> items;
+  for (const auto& experiment : experiments())
+    items.push_back({std::string(experiment.name), std::string(experiment.question)});
+  return items;
+}
+
+/// The scenes that come with the program, by path so that the name can be given to `simulate`.
+std::vector<Item> scene_items() {
+  std::vector<Item> items;
+  if (std::filesystem::is_directory(PBDCHECK_SCENES))
+    for (const auto& entry : std::filesystem::directory_iterator(PBDCHECK_SCENES))
+      if (entry.path().extension() == ".toml")
+        items.push_back({entry.path().string(), scene_description(entry.path())});
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.name < b.name; });
+  return items;
+}
+
+struct Kind {
+  std::string name;
+  std::vector<Item> (*items)();
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> list{
+      {"experiments", experiment_items},
+      {"scenes", scene_items},
+      {"effects", [] { return named(effect_names()); }},
+      {"integrators", [] { return named(integrator_choices()); }},
+      {"outers", [] { return named(outer_choices()); }},
+      {"relaxations", [] { return named(relaxation_choices()); }},
+      {"frictions", [] { return std::vector<Item>(); }},
+      {"references", [] { return named(reference_names()); }},
+      {"cases", [] { return named(case_names()); }},
+  };
+  return list;
+}
+
+nlohmann::ordered_json to_json(const std::vector<Item>& items) {
+  auto array = nlohmann::ordered_json::array();
+  for (const auto& item : items) {
+    nlohmann::ordered_json object{{"name", item.name}};
+    if (!item.text.empty()) object["text"] = item.text;
+    array.push_back(object);
+  }
+  return array;
+}
+
+void print(const std::vector<Item>& items, std::string_view indent) {
+  for (const auto& item : items)
+    fmt::print("{}{}{}{}\n", indent, item.name, item.text.empty() ? "" : "  ", item.text);
+}
+
+}  // namespace
+
+std::vector<std::string> list_kinds() {
+  std::vector<std::string> names;
+  for (const auto& kind : kinds()) names.push_back(kind.name);
+  return names;
+}
+
+int list(const ListOptions& options) {
+  if (!options.kind.empty()) require_name("list", options.kind, list_kinds());
+  auto all = nlohmann::ordered_json::object();
+  for (const auto& kind : kinds()) {
+    if (!options.kind.empty() && options.kind != kind.name) continue;
+    const auto items = kind.items();
+    if (options.json) {
+      all[kind.name] = to_json(items);
+    } else {
+      if (options.kind.empty()) fmt::print("{}:\n", kind.name);
+      print(items, options.kind.empty() ? "  " : "");
+    }
+  }
+  if (options.json) fmt::print("{}\n", (options.kind.empty() ? all : all[options.kind]).dump(2));
+  return exit_done;
+}
+
+}  // namespace pbdcheck

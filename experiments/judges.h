@@ -1,0 +1,29 @@
+// The references, as the program's commands see them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene.h"
+
+namespace pbdcheck {
+
+/// Names of all references, and of the cases with known answers they were checked on.
+std::vector<std::string> reference_names();
+std::vector<std::string> case_names();
+
+/// What a reference says about one step.
+struct Judged {
+  pbd::Points x;       // end positions, m
+  std::string status;  // ok or not_converged
+  std::string reason;  // empty if ok
+  int iterations = 0;
+  double seconds = 0;
+  double residual = 0;
+};
+
+/// The implicit Euler step of h seconds from `state` by a reference; an empty name takes the first one.
+/// Throws SetupError for a name that is not one of `reference_names()`.
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h);
+
+}  // namespace pbdcheck

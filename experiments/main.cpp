@@ -1,0 +1,124 @@
+// pbdcheck: the command line. Everything it does is in command_*.cpp.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <thread>
+
+#include "choices.h"
+#include "commands.h"
+#include "error.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "provenance.h"
+
+namespace {
+
+using namespace pbdcheck;
+
+void add_list(CLI::App& app, ListOptions& options) {
+  auto* command = app.add_subcommand("list", "Print what there is: " + joined(list_kinds()));
+  command->add_option("KIND", options.kind, "One of these; all of them if left out");
+  command->add_flag("--json", options.json, "Print JSON");
+}
+
+void add_scene_options(CLI::App& command, std::filesystem::path& scene, std::vector<std::string>& settings,
+                       std::filesystem::path& directory) {
+  command.add_option("SCENE", scene, "Scene file (TOML)")->required();
+  command
+      .add_option("--set", settings,
+                  "KEY=VALUE on top of the file, as in method.relaxation=jacobi; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", directory, "Folder of the results")->capture_default_str();
+}
+
+void add_simulate(CLI::App& app, SimulateOptions& options) {
+  auto* command = app.add_subcommand("simulate", "Simulate a scene; writes DIR/probes.csv and DIR/run.json");
+  add_scene_options(*command, options.scene, options.settings, options.directory);
+  command->add_option("--export", options.export_format, "vtk: a frame a step for ParaView");
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+  auto* command = app.add_subcommand(
+      "compare", "Measure methods against a reference on one step; writes DIR/compare.csv");
+  add_scene_options(*command, options.scene, options.settings, options.directory);
+  command
+      ->add_option("--method", options.methods,
+                   "KEY=VALUE ... on top of the scene's [method], in quotes; may be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_option("--reference", options.reference, "One of `list references`; the first if left out");
+  command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  auto* command =
+      app.add_subcommand("run", "Run experiments; writes DIR/EXPERIMENT/ and exits 1 if a verdict fails");
+  command->add_option("EXPERIMENT", options.experiments, "Names as of `list experiments`");
+  command->add_flag("--all", options.all, "All of them");
+  command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command->add_option("--threads", options.threads, "Threads of untimed work")->capture_default_str();
+  command->add_flag("--resume", options.resume,
+                    "Skip what is complete with the same commit, tier and settings");
+  command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
+}
+
+/// A usage error in one line, with the nearest command if an unknown one was given.
+int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  std::vector<std::string> commands;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (std::find(commands.begin(), commands.end(), first) == commands.end())
+    error_message(fmt::format("got command `{}`; allowed: {}", first, allowed_names(first, commands)));
+  else
+    error_message(fmt::format("{}; see pbdcheck {} --help", error.what(), first));
+  return exit_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Verification harness for position based dynamics", "pbdcheck");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done and every verdict holds; 1 a verdict failed or a solve did not converge;\n"
+      "2 bad input or usage; 3 interrupted.\nShell completion: source <(pbdcheck completion bash)");
+  ListOptions list_options;
+  SimulateOptions simulate_options;
+  CompareOptions compare_options;
+  RunOptions run_options;
+  std::string shell = "bash";
+  add_list(app, list_options);
+  add_simulate(app, simulate_options);
+  add_compare(app, compare_options);
+  add_run(app, run_options);
+  app.add_subcommand("completion", "Print a completion script: source <(pbdcheck completion bash)")
+      ->add_option("SHELL", shell, "bash")
+      ->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(app, error, argc, argv);
+  }
+  catch_interrupts();
+  try {
+    if (app.got_subcommand("list")) return list(list_options);
+    if (app.got_subcommand("simulate")) return simulate(simulate_options);
+    if (app.got_subcommand("compare")) return compare(compare_options);
+    if (app.got_subcommand("run")) return run(run_options);
+    return completion(shell);
+  } catch (const pbd::SetupError& error) {
+    error_message(error.what());
+    return exit_usage;
+  } catch (const std::exception& error) {
+    error_message(error.what());
+    return exit_failed;
+  }
+}

@@ -1,0 +1,40 @@
+// One step by one method, watched: how the error falls with iterations, sweeps, row updates and time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene.h"
+#include "step.h"
+
+namespace pbdcheck {
+
+/// The step after `outer_iterations`. `wall_s` leaves out the observer and is the smallest of the repeats.
+struct TracePoint {
+  int outer_iterations = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t row_updates = 0;
+  double wall_s = 0;
+  double error = 0;     // see relative_error
+  double residual = 0;  // relative to the step's scale
+};
+
+struct Trace {
+  std::vector<TracePoint> points;  // from the first iterate to the step's end
+  pbd::Report report;
+};
+
+/// How often a step is timed, after a first run that is thrown away (it warms caches and the allocator).
+inline constexpr int timed_repeats = 3;
+
+/// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres.
+double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
+
+/// Does the step of h seconds from `state` `timed_repeats` times, each with a fresh workspace (no warm
+/// start), against the end positions `reference_x`. Throws SetupError as Workspace does.
+Trace measure(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
+              const pbd::Points& reference_x);
+
+}  // namespace pbdcheck

@@ -1,0 +1,31 @@
+// What a simulation writes down after every step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment.h"
+#include "scene_file.h"
+
+namespace pbdcheck {
+
+/// Column names of the probes, units as suffixes.
+std::vector<std::string> probe_columns(const std::vector<Probe>& probes, const pbd::Scene& scene);
+
+/// Appends the probes' values at `state` to a row.
+void append_probes(const std::vector<Probe>& probes, const pbd::Scene& scene, const pbd::State& state,
+                   std::vector<Cell>& row);
+
+/// Sum of 1/2 m v^2 over the nodes of finite mass, J.
+double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Minus the sum of m a . x over the nodes of finite mass, J; zero at the origin.
+double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J.
+double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
+double constraint_error(const pbd::Effect& effect, const pbd::State& state);
+
+}  // namespace pbdcheck

@@ -1,0 +1,68 @@
+#include "provenance.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "build_info.h"
+#include "experiment.h"
+#include "files.h"
+
+namespace pbdcheck {
+namespace {
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
+  return "unknown";
+}
+
+nlohmann::ordered_json libraries() {
+  return {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"tomlplusplus", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+          {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                        NLOHMANN_JSON_VERSION_PATCH)},
+          {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+          {"cli11", CLI11_VERSION}};
+}
+
+}  // namespace
+
+std::string build_commit() {
+  return build_info::commit;
+}
+
+bool build_dirty() {
+  return build_info::dirty;
+}
+
+std::string version_text() {
+  std::string text = fmt::format("pbdcheck {} ({}{})", build_info::version, build_info::commit,
+                                 build_info::dirty ? ", with uncommitted changes" : "");
+  const auto used = libraries();
+  for (const auto& [name, version] : used.items()) text += "\n" + name + " " + version.get<std::string>();
+  return text;
+}
+
+nlohmann::ordered_json provenance(int threads) {
+  return {{"commit", build_info::commit},
+          {"dirty", build_info::dirty},
+          {"version", build_info::version},
+          {"compiler", build_info::compiler},
+          {"flags", build_info::flags},
+          {"processor", processor()},
+          {"threads", threads},
+          {"seed", seed},
+          {"libraries", libraries()}};
+}
+
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
+  write_file(path, json.dump(2) + "\n");
+}
+
+}  // namespace pbdcheck

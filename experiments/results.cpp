@@ -1,0 +1,157 @@
+// Table and Context of experiment.h.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "error.h"
+#include "experiment.h"
+#include "files.h"
+#include "interrupt.h"
+#include "progress.h"
+
+namespace pbdcheck {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string cell_text(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
+  const double number = std::get<double>(cell);
+  return std::isnan(number) ? "nan" : fmt::format("{:.17g}", number);
+}
+
+}  // namespace
+
+struct Table::Data {
+  std::filesystem::path path;
+  std::size_t columns;
+  std::ofstream out;
+};
+
+Table::Table(std::filesystem::path path, std::vector<std::string> columns) : data_(std::make_unique<Data>()) {
+  data_->path = std::move(path);
+  data_->columns = columns.size();
+  data_->out.open(partial_path(data_->path), std::ios::binary);
+  if (!data_->out)
+    throw pbd::SetupError(data_->path.string(), "a file that cannot be written", "a writable place");
+  row({columns.begin(), columns.end()});
+}
+
+Table::Table(Table&&) noexcept = default;
+
+Table::~Table() {
+  if (data_ == nullptr || !data_->out.is_open()) return;
+  data_->out.close();
+  std::error_code ignored;  // a destructor has nobody to tell
+  std::filesystem::remove(partial_path(data_->path), ignored);
+}
+
+void Table::row(const std::vector<Cell>& cells) {
+  if (cells.size() != data_->columns)
+    throw std::logic_error(fmt::format("{}: a row of {} cells for {} columns", data_->path.string(),
+                                       cells.size(), data_->columns));
+  for (std::size_t i = 0; i < cells.size(); ++i) data_->out << (i > 0 ? "," : "") << cell_text(cells[i]);
+  data_->out << '\n';
+}
+
+void Table::close() {
+  data_->out.close();
+  if (!data_->out) throw std::runtime_error(data_->path.string() + ": could not be written to the end");
+  std::filesystem::rename(partial_path(data_->path), data_->path);
+}
+
+struct Context::Data {
+  std::filesystem::path directory;
+  Tier tier;
+  int threads;
+  std::optional<Progress> progress;
+  std::vector<Verdict> verdicts;
+};
+
+Context::Context(std::filesystem::path directory, Tier tier, int threads) : data_(std::make_shared<Data>()) {
+  data_->directory = std::move(directory);
+  data_->tier = tier;
+  data_->threads = threads;
+}
+
+Tier Context::tier() const {
+  return data_->tier;
+}
+
+int Context::threads() const {
+  return data_->threads;
+}
+
+Table Context::table(std::string_view name, std::vector<std::string> columns) {
+  return {data_->directory / (std::string(name) + ".csv"), std::move(columns)};
+}
+
+void Context::begin(std::int64_t units) {
+  data_->progress.emplace(data_->directory.filename().string(), units);
+}
+
+void Context::advance(std::string_view label) {
+  if (data_->progress) data_->progress->advance(label);
+  if (interrupted()) throw Interrupted{};
+}
+
+void Context::verdict(std::string_view id, std::string_view statement, std::string_view quantity,
+                      double measured, double bound) {
+  data_->verdicts.push_back(
+      {std::string(id), std::string(statement), std::string(quantity), measured, bound});
+}
+
+const std::vector<Verdict>& Context::verdicts() const {
+  return data_->verdicts;
+}
+
+void Context::write_verdicts() {
+  data_->progress.reset();
+  Table verdicts = table("verdicts", {"id", "statement", "quantity", "measured", "bound", "verdict"});
+  for (const auto& v : data_->verdicts)
+    verdicts.row(
+        {v.id, v.statement, v.quantity, v.measured, v.bound, std::string(v.holds() ? "holds" : "fails")});
+  verdicts.close();
+}
+
+void Context::parallel(std::int64_t count, const std::function<void(std::int64_t)>& f) const {
+  std::atomic<std::int64_t> next{0};
+  std::mutex mutex;
+  std::int64_t failed_index = count;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::int64_t i = next++; i < count && !interrupted(); i = next++) {
+      try {
+        f(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (i < failed_index) {
+          failed_index = i;
+          failure = std::current_exception();
+        }
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < threads(); ++i) helpers.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);  // that of the smallest index, whatever the order was
+  if (interrupted()) throw Interrupted{};
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,116 @@
+#include "builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "choices.h"
+#include "error.h"
+
+namespace pbdcheck {
+namespace {
+
+int nearest_node(const pbd::Scene& scene, const NodeRange& range, const pbd::Vec3& point) {
+  Eigen::Index nearest = 0;
+  (scene.initial.x.middleCols(range.first, range.count).colwise() - point)
+      .colwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  return range.first + static_cast<int>(nearest);
+}
+
+std::vector<int> nodes_in_box(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
+  const auto box = keys.vectors("box_m");
+  if (box.size() != 2 || (box[0].array() > box[1].array()).any())
+    keys.refuse("box_m", fmt::format("{} corners or a box of negative size", box.size()),
+                "[[lowest x, y, z], [highest x, y, z]]");
+  std::vector<int> found;
+  for (int node = range.first; node < range.first + range.count; ++node) {
+    const auto x = scene.initial.x.col(node).array();
+    if ((x >= box[0].array()).all() && (x <= box[1].array()).all()) found.push_back(node);
+  }
+  if (found.empty()) keys.refuse("box_m", "a box without nodes", "a box with at least one node");
+  return found;
+}
+
+std::vector<int> corner_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
+  const auto x = scene.initial.x.middleCols(range.first, range.count);
+  const pbd::Vec3 lowest = x.rowwise().minCoeff();
+  const pbd::Vec3 size = x.rowwise().maxCoeff() - lowest;
+  std::vector<int> found;
+  for (const auto& corner : keys.vectors("corners"))
+    found.push_back(nearest_node(scene, range, lowest + size.cwiseProduct(corner)));
+  return found;
+}
+
+std::vector<int> indexed_nodes(Keys& keys, const NodeRange& range, std::string_view key) {
+  std::vector<int> found =
+      key == "node" ? std::vector<int>{keys.integer_or("node", 0, 0)} : keys.integers("nodes", 0);
+  for (int& node : found) {
+    if (node >= range.count)
+      keys.refuse(key, std::to_string(node), fmt::format("a node index from 0 to {}", range.count - 1));
+    node += range.first;
+  }
+  return found;
+}
+
+}  // namespace
+
+void Builder::anchor(const Keys& keys, const std::vector<int>& nodes, double compliance,
+                     pbd::Anchor& effect) {
+  for (const int node : nodes) {
+    if (!anchored.insert(node).second)
+      throw pbd::SetupError(keys.where(), fmt::format("node {} anchored twice", node), "one anchor per node");
+    effect.node.push_back(node);
+    effect.target.emplace_back(scene.initial.x.col(node));
+    effect.compliance.push_back(compliance);
+  }
+}
+
+pbd::Scene Builder::finish() {
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed& a, const Placed& b) { return a.line < b.line; });
+  for (auto& entry : placed) scene.effects.push_back(std::move(entry.effect));
+  return std::move(scene);
+}
+
+std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
+  static const std::vector<std::string> ways{"node", "nodes", "near_m", "box_m", "corners"};
+  std::vector<std::string> given;
+  for (const auto& way : ways)
+    if (keys.has(way)) given.push_back(way);
+  const auto allowed = "exactly one of " + joined(ways);
+  if (given.empty()) {
+    keys.refuse_unknown();  // a misspelt key explains more than a missing one
+    throw pbd::SetupError(keys.where(), "no choice of nodes", allowed);
+  }
+  if (given.size() > 1) keys.refuse(given[1], "both " + joined(given), allowed);
+  if (range.count == 0) throw pbd::SetupError(keys.where(), "a scene without nodes", "at least one node");
+
+  const std::string& way = given[0];
+  std::vector<int> found;
+  if (way == "box_m")
+    found = nodes_in_box(keys, scene, range);
+  else if (way == "corners")
+    found = corner_nodes(keys, scene, range);
+  else if (way == "near_m")
+    found = {nearest_node(scene, range, keys.vector("near_m"))};
+  else
+    found = indexed_nodes(keys, range, way);
+  if (found.empty()) keys.refuse(way, "an empty list", "at least one node");
+  auto sorted = found;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end())
+    keys.refuse(way, fmt::format("node {} twice", *twice - range.first), "each node once");
+  return found;
+}
+
+double read_compliance(Keys& keys) {
+  const bool soft = keys.has("compliance_m_per_n");
+  if (!keys.has("stiffness_n_per_m")) return keys.number_or("compliance_m_per_n", 0, Range::not_negative);
+  if (soft) keys.refuse("stiffness_n_per_m", "a stiffness and a compliance", "one of them");
+  return 1 / keys.number("stiffness_n_per_m", Range::positive_or_infinite);
+}
+
+}  // namespace pbdcheck

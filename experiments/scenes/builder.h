@@ -1,0 +1,58 @@
+// A scene under construction from a file. Nodes come first (their tables in the file's order), then what
+// refers to them; effects keep the order in which the file names them, which is the order of Gauss-Seidel.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "keys.h"
+#include "scene.h"
+
+namespace pbdcheck {
+
+struct Builder {
+  pbd::Scene scene;
+  struct Placed {
+    int line;
+    pbd::Effect effect;
+  };
+  std::vector<Placed> placed;
+  std::set<int> anchored;
+
+  void add(int line, pbd::Effect effect) { placed.push_back({line, std::move(effect)}); }
+
+  /// Anchors `nodes` at their initial places; `keys` names the table in errors: a node twice is refused.
+  void anchor(const Keys& keys, const std::vector<int>& nodes, double compliance, pbd::Anchor& effect);
+
+  /// Moves the effects into the scene, in the file's order.
+  pbd::Scene finish();
+};
+
+/// Nodes [first, first + count) of the scene, the ones a selection may pick and counts from.
+struct NodeRange {
+  int first = 0;
+  int count = 0;
+};
+
+/// The nodes a table picks, each once, by `node` (one index), `nodes` (a list), `near_m` (the nearest to a
+/// point), `box_m` ([lowest, highest corner]; all within, borders included) or `corners` (a list of places in
+/// the nodes' bounding box, 0 to 1 along each axis; the nearest node to each). Indices count from the range's
+/// first node; positions are the initial ones. Refuses a table with none or several of these keys, an index
+/// out of range or twice, and a box without nodes.
+std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range);
+
+/// `compliance_m_per_n` or its inverse `stiffness_n_per_m`, whichever stands there; 0 if neither does.
+double read_compliance(Keys& keys);
+
+// One function per kind of table; each reads all tables of its kind below the root.
+void read_particles(Keys& root, Builder& builder);
+void read_chains(Keys& root, Builder& builder);
+void read_cloths(Keys& root, Builder& builder);
+void read_solids(Keys& root, Builder& builder);
+void read_gravity(Keys& root, Builder& builder);
+void read_forces(Keys& root, Builder& builder);
+void read_anchors(Keys& root, Builder& builder);
+void read_distances(Keys& root, Builder& builder);
+void read_bendings(Keys& root, Builder& builder);
+
+}  // namespace pbdcheck

@@ -1,0 +1,165 @@
+// Tables of cloth and solids: a grid or a mesh file, its material, its place and motion, what holds it.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "builder.h"
+#include "error.h"
+#include "mesh_file.h"
+#include "validate.h"
+
+namespace pbdcheck {
+namespace {
+
+/// The mesh file of a table, found relative to the scene file's folder.
+std::filesystem::path mesh_path(Keys& keys) {
+  for (const auto* key : {"cells", "size_m"})
+    if (keys.has(key)) keys.refuse(key, "a grid and a mesh file", "either file, or cells and size_m");
+  const std::filesystem::path path = std::filesystem::path(keys.file()).parent_path() / keys.text("file");
+  if (!std::filesystem::is_regular_file(path))
+    keys.refuse("file", path.string() + ", no such file", "a mesh file, relative to the scene file");
+  return path;
+}
+
+template <std::size_t K>
+std::array<int, K> cells(Keys& keys) {
+  const auto found = keys.integers("cells", 1);
+  if (found.size() != K)
+    keys.refuse("cells", fmt::format("{} numbers", found.size()), fmt::format("{} integers >= 1", K));
+  std::array<int, K> counts{};
+  std::copy(found.begin(), found.end(), counts.begin());
+  return counts;
+}
+
+pbd::TetMesh solid_mesh(Keys& keys) {
+  if (keys.has("file")) return read_tet_mesh(mesh_path(keys));
+  const pbd::Vec3 size = keys.vector("size_m");
+  if (size.minCoeff() <= 0) keys.refuse("size_m", "a size <= 0", "three numbers > 0");
+  return pbd::kuhn_grid(cells<3>(keys), size);
+}
+
+pbd::TriangleMesh cloth_mesh(Keys& keys) {
+  if (keys.has("file")) return read_triangle_mesh(mesh_path(keys));
+  const auto size = keys.numbers("size_m", 2, Range::positive);
+  return pbd::grid_sheet(cells<2>(keys), {size[0], size[1]});
+}
+
+/// Moves the rest shape: scale, then rotation about the origin by |rotation_rad| about its axis, then
+/// translation.
+void place(Keys& keys, pbd::Points& x) {
+  const double scale = keys.number_or("scale", 1, Range::positive);
+  const pbd::Vec3 rotation = keys.vector_or("rotation_rad", pbd::Vec3::Zero());
+  const pbd::Vec3 translation = keys.vector_or("translation_m", pbd::Vec3::Zero());
+  if (scale != 1) x *= scale;
+  if (rotation.norm() > 0) x = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix() * x;
+  x.colwise() += translation;
+}
+
+/// Velocities of a rigid motion: velocity_m_s of the centre of mass, angular_velocity_rad_s about it.
+void set_velocity(Keys& keys, pbd::Scene& scene, const NodeRange& range) {
+  const pbd::Vec3 velocity = keys.vector_or("velocity_m_s", pbd::Vec3::Zero());
+  const pbd::Vec3 spin = keys.vector_or("angular_velocity_rad_s", pbd::Vec3::Zero());
+  const auto x = scene.initial.x.middleCols(range.first, range.count);
+  const auto mass = Eigen::VectorXd::Map(scene.mass.data() + range.first, range.count);
+  const pbd::Vec3 centre = x * mass / mass.sum();
+  for (int node = range.first; node < range.first + range.count; ++node)
+    scene.initial.v.col(node) = velocity + spin.cross(pbd::Vec3(scene.initial.x.col(node)) - centre);
+}
+
+/// The sub-tables `fixed` (infinite mass, at rest) and `anchored` (an Anchor, possibly compliant).
+void hold(Keys& keys, Builder& builder, const NodeRange& range) {
+  for (auto& fixed : keys.tables("fixed")) {
+    for (const int node : select_nodes(fixed, builder.scene, range)) {
+      builder.scene.mass[static_cast<std::size_t>(node)] = pbd::infinity;
+      builder.scene.initial.v.col(node).setZero();
+    }
+    fixed.refuse_unknown();
+  }
+  auto tables = keys.tables("anchored");
+  if (tables.empty()) return;
+  pbd::Anchor anchor;
+  for (auto& anchored : tables) {
+    builder.anchor(anchored, select_nodes(anchored, builder.scene, range), read_compliance(anchored), anchor);
+    anchored.refuse_unknown();
+  }
+  builder.add(tables[0].line(), std::move(anchor));
+}
+
+double read_poisson(Keys& keys) {
+  const double poisson = keys.number("poisson", Range::finite);
+  if (poisson <= -1 || poisson >= 0.5)
+    keys.refuse("poisson", fmt::format("{}", poisson), "-1 < poisson < 0.5");
+  return poisson;
+}
+
+/// The elements of the mesh as positions, refused by index and by the file (or table) they come from.
+template <int K, class Elements>
+void require_proper_elements(const pbd::Points& x, const Elements& elements, const std::string& where) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    Eigen::Matrix<double, 3, K> rest;
+    for (int a = 0; a < K; ++a) rest.col(a) = x.col(elements[i][static_cast<std::size_t>(a)]);
+    pbd::require_proper(rest, fmt::format("{} {} {}", where, K == 4 ? "tetrahedron" : "triangle", i));
+  }
+}
+
+std::string mesh_name(Keys& keys) {
+  return keys.has("file") ? keys.where() + ": " + keys.text("file") : keys.where();
+}
+
+void add_cloth_effects(Keys& keys, const pbd::TriangleMesh& mesh, int first, Builder& builder) {
+  for (auto& links : keys.tables("links")) {
+    builder.add(links.line(), pbd::sheet_links(mesh, first, read_compliance(links)));
+    links.refuse_unknown();
+  }
+  for (auto& strain : keys.tables("strain")) {
+    const double young = strain.number("young_pa", Range::positive_or_infinite);
+    const double thickness = strain.number("thickness_m", Range::positive);
+    builder.add(strain.line(), pbd::sheet_strain(mesh, first, {young, read_poisson(strain)}, thickness));
+    strain.refuse_unknown();
+  }
+  for (auto& bending : keys.tables("bending")) {
+    const double compliance = bending.number_or("compliance_rad_per_n_m", 0, Range::not_negative);
+    builder.add(bending.line(), pbd::sheet_bending(mesh, first, compliance));
+    bending.refuse_unknown();
+  }
+}
+
+}  // namespace
+
+void read_cloths(Keys& root, Builder& builder) {
+  for (auto& keys : root.tables("cloth")) {
+    pbd::TriangleMesh mesh = cloth_mesh(keys);
+    place(keys, mesh.x);
+    require_proper_elements<3>(mesh.x, mesh.triangles, mesh_name(keys));
+    const int first =
+        pbd::add_sheet_nodes(builder.scene, mesh, keys.number("area_density_kg_m2", Range::positive));
+    const NodeRange range{first, static_cast<int>(mesh.x.cols())};
+    set_velocity(keys, builder.scene, range);
+    add_cloth_effects(keys, mesh, first, builder);
+    hold(keys, builder, range);
+    keys.refuse_unknown();
+  }
+}
+
+void read_solids(Keys& root, Builder& builder) {
+  const auto names = std::vector<std::string>(pbd::strain_names.begin(), pbd::strain_names.end());
+  for (auto& keys : root.tables("solid")) {
+    pbd::TetMesh mesh = solid_mesh(keys);
+    place(keys, mesh.x);
+    require_proper_elements<4>(mesh.x, mesh.tets, mesh_name(keys));
+    const double density = keys.number("density_kg_m3", Range::positive);
+    const double young = keys.number("young_pa", Range::positive);
+    const auto strain = keys.choice_or("strain", "corotational", names);
+    const auto index = std::find(names.begin(), names.end(), strain) - names.begin();
+    const int first = pbd::add_solid(builder.scene, mesh, density, {young, read_poisson(keys)},
+                                     static_cast<pbd::Strain>(index));
+    builder.add(keys.line(), std::move(builder.scene.effects.back()));
+    builder.scene.effects.pop_back();
+    const NodeRange range{first, static_cast<int>(mesh.x.cols())};
+    set_velocity(keys, builder.scene, range);
+    hold(keys, builder, range);
+    keys.refuse_unknown();
+  }
+}
+
+}  // namespace pbdcheck

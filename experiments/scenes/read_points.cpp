@@ -1,0 +1,187 @@
+// Tables of particles, chains and what acts on single nodes: gravity, forces, anchors, links, hinges.
+#include <fmt/format.h>
+
+#include "builder.h"
+#include "error.h"
+#include "mesh.h"
+
+namespace pbdcheck {
+namespace {
+
+NodeRange all_nodes(const pbd::Scene& scene) {
+  return {0, scene.nodes()};
+}
+
+/// Refuses node indices beyond the scene and a node twice in one constraint.
+void check_nodes(const Keys& keys, const std::vector<int>& nodes, int count) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] >= count)
+      keys.refuse("nodes", std::to_string(nodes[i]), fmt::format("a node index from 0 to {}", count - 1));
+    for (std::size_t j = 0; j < i; ++j)
+      if (nodes[i] == nodes[j])
+        keys.refuse("nodes", fmt::format("node {} twice", nodes[i]), "different nodes");
+  }
+}
+
+void read_particle_arrays(Keys& keys, Builder& builder) {
+  const auto x = keys.vectors("position_m");
+  const auto mass = keys.numbers("mass_kg", x.size(), Range::positive_or_infinite);
+  const bool moving = keys.has("velocity_m_s");
+  const auto v =
+      moving ? keys.vectors("velocity_m_s") : std::vector<pbd::Vec3>(x.size(), pbd::Vec3::Zero().eval());
+  if (v.size() != x.size())
+    keys.refuse("velocity_m_s", fmt::format("{} velocities", v.size()), fmt::format("{}", x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) pbd::add_node(builder.scene, x[i], mass[i], v[i]);
+  keys.refuse_unknown();
+}
+
+struct Chain {
+  int links;
+  double length;
+  double mass;
+  double tip_mass;
+  pbd::Vec3 start;
+  pbd::Vec3 direction;
+  pbd::Vec3 velocity;
+  double compliance;
+  std::string hold;
+};
+
+Chain read_chain(Keys& keys) {
+  Chain chain;
+  chain.links = keys.integer_or("links", 20, 1);
+  chain.length = keys.number("length_m", Range::positive);
+  chain.mass = keys.number("mass_kg", Range::positive);
+  chain.tip_mass = keys.number_or("tip_mass_kg", chain.mass, Range::positive);
+  chain.start = keys.vector_or("start_m", pbd::Vec3::Zero());
+  chain.direction = keys.vector_or("direction", pbd::Vec3::UnitX());
+  if (chain.direction.norm() == 0) keys.refuse("direction", "the zero vector", "a direction of any length");
+  chain.velocity = keys.vector_or("velocity_m_s", pbd::Vec3::Zero());
+  chain.compliance = read_compliance(keys);
+  chain.hold = keys.choice_or("start", "anchored", {"anchored", "fixed", "free"});
+  keys.refuse_unknown();
+  return chain;
+}
+
+void add_chain(const Keys& keys, const Chain& chain, Builder& builder) {
+  const bool fixed = chain.hold == "fixed";
+  const bool held = chain.hold != "free";
+  const double rest_length = chain.length / chain.links;
+  const pbd::Vec3 step = chain.direction.normalized() * rest_length;
+  pbd::Distance distance;
+  const int first = builder.scene.nodes();
+  for (int i = 0; i <= chain.links; ++i) {
+    const double mass = i == chain.links ? chain.tip_mass : chain.mass;
+    pbd::add_node(builder.scene, chain.start + i * step, i == 0 && fixed ? pbd::infinity : mass,
+                  i == 0 && held ? pbd::Vec3::Zero().eval() : chain.velocity);
+    if (i == 0) continue;
+    distance.node.push_back({first + i - 1, first + i});
+    distance.rest_length.push_back(rest_length);
+    distance.compliance.push_back(chain.compliance);
+  }
+  if (chain.hold == "anchored") {
+    pbd::Anchor anchor;
+    builder.anchor(keys, {first}, 0, anchor);
+    builder.add(keys.line(), std::move(anchor));
+  }
+  builder.add(keys.line(), std::move(distance));
+}
+
+}  // namespace
+
+void read_particles(Keys& root, Builder& builder) {
+  for (auto& keys : root.tables("particle")) {
+    pbd::add_node(builder.scene, keys.vector("position_m"),
+                  keys.number("mass_kg", Range::positive_or_infinite),
+                  keys.vector_or("velocity_m_s", pbd::Vec3::Zero()));
+    keys.refuse_unknown();
+  }
+  for (auto& keys : root.tables("particles")) read_particle_arrays(keys, builder);
+}
+
+void read_chains(Keys& root, Builder& builder) {
+  for (auto& keys : root.tables("chain")) add_chain(keys, read_chain(keys), builder);
+}
+
+void read_gravity(Keys& root, Builder& builder) {
+  for (auto& keys : root.tables("gravity")) {
+    builder.add(keys.line(), pbd::Gravity{keys.vector_or("acceleration_m_s2", pbd::Gravity{}.acceleration)});
+    keys.refuse_unknown();
+  }
+}
+
+void read_forces(Keys& root, Builder& builder) {
+  auto tables = root.tables("force");
+  if (tables.empty()) return;
+  pbd::ExternalForce effect;
+  for (auto& keys : tables) {
+    const pbd::Vec3 force = keys.vector("force_n");
+    for (const int node : select_nodes(keys, builder.scene, all_nodes(builder.scene))) {
+      effect.node.push_back(node);
+      effect.force.push_back(force);
+    }
+    keys.refuse_unknown();
+  }
+  builder.add(tables[0].line(), std::move(effect));
+}
+
+void read_anchors(Keys& root, Builder& builder) {
+  auto tables = root.tables("anchor");
+  if (tables.empty()) return;
+  pbd::Anchor effect;
+  for (auto& keys : tables) {
+    const auto nodes = select_nodes(keys, builder.scene, all_nodes(builder.scene));
+    builder.anchor(keys, nodes, read_compliance(keys), effect);
+    if (keys.has("target_m")) {
+      if (nodes.size() != 1) keys.refuse("target_m", "one target for several nodes", "one node");
+      effect.target.back() = keys.vector("target_m");
+    }
+    keys.refuse_unknown();
+  }
+  builder.add(tables[0].line(), std::move(effect));
+}
+
+void read_distances(Keys& root, Builder& builder) {
+  auto tables = root.tables("distance");
+  if (tables.empty()) return;
+  const auto& x = builder.scene.initial.x;
+  pbd::Distance effect;
+  for (auto& keys : tables) {
+    const auto links = keys.integer_lists("nodes", 2, 0);
+    const double compliance = read_compliance(keys);
+    std::vector<double> rest_length;
+    if (keys.has("rest_length_m"))
+      rest_length = keys.numbers("rest_length_m", links.size(), Range::not_negative);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      check_nodes(keys, links[i], builder.scene.nodes());
+      effect.node.push_back({links[i][0], links[i][1]});
+      effect.rest_length.push_back(rest_length.empty() ? (x.col(links[i][1]) - x.col(links[i][0])).norm()
+                                                       : rest_length[i]);
+      effect.compliance.push_back(compliance);
+    }
+    keys.refuse_unknown();
+  }
+  builder.add(tables[0].line(), std::move(effect));
+}
+
+void read_bendings(Keys& root, Builder& builder) {
+  auto tables = root.tables("bending");
+  if (tables.empty()) return;
+  const auto& x = builder.scene.initial.x;
+  pbd::Bending effect;
+  for (auto& keys : tables) {
+    const double compliance = keys.number_or("compliance_rad_per_n_m", 0, Range::not_negative);
+    for (const auto& hinge : keys.integer_lists("nodes", 4, 0)) {
+      check_nodes(keys, hinge, builder.scene.nodes());
+      Eigen::Matrix<double, 3, 4> at;
+      for (int i = 0; i < 4; ++i) at.col(i) = x.col(hinge[static_cast<std::size_t>(i)]);
+      effect.node.push_back({hinge[0], hinge[1], hinge[2], hinge[3]});
+      effect.rest_angle.push_back(keys.number_or("rest_angle_rad", pbd::dihedral_angle(at), Range::finite));
+      effect.compliance.push_back(compliance);
+    }
+    keys.refuse_unknown();
+  }
+  builder.add(tables[0].line(), std::move(effect));
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,149 @@
+#include "scene_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "builder.h"
+#include "choices.h"
+#include "document.h"
+#include "error.h"
+#include "validate.h"
+
+namespace pbdcheck {
+namespace {
+
+/// The single table `name` below the root; an empty list if absent.
+std::vector<Keys> single(Keys& root, std::string_view name) {
+  auto tables = root.tables(name);
+  if (tables.size() > 1) root.refuse(name, fmt::format("{} tables", tables.size()), "one table");
+  return tables;
+}
+
+void read_step(Keys& root, SceneFile& found) {
+  auto tables = single(root, "step");
+  if (tables.empty()) root.refuse("step", "nothing", "a table [step] with step_s, and duration_s or steps");
+  Keys& keys = tables[0];
+  found.step_s = keys.number("step_s", Range::positive);
+  const bool by_count = keys.has("steps");
+  if (by_count == keys.has("duration_s"))
+    keys.refuse("duration_s", by_count ? "steps and duration_s" : "nothing", "one of duration_s and steps");
+  if (by_count) {
+    found.steps = keys.integer_or("steps", 0, 1);
+  } else {
+    const double steps = std::round(keys.number("duration_s", Range::positive) / found.step_s);
+    if (steps < 1 || steps > 1e9)
+      keys.refuse("duration_s", fmt::format("{} steps", steps), "a duration of 1 to 1e9 steps");
+    found.steps = static_cast<std::int64_t>(steps);
+  }
+  keys.refuse_unknown();
+}
+
+pbd::Method read_method(Keys& keys, pbd::Method method) {
+  method.integrator = keys.choice_or("integrator", method.integrator, integrator_choices());
+  method.outer = keys.choice_or("outer", method.outer, outer_choices());
+  method.relaxation = keys.choice_or("relaxation", method.relaxation, relaxation_choices());
+  method.tolerance = keys.number_or("tolerance", method.tolerance, Range::not_negative);
+  method.max_outer = keys.integer_or("max_outer", method.max_outer, 1);
+  method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);
+  method.inner_tolerance = keys.number_or("inner_tolerance", method.inner_tolerance, Range::not_negative);
+  method.warm_start = keys.flag_or("warm_start", method.warm_start);
+  keys.refuse_unknown();
+  return method;
+}
+
+bool name_is_plain(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::islower(c) || std::isdigit(c) || c == '_';
+  });
+}
+
+Probe read_probe(Keys& keys, const pbd::Scene& scene) {
+  static const auto kinds = strings(probe_kinds);
+  keys.text("kind");
+  Probe probe;
+  probe.kind = keys.choice_or("kind", "", kinds);
+  const bool at_node = probe.kind == "position" || probe.kind == "velocity";
+  if (at_node) {
+    const auto nodes = select_nodes(keys, scene, {0, scene.nodes()});
+    if (nodes.size() != 1)
+      throw pbd::SetupError(keys.where(), fmt::format("{} nodes", nodes.size()), "one node");
+    probe.node = nodes[0];
+  }
+  probe.name = keys.has("name") ? keys.text("name") : at_node ? fmt::format("node_{}", probe.node) : "";
+  if (keys.has("name") && !name_is_plain(probe.name))
+    keys.refuse("name", "`" + probe.name + "`", "lower case letters, digits and _");
+  keys.refuse_unknown();
+  return probe;
+}
+
+void read_probes(Keys& root, SceneFile& found) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (auto& keys : root.tables("probe")) {
+    found.probes.push_back(read_probe(keys, found.scene));
+    if (!seen.emplace(found.probes.back().kind, found.probes.back().name).second)
+      throw pbd::SetupError(keys.where(), "a probe with the same columns as another", "another `name`");
+  }
+}
+
+pbd::Scene read_scene(Keys& root) {
+  Builder builder;
+  for (const auto read : {read_particles, read_chains, read_cloths, read_solids, read_gravity, read_forces,
+                          read_anchors, read_distances, read_bendings})
+    read(root, builder);
+  if (builder.scene.nodes() == 0) {
+    root.refuse_unknown();
+    throw pbd::SetupError(root.file(), "a scene without nodes",
+                          "at least one of particle, particles, chain, cloth, solid");
+  }
+  return builder.finish();
+}
+
+void validate_with_file(const pbd::Scene& scene, const std::string& file) {
+  try {
+    pbd::validate(scene);
+  } catch (const pbd::SetupError& error) {
+    throw pbd::SetupError(file, error.what(), "see above");
+  }
+}
+
+}  // namespace
+
+SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  const toml::table document = read_document(file, settings);
+  Keys root(document, "", {file.string()});
+  SceneFile found;
+  if (root.has("description")) found.description = root.text("description");
+  for (const auto* later : {"step", "method", "probe"}) root.has(later);  // known, though read last
+  found.scene = read_scene(root);
+  read_step(root, found);
+  for (auto& keys : single(root, "method")) found.method = read_method(keys, found.method);
+  read_probes(root, found);
+  root.refuse_unknown();
+  validate_with_file(found.scene, file.string());
+  return found;
+}
+
+std::string scene_description(const std::filesystem::path& file) {
+  return read_document(file, {})["description"].value_or(std::string());
+}
+
+pbd::Method parse_method(const std::string& settings, pbd::Method base, const std::string& option) {
+  std::istringstream words(settings);
+  toml::table table;
+  for (std::string word; words >> word;) apply_setting(table, word, option);
+  Keys keys(table, "", {option, option});
+  return read_method(keys, std::move(base));
+}
+
+std::string method_text(const pbd::Method& m) {
+  return fmt::format(
+      "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
+      "warm_start={}",
+      m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
+      m.warm_start);
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,49 @@
+// Scene files: everything a simulation needs, as TOML. The format is documented in README.md beside this
+// file.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene.h"
+#include "step.h"
+
+namespace pbdcheck {
+
+/// What `simulate` writes down after every step. `node` is meant for positions and velocities only.
+struct Probe {
+  std::string kind;  // one of probe_kinds
+  std::string name;  // begins the names of its columns
+  int node = 0;
+};
+inline constexpr std::array<std::string_view, 5> probe_kinds{"position", "velocity", "energy", "momentum",
+                                                             "constraint_error"};
+
+struct SceneFile {
+  std::string description;  // one line, shown by `pbdcheck list scenes`
+  pbd::Scene scene;
+  double step_s = 0;
+  std::int64_t steps = 0;
+  pbd::Method method;
+  std::vector<Probe> probes;
+};
+
+/// Reads and validates a scene; `settings` are "KEY=VALUE" as of `--set`. Throws SetupError with file and
+/// line (or setting), key, value and what is allowed.
+SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+/// The file's `description` alone, empty if it has none.
+std::string scene_description(const std::filesystem::path& file);
+
+/// `base` with the settings of "KEY=VALUE KEY=VALUE ..." (keys of the scene file's [method]); throws
+/// SetupError naming `option`.
+pbd::Method parse_method(const std::string& settings, pbd::Method base, const std::string& option);
+
+/// The method as the text `parse_method` reads.
+std::string method_text(const pbd::Method& method);
+
+}  // namespace pbdcheck

@@ -77,13 +77,13 @@ Vector inverse_effective_mass(const Model& model, const SparseMatrix& jacobian) 
   return squares * model.mass.cwiseInverse();
 }
 
-std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian) {
+std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian, double threshold) {
   std::vector<int> rows;
   if (jacobian.rows() == 0) return rows;
   SparseMatrix transposed = scaled(model, jacobian, row_scales(model, jacobian)).transpose();
   transposed.makeCompressed();
   Eigen::SPQR<SparseMatrix> qr;
-  qr.setPivotThreshold(1e-10);
+  qr.setPivotThreshold(threshold);
   qr.compute(transposed);
   const auto permutation = qr.colsPermutation();
   for (int i = 0; i < qr.rank(); ++i) rows.push_back(static_cast<int>(permutation.indices()(i)));
@@ -104,8 +104,8 @@ Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma) {
   return least;
 }
 
-Polish polish(const Objective& o, Assembly& assembly, double displacement, Vector& u, Vector& gamma,
-              const std::function<void(const Vector&)>& shown) {
+Polish polish(const Objective& o, Assembly& assembly, const PolishSettings& settings, Vector& u,
+              Vector& gamma, const std::function<void(const Vector&)>& shown) {
   constexpr int most = 40;
   constexpr double rounding = 1e-15, converged = 1e-9;
   const Vector start_u = u, start_gamma = gamma;
@@ -115,7 +115,7 @@ Polish polish(const Objective& o, Assembly& assembly, double displacement, Vecto
   for (int it = 0; it < most; ++it) {
     const Points x = o.positions(u);
     const Derivatives& d = assembly.at(x, {gamma, {}});
-    const std::vector<int> keep = independent_rows(*o.model, d.jacobian);
+    const std::vector<int> keep = independent_rows(*o.model, d.jacobian, settings.rank_threshold);
     result.rank = static_cast<int>(keep.size());
     const System k = make_system(o, d, keep);
     const Vector g = o.gradient(u, d) + d.jacobian.transpose() * gamma;
@@ -134,10 +134,12 @@ Polish polish(const Objective& o, Assembly& assembly, double displacement, Vecto
       gamma(keep[i]) = -solution(u.size() + static_cast<int>(i)) * k.row_scale(keep[i]) / k.s;
     ++result.iterations;
     shown(u);
-    result.correction = dx.cwiseAbs().maxCoeff() / displacement;
+    result.correction = dx.cwiseAbs().maxCoeff() / settings.displacement;
     const bool stalled = result.correction > 0.25 * previous;
     if (result.correction <= rounding || (stalled && result.correction < converged)) {
       result.converged = true;
+      result.violation =
+          assembly.at(o.positions(u), {gamma, {}}).hard.cwiseAbs().maxCoeff() / settings.displacement;
       if (result.rank < o.model->hard_rows) gamma = least_norm(d.jacobian, gamma);
       return result;
     }

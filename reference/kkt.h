@@ -30,21 +30,26 @@ struct Objective {
 /// Squared length of each hard row's gradient in the metric of inverse masses, 1/kg for lengths.
 Vector inverse_effective_mass(const Model& model, const SparseMatrix& jacobian);
 
-/// Indices of a largest set of independent rows, ascending.
-std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian);
+/// Indices of a largest set of rows that are independent by more than `threshold`, ascending.
+std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian, double threshold);
 
 /// Multipliers of least 2-norm with the same force J^T gamma.
 Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma);
 
+struct PolishSettings {
+  double displacement;    // m, the length corrections and violations are compared with
+  double rank_threshold;  // below it a row counts as dependent on others
+};
 struct Polish {
   bool converged = false;
   int iterations = 0;
   int rank = 0;
   double correction = 0;  // max |dx| of the last iteration / displacement
+  double violation = 0;   // max |c| of all rows, dropped ones too / displacement
 };
-/// Improves u and gamma in place. `displacement` (m) is the length corrections are compared with. On failure
-/// u and gamma are what they were. `shown` is called with u after each iteration.
-Polish polish(const Objective& objective, Assembly& assembly, double displacement, Vector& u, Vector& gamma,
-              const std::function<void(const Vector&)>& shown);
+/// Improves u and gamma in place; on failure they are what they were. `shown` is called with u after each
+/// iteration.
+Polish polish(const Objective& objective, Assembly& assembly, const PolishSettings& settings, Vector& u,
+              Vector& gamma, const std::function<void(const Vector&)>& shown);
 
 }  // namespace pbd::reference

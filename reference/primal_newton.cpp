@@ -35,7 +35,7 @@ struct Search {
   Clock clock;
   Eigen::CholmodSupernodalLLT<SparseMatrix> factor;
   bool analysed = false;
-  int iterations = 0, projected = 0, shifted = 0;
+  int iterations = 0, projected = 0, shifted = 0, rank = 0;
   double correction = 0;
 
   Search(Objective problem, const Vector& first, const NewtonSettings& s)
@@ -120,31 +120,50 @@ bool descend(Search& s, double tolerance) {
   return false;
 }
 
+/// Penalties (N/m) that make each hard row alone `weight` times as stiff as the inertia it acts on; none for
+/// rows without unknowns.
+Vector penalties(const Vector& per_mass, double weight) {
+  return per_mass.unaryExpr([&](double n) { return n > 0 ? weight / n : 0.0; });
+}
+
+/// KKT Newton from where the search is; near-redundant rows are dropped more and more freely until it
+/// converges. A result counts if it is near by: some other stationary point is not what the augmented
+/// Lagrangian approaches.
+Polish attempt_polish(Search& s) {
+  Polish polished;
+  for (const double threshold : {1e-10, 1e-7, 1e-4}) {
+    Vector u = s.u, gamma = s.multipliers.gamma;
+    polished = polish(s.objective, s.assembly, {s.displacement(), threshold}, u, gamma,
+                      [&](const Vector& w) { s.show(w); });
+    s.iterations += polished.iterations;
+    if (polished.converged && polished.violation < 1e-9 &&
+        (u - s.u).cwiseAbs().maxCoeff() < 0.1 * s.displacement()) {
+      s.u = u, s.multipliers.gamma = gamma, s.correction = polished.correction, s.rank = polished.rank;
+      return polished;
+    }
+  }
+  polished.converged = false;
+  return polished;
+}
+
 /// Augmented Lagrangian until KKT Newton converges from where it is. Returns its result.
 Polish satisfy(Search& s) {
   const Vector per_mass =
       inverse_effective_mass(s.model(), s.assembly.at(s.objective.positions(s.u), {}).jacobian);
   const double typical =
       s.objective.inertia.any() ? (s.objective.inertia.cwiseQuotient(s.model().mass)).mean() : 1;
-  double weight = 100, previous = infinity;
+  double weight = 100, previous = infinity, attempt = 1e-3;
   Polish polished;
-  for (int round = 0; round < 30 && s.iterations < s.settings.max_iterations; ++round) {
-    s.multipliers.rho = per_mass.unaryExpr([&](double n) { return weight * typical / std::max(n, 1e-300); });
+  for (int round = 0; round < 20 && s.iterations < s.settings.max_iterations; ++round) {
+    s.multipliers.rho = penalties(per_mass, weight * typical);
     if (!descend(s, 1e-4)) break;
     const Vector c = s.assembly.at(s.objective.positions(s.u), {}).hard;
     s.multipliers.gamma -= s.multipliers.rho.cwiseProduct(c);
     const double violation = c.cwiseAbs().maxCoeff() / s.displacement();
-    if (violation < 1e-3) {
-      Vector u = s.u, gamma = s.multipliers.gamma;
-      polished =
-          polish(s.objective, s.assembly, s.displacement(), u, gamma, [&](const Vector& w) { s.show(w); });
-      s.iterations += polished.iterations;
-      // A strict minimum near the one the augmented Lagrangian approaches, not some other stationary point.
-      if (polished.converged && (u - s.u).cwiseAbs().maxCoeff() < 0.1 * s.displacement()) {
-        s.u = u, s.multipliers.gamma = gamma, s.correction = polished.correction;
-        return polished;
-      }
-      polished.converged = false;
+    if (violation < attempt) {
+      attempt = violation / 10;
+      polished = attempt_polish(s);
+      if (polished.converged) return polished;
     }
     if (violation > 0.1 * previous) weight = std::min(10 * weight, 1e8);
     previous = violation;
@@ -159,7 +178,7 @@ bool certify(Search& s, const Vector& per_mass) {
     Multipliers m = s.multipliers;
     const double typical =
         s.objective.inertia.any() ? (s.objective.inertia.cwiseQuotient(s.model().mass)).mean() : 1;
-    m.rho = per_mass.unaryExpr([&](double n) { return weight * typical / std::max(n, 1e-300); });
+    m.rho = penalties(per_mass, weight * typical);
     if (factorise(s, s.assembly.at(s.objective.positions(s.u), m).hessian, 0)) return true;
     if (per_mass.size() == 0) return false;
   }
@@ -191,13 +210,17 @@ Judgement judge(Search& s, bool converged) {
         std::max(j.infeasible,
                  std::abs(d.hard(i)) / (lengths(i) > 0 ? std::sqrt(lengths(i)) : 1.0) / s.displacement());
   const SparseMatrix jacobian = d.jacobian;
-  j.rank = static_cast<int>(independent_rows(s.model(), jacobian).size());
+  j.rank = s.rank > 0 ? s.rank : static_cast<int>(independent_rows(s.model(), jacobian, 1e-10).size());
   j.certified = certify(s, inverse_effective_mass(s.model(), jacobian));
   j.correction = s.correction;
   j.iterations = s.iterations;
   j.seconds = s.clock.seconds();
   j.outcome = !converged ? Outcome::not_converged : j.infeasible > 1e-8 ? Outcome::infeasible : Outcome::ok;
-  if (!converged) j.reason = "Newton stopped after " + std::to_string(s.iterations) + " iterations";
+  if (!converged)
+    j.reason =
+        "stopped after " + std::to_string(s.iterations) + " iterations" +
+        (s.model().hard_rows > 0 && j.certified ? ": no regular KKT point near by (degenerate constraints?)"
+                                                : "");
   if (j.outcome == Outcome::infeasible) j.reason = "hard constraints contradict each other";
   explain(s, j);
   return j;
@@ -245,9 +268,10 @@ Judgement primal_static(const Scene& scene, const NewtonSettings& settings) {
   search.start = at_rest;
   search.objective.inertia.setZero();
   if (converged && model.hard_rows > 0) {
-    const Polish p = polish(search.objective, search.assembly, search.displacement(), search.u,
+    const Polish p = polish(search.objective, search.assembly, {search.displacement(), 1e-10}, search.u,
                             search.multipliers.gamma, [&](const Vector& u) { search.show(u); });
     search.correction = p.correction;
+    search.rank = p.rank;
     converged = p.converged;
   } else if (converged) {
     converged = descend(search, 1e-15);

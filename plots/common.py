@@ -1,14 +1,6 @@
-"""What every figure shares: reading tables, the style, drawing what failed, provenance, saving.
+"""What every figure shares: the register of figures, the style, drawing what failed, saving."""
 
-Tables are tidy CSV files, one observation a row. Text columns are those named in TEXT, all others are numbers written
-with 17 digits, `nan`, `inf` or `-inf`. A row whose `status` is not `ok`, or whose value cannot be drawn, stays visible:
-`good` and `failed` split a table so that every row is in one of the two.
-"""
-
-import csv
-import json
 import os
-import sys
 import textwrap
 import zlib
 from pathlib import Path
@@ -21,10 +13,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
 
-STATUSES = ("ok", "not_converged", "diverged", "skipped")
-TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
-        "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
-        "verdict", "method", "case", "name"}
+from reading import drawable, failed, good  # noqa: E402
+
 ZERO_DRAWN_AT = 1e-17  # an exact zero on a logarithmic axis, below the resolution of any relative error
 
 # Okabe and Ito's colours, told apart by colour-blind readers; marker and line tell them apart in grey.
@@ -43,24 +33,13 @@ FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v"
             (SKY, "P", "--"), (BLACK, "X", "-.")]
 
 plt.rcParams.update({
-    "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7,
-    "legend.fontsize": 7, "legend.frameon": False, "legend.handlelength": 2.6, "figure.titlesize": 9,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd",
+    "font.size": 8, "axes.titlesize": 8, "axes.titlepad": 9, "axes.labelsize": 8,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
+    "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd",
     "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 3.5,
     "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "path", "pdf.fonttype": 42,
     "savefig.dpi": 200,
 })
-
-
-class InputError(Exception):
-    """A result file that cannot be read: names the file, the place in it, and what is allowed."""
-
-
-def fail(error):
-    """Ends the program as every bad input does."""
-    print(f"error: {error}", file=sys.stderr)
-    sys.exit(2)
-
 
 FIGURES = []
 
@@ -80,109 +59,11 @@ def figure(experiment, name, table):
     return register
 
 
-# ---------------------------------------------------------------------------------------------------------- reading
-
-def read_table(path, columns=()):
-    """A table as a DataFrame; raises InputError unless it has `columns` and every cell is well formed."""
-    header, rows = _read_cells(Path(path))
-    missing = [c for c in columns if c not in header]
-    if missing:
-        raise InputError(f"{path}: column '{missing[0]}' is missing; needed: {', '.join(columns)}; "
-                         f"found: {', '.join(header)}")
-    cells = {name: [row[i] for row in rows] for i, name in enumerate(header)}
-    frame = pd.DataFrame({name: values if name in TEXT else _numbers(path, name, values)
-                          for name, values in cells.items()}, columns=header)
-    _check_status(path, frame)
-    return frame
-
-
-def _read_cells(path):
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [row for row in csv.reader(file, strict=True)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path}: cannot be read as CSV: {error}") from error
-    if not rows or not any(rows[0]):
-        raise InputError(f"{path}: line 1: got nothing; a header row is needed")
-    header = rows[0]
-    repeated = {c for c in header if header.count(c) > 1}
-    if repeated:
-        raise InputError(f"{path}: line 1: column '{min(repeated)}' stands twice; allowed: once")
-    for line, row in enumerate(rows[1:], start=2):
-        if len(row) != len(header):
-            raise InputError(f"{path}: line {line}: got {len(row)} cells; allowed: {len(header)}, one a column")
-    return header, rows[1:]
-
-
-def _numbers(path, name, values):
-    numbers = np.empty(len(values))
-    for i, text in enumerate(values):
-        try:
-            numbers[i] = float(text) if text else np.nan
-        except ValueError:
-            raise InputError(f"{path}: line {i + 2}: column '{name}': got '{text}'; "
-                             "allowed: a number, nan, inf, -inf or nothing") from None
-    return numbers
-
-
-def _check_status(path, frame):
-    for i, status in enumerate(frame.get("status", ())):
-        if status not in STATUSES:
-            raise InputError(f"{path}: line {i + 2}: column 'status': got '{status}'; allowed: {', '.join(STATUSES)}")
-
-
-def read_run(directory):
-    """The run.json of an experiment, {} if there is none."""
-    path = Path(directory) / "run.json"
-    if not path.exists():
-        return {}
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read as JSON: {error}") from error
-
-
-def provenance(run):
-    """One line saying what produced a result."""
-    if not run:
-        return "provenance unknown: no run.json"
-    commit = str(run.get("commit", "unknown"))[:10] + (" (modified)" if run.get("dirty") else "")
-    parts = [f"pbdcheck {run.get('version', '?')}", f"commit {commit}", f"tier {run.get('tier', '?')}",
-             f"{run.get('compiler', 'compiler ?')}", f"{run.get('processor', 'processor ?')}",
-             f"{run.get('threads', '?')} thread(s)"]
-    return " | ".join(parts)
-
-
-# ------------------------------------------------------------------------------------------------- what can be drawn
-
-def _drawable(frame, columns):
-    """Which rows have finite, not negative numbers in all `columns`."""
-    values = frame[list(columns)].to_numpy(dtype=float)
-    return pd.Series((np.isfinite(values) & (values >= 0)).all(axis=1), index=frame.index)
-
-
-def good(frame, *columns):
-    """The rows that are ok and whose `columns` are finite and not negative."""
-    ok = frame["status"].eq("ok") if "status" in frame else True
-    return frame[ok & _drawable(frame, columns)]
-
-
-def failed(frame, *columns):
-    """The rows `good` leaves out."""
-    return frame.drop(good(frame, *columns).index)
-
+# ---------------------------------------------------------------------------------------------------------- drawing
 
 def on_log(values):
     """Values for a logarithmic axis: exact zeros are drawn at ZERO_DRAWN_AT."""
     return np.maximum(values, ZERO_DRAWN_AT)
-
-
-def why(row):
-    """Short text of what is wrong with a row of `failed`."""
-    status = row.get("status", "ok")
-    if status == "ok":
-        return "ok, but not a number"
-    return f"{status}: {row['reason']}" if row.get("reason") else status
 
 
 def draw_failed(ax, rows, x, y, color=BLACK):
@@ -200,19 +81,6 @@ def draw_failed(ax, rows, x, y, color=BLACK):
                     markeredgewidth=0.8, transform=transform, clip_on=False, zorder=5)
 
 
-def reasons_note(rows, limit=4):
-    """The commonest reasons of failed rows with their counts, '' if there is none."""
-    if rows.empty:
-        return ""
-    counts = rows.apply(why, axis=1).value_counts()
-    lines = [f"{count} x {reason[:90]}" for reason, count in counts.head(limit).items()]
-    if len(counts) > limit:
-        lines.append(f"and {counts.iloc[limit:].sum()} more for {len(counts) - limit} other reasons")
-    return "Crossed, not ok: " + "; ".join(lines)
-
-
-# ---------------------------------------------------------------------------------------------------------- drawing
-
 def style(name):
     """Colour, marker and line of a method, the same in every figure."""
     color, marker, line = STYLES.get(name) or FALLBACK[zlib.crc32(name.encode()) % len(FALLBACK)]
@@ -222,11 +90,11 @@ def style(name):
 def curve(ax, frame, x, y, label, look):
     """The trace of one run: a line through every value there is, crossed where it ends badly or leaves the numbers."""
     rows = frame.sort_values(x)
-    drawable = _drawable(rows, [x, y])
-    ax.plot(rows[x][drawable], on_log(rows[y][drawable]), label=label, markerfacecolor="white",
-            markevery=max(1, drawable.sum() // 8), **look)
-    ends = rows[drawable].tail(1)
-    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~drawable].head(1)]), x, y, look["color"])
+    shown = drawable(rows, [x, y])
+    ax.plot(rows[x][shown], on_log(rows[y][shown]), label=label, markerfacecolor="white",
+            markevery=max(1, shown.sum() // 8), **look)
+    ends = rows[shown].tail(1)
+    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, look["color"])
 
 
 def curve_points(ax, points, x, y, label, look):
@@ -277,17 +145,6 @@ def _place_footnotes(figure):
             bottom = text.get_window_extent(renderer).y0
 
 
-def text_number(value):
-    """A short number for a label: 0.004, 1e6, 1/60 is left to the caller."""
-    return f"{value:.3g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
-
-
-def step_text(step):
-    """A step size in seconds as the fraction people use."""
-    inverse = 1 / step
-    return f"1/{inverse:.0f} s" if inverse > 20.5 and abs(inverse - round(inverse)) < 1e-6 * inverse else f"{step:g} s"
-
-
 # ----------------------------------------------------------------------------------------------------------- saving
 
 def _give_empty_axes_limits(figure):
@@ -308,8 +165,9 @@ def save(figure, directory, name, foot):
     _place_footnotes(figure)
     figure.set_layout_engine("none")  # laid out by now
     metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    area = figure.get_tightbbox(figure.canvas.get_renderer()).padded(0.05)
     for kind, facts in metadata.items():
         partial = directory / f".{name}.partial.{kind}"
-        figure.savefig(partial, format=kind, metadata=facts, bbox_inches="tight", pad_inches=0.05)
+        figure.savefig(partial, format=kind, metadata=facts, bbox_inches=area)
         os.replace(partial, directory / f"{name}.{kind}")
     plt.close(figure)

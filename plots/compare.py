@@ -3,7 +3,8 @@
 import sys
 from pathlib import Path
 
-from common import InputError, fail, provenance, read_run, read_table, save
+from common import save
+from reading import InputError, fail, provenance, read_run, read_table
 from tables import columns
 from work_precision import draw_methods
 

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import (curve, failed, figure, footnote, on_log, panels, reasons_note, shared_legend, style,
-                    text_number)
+from common import curve, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, reasons_note, text_number
 
 METHOD = ["outer", "relaxation"]
 MATERIAL = ["scene", "strain", "young_pa", "poisson"]

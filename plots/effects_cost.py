@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from common import (BLACK, BLUE, curve_points, failed, figure, footnote, good, on_log, panels,
-                    reasons_note, shared_legend, style, text_number)
+from common import BLACK, BLUE, curve_points, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, good, reasons_note, text_number
 
 
 @figure("effects_cost", "scaling", table="scaling")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from common import (BLACK, curve, draw_failed, failed, figure, footnote, good, panels, reasons_note, shared_legend,
-                    style)
+from common import BLACK, curve, draw_failed, figure, footnote, panels, shared_legend, style
+from reading import failed, good, reasons_note
 
 
 def traces(frame, x, label):

@@ -1,7 +1,7 @@
 """Do independent references agree on the same step?"""
 
-from common import (BLUE, GREEN, RED, failed, figure, footnote, good, on_log, panels, reasons_note,
-                    shared_legend)
+from common import BLUE, GREEN, RED, figure, footnote, on_log, panels, shared_legend
+from reading import failed, good, reasons_note
 
 SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
           ("residual_b", "residual of the second", GREEN, "^"))

@@ -10,7 +10,8 @@ import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
 import work_precision  # noqa: F401
-from common import FIGURES, InputError, fail, provenance, read_run, read_table, save
+from common import FIGURES, save
+from reading import InputError, fail, provenance, read_run, read_table
 from tables import OWN_TABLES, columns
 
 

@@ -1,7 +1,7 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
-from common import (BLUE, RED, curve_points, draw_failed, failed, figure, footnote, good, on_log, panels, reasons_note,
-                    shared_legend, style)
+from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, good, reasons_note
 
 QUANTITIES = {"compliance_j": "compliance", "frequency_hz": "first frequency"}
 MODELS = {"tet_p1": "finite elements, linear tetrahedra", "springs": "mass-spring system"}

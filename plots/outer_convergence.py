@@ -4,12 +4,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import (BLACK, RED, curve, draw_failed, failed, figure, footnote, good, on_log, panels, reasons_note,
-                    shared_legend, step_text, style, text_number)
+from common import BLACK, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, good, reasons_note, step_text, text_number
 
 
 def cases(frame):
-    """(title, rows) per scene, step and mass ratio, the pendulum first."""
+    """(title, rows) per scene, step and mass ratio."""
     for (scene, step, ratio), rows in frame.groupby(["scene", "step_s", "mass_ratio"]):
         yield f"{scene}, h = {step_text(step)}, ratio {text_number(ratio)}", rows
 
@@ -103,7 +103,7 @@ def predicted_rate(frame):
     draw_failed(ax, failed(frame, "predicted_rate", "measured_rate"), "predicted_rate", "measured_rate")
     ends = frame["predicted_rate"].replace([np.inf, 0], np.nan).dropna()
     line = np.array([ends.min() * 0.7, ends.max() * 1.4]) if len(ends) else np.array([0.1, 10])
-    ax.plot(line, line, color=BLACK, linewidth=0.8, label="measured = predicted")
+    ax.plot(line, line, color=BLACK, linewidth=0.5, label="measured = predicted")
     ax.fill_between(line, 0.95 * line, 1.05 * line, color="#cccccc", linewidth=0, label="within 5 %")
     ax.set(xscale="log", yscale="log", xlabel="predicted rate, spectral radius", ylabel="measured rate",
            title="Plain iteration, error against Newton")

@@ -11,6 +11,7 @@ import numpy as np
 
 import common
 import make
+import reading
 import sample
 import tables
 
@@ -25,10 +26,10 @@ class Reading(unittest.TestCase):
 
     def read(self, text, columns=()):
         self.path.write_text(text, encoding="utf-8")
-        return common.read_table(self.path, columns)
+        return reading.read_table(self.path, columns)
 
     def assert_refused(self, text, *words, columns=()):
-        with self.assertRaises(common.InputError) as caught:
+        with self.assertRaises(reading.InputError) as caught:
             self.read(text, columns)
         for word in (str(self.path), *words):
             self.assertIn(word, str(caught.exception))
@@ -50,7 +51,11 @@ class Reading(unittest.TestCase):
                             columns=["scene", "error"])
 
     def test_not_a_number(self):
-        self.assert_refused("scene,error\nchain,1\nchain,much\n", "line 3", "'error'", "'much'", "allowed")
+        self.assert_refused("scene,error\nchain,1\nchain,much\n", "line 3", "'error'", "'much'", "allowed",
+                            columns=["error"])
+
+    def test_words_in_a_column_nobody_asked_for(self):
+        self.assertEqual(self.read("error,colour\n1,red\n", ["error"])["colour"].tolist(), ["red"])
 
     def test_unknown_status(self):
         self.assert_refused("error,status\n1,fine\n", "line 2", "'fine'", "not_converged")
@@ -64,28 +69,28 @@ class Reading(unittest.TestCase):
 
     def test_empty_and_absent_file(self):
         self.assert_refused("", "header")
-        with self.assertRaises(common.InputError):
-            common.read_table(self.path.with_name("absent.csv"))
+        with self.assertRaises(reading.InputError):
+            reading.read_table(self.path.with_name("absent.csv"))
 
     def test_bad_run(self):
         (self.path.parent / "run.json").write_text("{", encoding="utf-8")
-        with self.assertRaises(common.InputError):
-            common.read_run(self.path.parent)
+        with self.assertRaises(reading.InputError):
+            reading.read_run(self.path.parent)
 
 
 class Failures(unittest.TestCase):
     def test_every_row_is_good_or_failed(self):
-        frame = common.pd.DataFrame({"error": [1.0, np.nan, np.inf, -1.0, 0.0, 2.0],
+        frame = reading.pd.DataFrame({"error": [1.0, np.nan, np.inf, -1.0, 0.0, 2.0],
                                      "status": ["ok", "ok", "ok", "ok", "ok", "diverged"], "reason": [""] * 5 + ["far"]})
-        self.assertEqual(common.good(frame, "error").index.tolist(), [0, 4])
-        self.assertEqual(common.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
+        self.assertEqual(reading.good(frame, "error").index.tolist(), [0, 4])
+        self.assertEqual(reading.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
 
     def test_reasons_are_counted(self):
-        frame = common.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
-        self.assertEqual(common.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but not a number")
+        frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
+        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but not a number")
 
     def test_steps_read_as_fractions(self):
-        self.assertEqual([common.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
+        self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
 
 
 class Drawing(unittest.TestCase):
@@ -101,7 +106,7 @@ class Drawing(unittest.TestCase):
 
     def table(self, entry):
         path = self.directory / entry.experiment / f"{entry.table}.csv"
-        return common.read_table(path, tables.columns(entry.experiment, entry.table))
+        return reading.read_table(path, tables.columns(entry.experiment, entry.table))
 
     def test_every_figure_draws_the_sample(self):
         for entry in common.FIGURES:
@@ -114,7 +119,7 @@ class Drawing(unittest.TestCase):
         for entry in common.FIGURES:
             with self.subTest(entry.experiment + "_" + entry.name):
                 frame = self.table(entry)
-                numbers = [c for c in frame if c not in common.TEXT and c.startswith(("error", "measured", "value",
+                numbers = [c for c in frame if c not in reading.TEXT and c.startswith(("error", "measured", "value",
                            "wall_s", "bytes", "difference", "residual"))]
                 frame[numbers] = np.nan
                 frame = frame.assign(status="diverged", reason="non-finite")

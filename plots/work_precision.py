@@ -1,6 +1,7 @@
 """Which method gives which accuracy for which work?"""
 
-from common import curve_points, failed, figure, footnote, panels, reasons_note, shared_legend, step_text, style
+from common import curve_points, figure, footnote, panels, shared_legend, style
+from reading import failed, reasons_note, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "direct": "D"}
 

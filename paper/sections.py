@@ -123,7 +123,7 @@ def fastest_text(errors, target=1e-6):
             first = trace.loc[trace["error"] <= target, "sweep"].min()
             reached.append(f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}"))
         parts.append(f"`{scene}`: {', '.join(reached)}")
-    return f"Sweeps until the error stays for the first time below {number(target)}. {'; '.join(parts)}."
+    return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."
 
 
 def dual_vs_primal(results):

@@ -18,6 +18,7 @@ using namespace pbd;
 const Vec3 size(1, 0.1, 0.1);
 const Material material{1e7, 0.3};
 constexpr double density = 1000;
+const reference::Beam section{size.x(), size.y(), size.z(), material.young, material.poisson, density};
 
 bool on_end(const Vec3& x) {
   return x.x() > size.x() * (1 - 1e-9);
@@ -122,8 +123,8 @@ constexpr MeshExact catalogue[]{{1, 8.843468e-4, 3.02611455},
                                 {8, 3.7473382e-3, 1.64751004}};
 
 void beam(Context& context, Table& table) {
-  const double beam_compliance = reference::timoshenko_tip_compliance();
-  const double beam_frequency = reference::timoshenko_frequency();
+  const double beam_compliance = reference::tip_deflection(section, 1, reference::BeamTheory::timoshenko);
+  const double beam_frequency = reference::timoshenko_cantilever_frequency(section, 1);
   const double rod_compliance = size.x() / (material.young * size.y() * size.z());
   for (const auto& stated : catalogue) {
     if (stated.n == 8 && !context.full()) continue;

@@ -84,7 +84,7 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
   for (const double h : {0.2, 0.1, 0.05}) {
     const Scene scene = pendulum(0.3, 2);
     const auto judged = reference::primal_newton(scene, scene.initial, h);
-    const double predicted = reference::contraction(scene, judged, h).rate();
+    const double predicted = reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius();
     const Course found = course(scene, scene.initial, h, judged.x, "plain", "direct", 60);
     const double measured = measured_rate(found.error);
     write_course(errors, "pendulum", h, 1, "plain", "direct", found);
@@ -153,7 +153,7 @@ void chain_map(Context& context, Table& map) {
       const double h = 1 / rates_hz[s];
       const auto judged = reference::primal_newton(scene, start, h);
       Cell& cell = cells[static_cast<std::size_t>(r) * rates_hz.size() + s];
-      cell = {h, ratio, reference::contraction(scene, judged, h).rate(),
+      cell = {h, ratio, reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius(),
               0, "",    course(scene, start, h, judged.x, "plain", "direct", 1000)};
       cell.measured = measured_rate(cell.course.error);
       cell.behaviour = behaviour(cell.course.error);

@@ -1,5 +1,7 @@
 #include "mesh.h"
 
+#include <Eigen/Geometry>
+
 #include <catch2/catch.hpp>
 #include <numeric>
 

@@ -1,0 +1,87 @@
+# `make help` lists the targets. `make test` and `make reproduce` start from nothing but git and make.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+
+JOBS ?= $(shell nproc)
+RESULTS ?= results
+TIER ?= quick
+CLANG_FORMAT ?= clang-format
+# Debian's Python packages are seen by Debian's Python only; another one may come first on the PATH.
+PYTHON ?= /usr/bin/python3
+
+INSTALL := .ci/install-packages
+PBDCHECK := build/release/pbdcheck
+SOURCES = $(shell git ls-files --cached --others --exclude-standard '*.h' '*.cpp')
+
+# One thread for the linear algebra of the references: repeatable, and the experiments have threads of their own.
+export OPENBLAS_NUM_THREADS := 1
+export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
+export CTEST_PARALLEL_LEVEL := $(JOBS)
+
+.PHONY: help deps configure build test test-plots reproduce plots report asan debug format format-check tidy bench clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
+	@echo "Variables: JOBS=$(JOBS) TIER=$(TIER) (quick or full) RESULTS=$(RESULTS)"
+
+deps: ## install what building and testing need
+	@$(INSTALL) build
+
+configure: deps ## configure build/release
+	cmake --preset release
+
+build: configure ## build the program and its tests
+	cmake --build --preset release
+
+test: build ## build, then run all tests
+	ctest --preset release
+
+test-plots: ## run the tests of the plots and the report
+	@$(INSTALL) plots
+	$(PYTHON) -m unittest discover --start-directory plots
+	$(PYTHON) -m unittest discover --start-directory paper
+
+# A failed verdict (exit code 1) is a result: it goes into the report, and make fails at the end.
+reproduce: ## run every experiment, draw the figures, write the report
+	@$(INSTALL) build plots paper
+	@$(MAKE) --no-print-directory build
+	@status=0; $(PBDCHECK) run --all --tier $(TIER) -o $(RESULTS) || status=$$?; \
+	if [ $$status -gt 1 ]; then exit $$status; fi; \
+	$(MAKE) --no-print-directory report || exit; \
+	exit $$status
+
+plots: ## draw the figures of RESULTS
+	@$(INSTALL) plots
+	$(PYTHON) plots/make.py $(RESULTS)
+
+report: plots ## write RESULTS/report.html and RESULTS/report.pdf
+	@$(INSTALL) paper
+	$(PYTHON) paper/report.py $(RESULTS)
+
+asan: deps ## run the tests under the address and undefined-behaviour sanitizers
+	cmake --preset asan
+	cmake --build --preset asan
+	ctest --preset asan
+
+debug: deps ## run the tests of a build without optimisation
+	cmake --preset debug
+	cmake --build --preset debug
+	ctest --preset debug
+
+format: ## format the C++ sources
+	@$(INSTALL) format
+	$(CLANG_FORMAT) -i $(SOURCES)
+
+format-check: ## fail if a C++ source is not formatted
+	@$(INSTALL) format
+	$(CLANG_FORMAT) --dry-run --Werror $(SOURCES)
+
+tidy: configure ## run clang-tidy over the C++ sources
+	@$(INSTALL) tidy
+	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/release "^$(CURDIR)/(solver|reference|experiments|tests)/"
+
+bench: build ## measure times, one thread, nothing else should run
+	$(PBDCHECK) run work_precision effects_cost --tier $(TIER) --threads 1 -o $(RESULTS)
+
+clean: ## remove the builds (results stay)
+	rm -rf build

@@ -1,0 +1,234 @@
+"""What the report says about each experiment: one function each, every number read from the tables.
+
+A function gets the results and returns a Section without its verdicts, which are the same for all experiments.
+"""
+
+import numpy as np
+
+from content import Figure, Section, Table, counted, listed, number, span
+from reading import failed, good, step_text
+
+NOT_RUN = "Not run: the result folder has no table of this experiment."
+
+
+def judges(results):
+    section = Section(
+        "Do the judges agree?",
+        "Two references that share no code solve the same step. How far apart are their solutions?",
+        figures=[Figure("judges_agreement", "Relative difference of the positions found by each pair of references, and "
+                        "the residual each claims.")])
+    frame = results.table("judges", "agreement")
+    if frame is not None:
+        rows = good(frame, "difference")
+        section.paragraphs.append(
+            f"{len(rows)} of {counted(len(frame), 'pair')} could be compared. Their differences are "
+            f"{span(rows['difference'])}, relative to the largest displacement of the step; an error measured against a "
+            "judge means nothing below these numbers.")
+        section.tables.append(Table(
+            "Agreement of the judges, one step each.",
+            ["scene", "rows", "step", "first", "second", "difference", "residuals", "seconds", "status"],
+            [[f"`{r['scene']}`", f"{r['rows']:.0f}", step_text(r["step_s"]), f"`{r['reference_a']}`",
+              f"`{r['reference_b']}`", number(r["difference"]), f"{number(r['residual_a'])}, {number(r['residual_b'])}",
+              f"{number(r['wall_s_a'])}, {number(r['wall_s_b'])}", f"`{r['status']}`"] for _, r in frame.iterrows()]))
+    return section
+
+
+def outer_convergence(results):
+    section = Section(
+        "Does the outer iteration converge?",
+        "The fixed point iteration of the method [@francu2017position] refreshes the constraint directions and solves the "
+        "linearised problem again. Does it reach the solution of the implicit step, at the rate theory predicts, and does "
+        "incremental PBD [@macklin2016xpbd] reach the same point?",
+        figures=[
+            Figure("outer_convergence_errors", "Error against Newton's method on the full system, relative to the largest "
+                   "displacement of the step: total multiplier (`plain`) and incremental update."),
+            Figure("outer_convergence_proximal", "The same cases with the other outer iterations that keep the fixed point "
+                   "of `plain`."),
+            Figure("outer_convergence_map", "Measured rate of `plain` over step and mass ratio. Orange: the error grows. "
+                   "Dashed: where the spectral radius of the curvature term is 1."),
+            Figure("outer_convergence_predicted_rate", "Measured against predicted rate of `plain`, all cases."),
+            Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum against its closed form.")])
+    errors, rates = results.table("outer_convergence", "errors"), results.table("outer_convergence", "map")
+    if rates is not None:
+        section.paragraphs.append(rates_text(rates))
+        section.tables.append(behaviour_table(rates))
+    if errors is not None:
+        section.paragraphs.append(floor_text(errors))
+    return section
+
+
+def rates_text(rates):
+    """How well prediction and measurement of the plain iteration agree, below and above 1."""
+    plain = rates[rates["outer"] == "plain"]
+    below, above = plain[plain["predicted_rate"] < 1], plain[plain["predicted_rate"] >= 1]
+    both = good(below, "predicted_rate", "measured_rate")
+    both = both[both["predicted_rate"] > 0]
+    difference = abs(both["measured_rate"] / both["predicted_rate"] - 1)
+    return (f"Of {counted(len(plain), 'case')} of `plain`, theory predicts contraction in {len(below)}; "
+            f"{(below['behaviour'] == 'converging').sum()} of these converge. Where a rate could be measured, it differs from "
+            f"the predicted one by {span(difference)} (relative). Of the {len(above)} cases with a predicted rate of 1 or "
+            f"more, {(above['behaviour'] == 'converging').sum()} converge.")
+
+
+def behaviour_table(rates):
+    rows = []
+    for outer, group in rates.groupby("outer", sort=False):
+        counts = ", ".join(f"{count} {name or 'unnamed'}" for name, count in group["behaviour"].value_counts().items())
+        rows.append([f"`{outer}`", str(len(group)), counts, span(group["error_final"])])
+    return Table("Behaviour of each outer iteration over all cases.", ["outer", "cases", "behaviour", "final error"], rows)
+
+
+def floor_text(errors):
+    """Where each outer iteration ends on the cases in which `plain` converges."""
+    keys = ["scene", "step_s", "mass_ratio"]
+    last = errors.sort_values("iteration").groupby([*keys, "outer", "relaxation"], sort=False).tail(1)
+    converged = good(last[last["outer"] == "plain"], "error")[keys].drop_duplicates()
+    parts = []
+    for outer, group in last.merge(converged, on=keys).groupby("outer", sort=False):
+        parts.append(f"`{outer}` at {span(group['error'])}")
+    return f"In the {counted(len(converged), 'case')} where `plain` is ok, the traces end as follows: {'; '.join(parts)}." \
+        if parts else "In no case is `plain` ok."
+
+
+def inner_convergence(results):
+    section = Section(
+        "How fast are the relaxations?",
+        "The same linearised problem is solved by each relaxation, the accelerated Jacobi method [@nesterov1983method] with "
+        "adaptive restart [@odonoghue2015adaptive] among them. Which rate per sweep, and is it the predicted one?",
+        figures=[
+            Figure("inner_convergence_sweeps", "Error against the direct solution over the sweeps."),
+            Figure("inner_convergence_seconds", "The same traces over wall time."),
+            Figure("inner_convergence_rates", "One minus the rate, measured against predicted.")])
+    errors, rates = results.table("inner_convergence", "errors"), results.table("inner_convergence", "rates")
+    if errors is not None:
+        section.paragraphs.append(fastest_text(errors))
+    if rates is not None:
+        both = good(rates, "predicted_rate", "measured_rate")
+        section.paragraphs.append(
+            f"Measured and predicted rates differ by {span(abs(both['measured_rate'] - both['predicted_rate']))} in "
+            f"{counted(len(both), 'case')}; {counted(len(rates) - len(both), 'case')} without a comparison.")
+        section.tables.append(Table(
+            "Linear rates per sweep.", ["scene", "relaxation", "theory", "predicted", "measured", "status"],
+            [[f"`{r['scene']}`", f"`{r['relaxation']}`", r["theory"], f"{r['predicted_rate']:.5g}",
+              f"{r['measured_rate']:.5g}", f"`{r['status']}`"] for _, r in rates.iterrows()]))
+    return section
+
+
+def fastest_text(errors, target=1e-6):
+    """Sweeps each relaxation needs to a given error, per scene."""
+    parts = []
+    for scene, rows in errors.groupby("scene", sort=False):
+        reached = []
+        for relaxation, trace in rows.groupby("relaxation", sort=False):
+            first = trace.loc[trace["error"] <= target, "sweep"].min()
+            reached.append(f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}"))
+        parts.append(f"`{scene}`: {', '.join(reached)}")
+    return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."
+
+
+def dual_vs_primal(results):
+    section = Section(
+        "Is the dual solution the primal one?",
+        "Regularised constraints [@servin2006interactive] are the dual form of an elasticity problem. Does relaxation "
+        "reach the minimum of the incremental potential, found by Newton's method on the energy?",
+        figures=[
+            Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
+                   "of the step, over the sweeps."),
+            Figure("dual_vs_primal_final", "Final error of every method and material.")])
+    frame = results.table("dual_vs_primal", "final")
+    if frame is not None:
+        section.paragraphs.append("Final errors, over all materials: " + "; ".join(
+            f"{listed(name)} {span(group['error'])} ({counted(len(failed(group, 'error')), 'case')} of {len(group)} not ok)"
+            for name, group in frame.groupby(["outer", "relaxation"], sort=False)) + ".")
+    return section
+
+
+def mesh_refinement(results):
+    section = Section(
+        "Do the solids approach the continuum?",
+        "A clamped beam is refined, with linear tetrahedra and with a mass-spring system on the same mesh, and compared with "
+        "Timoshenko's beam; a manufactured solution gives the order of convergence [@roache1994perspective].",
+        figures=[
+            Figure("mesh_refinement_beam", "Relative error of compliance and first frequency against Timoshenko's beam."),
+            Figure("mesh_refinement_mms", "Manufactured solution, error against the exact displacement; triangles show the "
+                   "expected orders.")])
+    beam, mms = results.table("mesh_refinement", "beam"), results.table("mesh_refinement", "mms")
+    if beam is not None:
+        section.paragraphs.append("On the finest mesh that is ok, the error is " + "; ".join(
+            finest_text(model, quantity, rows) for (model, quantity), rows in beam.groupby(["model", "quantity"], sort=False))
+            + ".")
+    if mms is not None:
+        last = mms.sort_values("n").iloc[-1]
+        section.paragraphs.append(f"The manufactured solution converges with order {last['order_l2']:.2f} in the L2 norm and "
+                                  f"{last['order_h1']:.2f} in the H1 seminorm at n = {last['n']:.0f}.")
+    return section
+
+
+def finest_text(model, quantity, rows):
+    ok = good(rows, "error_beam").sort_values("n")
+    name = f"`{model}` in `{quantity}`"
+    return f"{number(ok['error_beam'].iloc[-1])} for {name} (n = {ok['n'].iloc[-1]:.0f})" if len(ok) else f"unknown for {name}"
+
+
+def work_precision(results):
+    section = Section(
+        "Which accuracy for which work?",
+        "The same step to the same tolerances with every method, timed in one run on one thread. Comparisons follow the "
+        "practice of benchmarking optimisation software [@dolan2002benchmarking]: work is shown beside time, failures stay in "
+        "the picture.",
+        figures=[
+            Figure("work_precision_seconds", "Error against the judge over wall time."),
+            Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine."),
+            Figure("work_precision_outer_iterations", "The same runs over outer iterations.")])
+    frame = results.table("work_precision", "points")
+    if frame is not None:
+        section.tables.append(fastest_table(frame))
+        bad = failed(frame, "error")
+        section.paragraphs.append(f"{len(frame) - len(bad)} of {counted(len(frame), 'run')} are ok. The table gives the quickest "
+                                  "method of each scene at three levels of error.")
+    return section
+
+
+def fastest_table(frame, levels=(1e-3, 1e-6, 1e-9)):
+    rows = []
+    for scene, group in good(frame, "error", "wall_s").groupby("scene", sort=False):
+        for level in levels:
+            reached = group[group["error"] <= level].sort_values("wall_s")
+            first = f"`{reached['outer'].iloc[0]}`, `{reached['relaxation'].iloc[0]}`" if len(reached) else "none"
+            rows.append([f"`{scene}`", number(level), first, number(reached["wall_s"].iloc[0]) if len(reached) else ""])
+    return Table("Quickest run with at most the given error.", ["scene", "error", "method", "wall time (s)"], rows)
+
+
+def effects_cost(results):
+    section = Section(
+        "What does each effect cost?",
+        "An effect that a scene does not call for costs nothing; one that it does costs in proportion to its rows.",
+        figures=[
+            Figure("effects_cost_scaling", "Wall time of one sweep over the number of rows."),
+            Figure("effects_cost_bytes", "Memory of each effect's rows."),
+            Figure("effects_cost_seconds", "Wall time of each effect per row, over the whole run.")])
+    scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")
+    if scaling is not None:
+        section.paragraphs.append("Exponents of the time per sweep over the rows: " + "; ".join(
+            f"`{name}` {span(group['exponent'])}" for name, group in scaling.groupby("relaxation", sort=False))
+            + ". An exponent of 1 is cost in proportion to the rows.")
+    if costs is not None:
+        section.tables.append(Table(
+            "Cost of each effect.", ["scene", "effect", "rows", "bytes per row", "wall time (s)"],
+            [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
+              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()]))
+    return section
+
+
+SECTIONS = {function.__name__: function for function in (
+    judges, outer_convergence, inner_convergence, dual_vs_primal, mesh_refinement, work_precision, effects_cost)}
+
+
+def section_of(results, experiment):
+    """The section of an experiment: its own if there is one, else what can be said of any."""
+    if experiment not in SECTIONS:
+        return Section(experiment.replace("_", " ").capitalize(), "", ["No text is written for this experiment."])
+    section = SECTIONS[experiment](results)
+    if not section.paragraphs and not section.tables:
+        section.paragraphs, section.figures = [NOT_RUN], []
+    return section

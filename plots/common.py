@@ -1,0 +1,173 @@
+"""What every figure shares: the register of figures, the style, drawing what failed, saving."""
+
+import os
+import textwrap
+import zlib
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+
+from reading import drawable, failed, good  # noqa: E402
+
+ZERO_DRAWN_AT = 1e-17  # an exact zero on a logarithmic axis, below the resolution of any relative error
+
+# Okabe and Ito's colours, told apart by colour-blind readers; marker and line tell them apart in grey.
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")
+STYLES = {
+    "gauss_seidel": (BLUE, "o", "-"), "jacobi": (ORANGE, "s", "--"), "nesterov_jacobi": (GREEN, "^", "-."),
+    "direct": (BLACK, "D", ":"),
+    "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
+    "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
+    "judge": (BLACK, "*", ":"),
+    "pendulum": (BLUE, "o", "-"), "chain20": (RED, "s", "--"), "cantilever": (GREEN, "^", "-."),
+    "tet_p1": (BLUE, "o", "-"), "springs": (RED, "s", "--"),
+}
+FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),
+            (SKY, "P", "--"), (BLACK, "X", "-.")]
+
+plt.rcParams.update({
+    "font.size": 8, "axes.titlesize": 8, "axes.titlepad": 9, "axes.labelsize": 8,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
+    "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd",
+    "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 3.5,
+    "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "path", "pdf.fonttype": 42,
+    "savefig.dpi": 200,
+})
+
+FIGURES = []
+
+
+class Figure(NamedTuple):
+    experiment: str
+    name: str
+    table: str
+    draw: Callable  # (DataFrame) -> matplotlib figure, None if there is nothing to draw
+
+
+def figure(experiment, name, table):
+    """Registers a function as the figure DIR/figures/<experiment>_<name> of DIR/<experiment>/<table>.csv."""
+    def register(draw):
+        FIGURES.append(Figure(experiment, name, table, draw))
+        return draw
+    return register
+
+
+# ---------------------------------------------------------------------------------------------------------- drawing
+
+def on_log(values):
+    """Values for a logarithmic axis: exact zeros are drawn at ZERO_DRAWN_AT."""
+    return np.maximum(values, ZERO_DRAWN_AT)
+
+
+def draw_failed(ax, rows, x, y, color=BLACK):
+    """Hollow crossed markers: at the value where there is one, above the axes where there is none."""
+    for _, row in rows.iterrows():
+        at_value = np.isfinite(row[y]) and row[y] >= 0
+        place = on_log(row[x]) if np.isfinite(row[x]) and row[x] >= 0 else None
+        height = on_log(row[y]) if at_value else 1.03
+        transform = ax.transData if at_value and place is not None else (
+            ax.get_xaxis_transform() if place is not None else ax.transAxes)
+        if place is None:
+            place, height = 0.98, 1.03
+        for marker, size in (("o", 6), ("x", 4)):
+            ax.plot([place], [height], marker, color=color, markersize=size, markerfacecolor="none",
+                    markeredgewidth=0.8, transform=transform, clip_on=False, zorder=5)
+
+
+def style(name):
+    """Colour, marker and line of a method, the same in every figure."""
+    color, marker, line = STYLES.get(name) or FALLBACK[zlib.crc32(name.encode()) % len(FALLBACK)]
+    return {"color": color, "marker": marker, "linestyle": line}
+
+
+def curve(ax, frame, x, y, label, look):
+    """The trace of one run: a line through every value there is, crossed where it ends badly or leaves the numbers."""
+    rows = frame.sort_values(x)
+    shown = drawable(rows, [x, y])
+    ax.plot(rows[x][shown], on_log(rows[y][shown]), label=label, markerfacecolor="white",
+            markevery=max(1, shown.sum() // 8), **look)
+    ends = rows[shown].tail(1)
+    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, look["color"])
+
+
+def curve_points(ax, points, x, y, label, look):
+    """A line through the good points in the order of x; all others crossed."""
+    rows = good(points, x, y).sort_values(x)
+    ax.plot(on_log(rows[x]), on_log(rows[y]), label=label, markerfacecolor="white", **look)
+    draw_failed(ax, failed(points, x, y), x, y, look["color"])
+
+
+def panels(count, columns=3, width=6.5, height=2.1, **keywords):
+    """A figure with `count` axes in a grid; unused axes are removed."""
+    columns = min(columns, max(count, 1))
+    rows = -(-max(count, 1) // columns)
+    width = width if columns > 1 else 4.5
+    figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows + 0.7), squeeze=False, **keywords)
+    for ax in axes.flat[count:]:
+        ax.remove()
+    return figure, list(axes.flat[:count])
+
+
+def shared_legend(figure, axes, columns=4):
+    """One legend under all axes, each label once."""
+    entries = {}
+    for ax in axes:
+        for handle, label in zip(*ax.get_legend_handles_labels()):
+            entries.setdefault(label, handle)
+    if entries:
+        figure.legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0),
+                      ncol=min(columns, len(entries)))
+
+
+def footnote(figure, text, size=5.5):
+    """Small text under the figure and its legend; `save` puts the footnotes in their places."""
+    if text:
+        characters = int(figure.get_figwidth() * 72 / (0.48 * size))
+        figure.text(0.01, 0, textwrap.fill(text, characters), fontsize=size, color="#555555", va="top",
+                    gid="footnote")
+
+
+def _place_footnotes(figure):
+    renderer = figure.canvas.get_renderer()
+    figure.draw_without_rendering()
+    height = figure.bbox.height
+    bottom = min([0, *(legend.get_window_extent(renderer).y0 for legend in figure.legends)])
+    for text in figure.texts:
+        if text.get_gid() == "footnote":
+            text.set_y((bottom - 4) / height)
+            bottom = text.get_window_extent(renderer).y0
+
+
+# ----------------------------------------------------------------------------------------------------------- saving
+
+def _give_empty_axes_limits(figure):
+    """A logarithmic axis without a single number to draw has no limits of its own."""
+    for ax in figure.axes:
+        if ax.get_xscale() == "log" and not np.isfinite(ax.dataLim.minposx):
+            ax.set_xlim(1e-3, 1)
+        if ax.get_yscale() == "log" and not np.isfinite(ax.dataLim.minposy):
+            ax.set_ylim(1e-16, 1)
+
+
+def save(figure, directory, name, foot):
+    """Writes DIR/name.{png,svg,pdf} with the provenance at the foot; the same input gives the same bytes."""
+    directory = Path(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    _give_empty_axes_limits(figure)
+    footnote(figure, foot, size=4.5)
+    _place_footnotes(figure)
+    figure.set_layout_engine("none")  # laid out by now
+    metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    area = figure.get_tightbbox(figure.canvas.get_renderer()).padded(0.05)
+    for kind, facts in metadata.items():
+        partial = directory / f".{name}.partial.{kind}"
+        figure.savefig(partial, format=kind, metadata=facts, bbox_inches=area)
+        os.replace(partial, directory / f"{name}.{kind}")
+    plt.close(figure)

@@ -1,0 +1,77 @@
+"""Does the dual (constraint) solution equal the minimum of the primal (elastic) energy?"""
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from common import curve, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, reasons_note, text_number
+
+METHOD = ["outer", "relaxation"]
+MATERIAL = ["scene", "strain", "young_pa", "poisson"]
+
+
+def look(outer, relaxation):
+    """Relaxation decides the style; the incremental update has its own."""
+    return style("incremental" if outer == "incremental" else relaxation)
+
+
+@figure("dual_vs_primal", "errors", table="errors")
+def errors(frame):
+    """One panel a material, at the first Poisson's ratio and the largest mesh of each scene."""
+    frame = frame[frame["poisson"] == frame["poisson"].min()]
+    frame = frame[frame["elements"] == frame.groupby("scene")["elements"].transform("max")]
+    groups = list(frame.groupby(["scene", "strain", "young_pa"]))
+    fig, axes = panels(len(groups), columns=3, height=1.8)
+    for ax, ((scene, strain, young), rows) in zip(axes, groups):
+        for (outer, relaxation), trace in rows.groupby(METHOD, sort=False):
+            curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
+            if outer == "incremental":
+                draw_floor(ax, trace)
+        ax.set(yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")
+        ax.title.set_fontsize(7)
+    fig.supxlabel("sweeps", fontsize=8)
+    fig.supylabel("error against Newton on the energy, relative", fontsize=8)
+    shared_legend(fig, axes)
+    ends = frame.sort_values("sweeps").groupby(MATERIAL + METHOD, sort=False).tail(1)
+    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}. " + reasons_note(failed(ends, "error")))
+    return fig
+
+
+def draw_floor(ax, trace):
+    """Marks where a trace stays: its second half no better than its middle."""
+    half = trace["error"].iloc[len(trace) // 2:]
+    floor = half.min()
+    if np.isfinite(floor) and half.iloc[0] < 1.1 * floor:
+        ax.axhline(on_log(floor), color="#888888", linewidth=0.6)
+        ax.text(0.98, on_log(floor), f"floor {text_number(floor)}", fontsize=6, ha="right", va="bottom",
+                transform=ax.get_yaxis_transform())
+
+
+@figure("dual_vs_primal", "final", table="final")
+def final(frame):
+    """Final error of every method and material as a table of colours; crossed cells are not ok."""
+    frame = frame.assign(row=frame.apply(material, axis=1), column=frame["outer"] + "\n" + frame["relaxation"])
+    rows, columns = list(frame["row"].unique()), list(frame["column"].unique())
+    fig, (ax,) = panels(1, height=0.17 * len(rows) + 1.0)
+    fig.set_figwidth(6.5)
+    values = np.full((len(rows), len(columns)), np.nan)
+    for _, cell in frame.iterrows():
+        i, j = rows.index(cell["row"]), columns.index(cell["column"])
+        values[i, j] = on_log(cell["error"]) if np.isfinite(cell["error"]) else np.nan
+        label = text_number(cell["error"]) if np.isfinite(cell["error"]) else "none"
+        dark = np.isfinite(values[i, j]) and values[i, j] < 1e-8
+        ax.text(j, i, label + ("" if cell["status"] == "ok" else f" × {cell['status']}"), ha="center", va="center",
+                fontsize=6, color="white" if dark else "black")
+    image = ax.imshow(values, norm=LogNorm(1e-12, 1), cmap="cividis", aspect="auto")
+    ax.set_facecolor("#dddddd")
+    ax.set_xticks(range(len(columns)), columns, fontsize=6)
+    ax.set_yticks(range(len(rows)), rows, fontsize=6)
+    ax.grid(False)
+    fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")
+    footnote(fig, reasons_note(failed(frame, "error")))
+    return fig
+
+
+def material(row):
+    return (f"{row['scene']} {row['elements']:.0f}, {row['strain']}, E {text_number(row['young_pa'])} Pa, "
+            f"ν {text_number(row['poisson'])}")

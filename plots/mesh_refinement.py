@@ -1,0 +1,53 @@
+"""Do the finite elements approach the continuum, and do mass-spring systems?"""
+
+from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, good, reasons_note
+
+QUANTITIES = {"compliance_j": "compliance", "frequency_hz": "first frequency"}
+MODELS = {"tet_p1": "finite elements, linear tetrahedra", "springs": "mass-spring system"}
+
+
+@figure("mesh_refinement", "beam", table="beam")
+def beam(frame):
+    """Relative error to the Timoshenko beam over the refinement."""
+    quantities = list(frame["quantity"].unique())
+    fig, axes = panels(len(quantities), columns=2, height=2.3)
+    for ax, quantity in zip(axes, quantities):
+        for model, rows in frame[frame["quantity"] == quantity].groupby("model", sort=False):
+            curve_points(ax, rows, "n", "error_beam", MODELS.get(model, model), style(model))
+        ax.set(xscale="log", yscale="log", xlabel="cells across the beam, n", title=QUANTITIES.get(quantity, quantity))
+        whole_ticks(ax, frame["n"].unique())
+    axes[0].set_ylabel("error against Timoshenko's beam, relative")
+    shared_legend(fig, axes, columns=2)
+    footnote(fig, reasons_note(failed(frame, "error_beam")))
+    return fig
+
+
+def whole_ticks(ax, numbers):
+    ax.set_xticks(sorted(numbers), [f"{n:.0f}" for n in sorted(numbers)])
+    ax.minorticks_off()
+
+
+@figure("mesh_refinement", "mms", table="mms")
+def manufactured(frame):
+    """Errors of a manufactured solution with triangles of the expected slopes."""
+    fig, (ax,) = panels(1, height=2.7)
+    for column, label, order, (color, marker, line) in (
+            ("error_l2", "displacement, L2 norm", 2, (BLUE, "o", "-")),
+            ("error_h1", "strain, H1 seminorm", 1, (RED, "s", "--"))):
+        rows = good(frame, "h_m", column).sort_values("h_m")
+        ax.plot(rows["h_m"], on_log(rows[column]), color=color, marker=marker, linestyle=line, markerfacecolor="white",
+                label=label)
+        draw_failed(ax, failed(frame, "h_m", column), "h_m", column, color)
+        if len(rows) > 1:
+            slope_triangle(ax, rows["h_m"].iloc[0], 0.55 * on_log(rows[column].iloc[0]), order, color)
+    ax.set(xscale="log", yscale="log", xlabel="element size h (m)", ylabel="error against the exact solution")
+    shared_legend(fig, [ax])
+    footnote(fig, reasons_note(failed(frame, "error_l2", "error_h1")))
+    return fig
+
+
+def slope_triangle(ax, x, y, order, color):
+    right, top = 1.7 * x, y * 1.7 ** order
+    ax.fill([x, right, right], [y, y, top], facecolor="none", edgecolor=color, linewidth=0.8)
+    ax.text(right * 1.04, (y * top) ** 0.5, f"{order}", fontsize=7, color=color, va="center")

@@ -1,0 +1,135 @@
+"""Does the outer iteration reach the solution of the step, and at which rate?"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from common import BLACK, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from reading import failed, good, reasons_note, step_text, text_number
+
+
+def cases(frame):
+    """(title, rows) per scene, step and mass ratio."""
+    for (scene, step, ratio), rows in frame.groupby(["scene", "step_s", "mass_ratio"]):
+        yield f"{scene}, h = {step_text(step)}, ratio {text_number(ratio)}", rows
+
+
+def last_rows(frame, keys):
+    return frame.sort_values(keys[-1]).groupby(keys[:-1], sort=False).tail(1)
+
+
+def error_curves(frame, names):
+    """Error against outer iteration for some outer iterations, one panel a case."""
+    frame = frame[frame["outer"].isin(names)]
+    chosen = list(cases(frame))
+    fig, axes = panels(len(chosen), columns=3, height=1.7, sharex=False)
+    for ax, (title, rows) in zip(axes, chosen):
+        for (outer, relaxation), trace in rows.groupby(["outer", "relaxation"], sort=False):
+            curve(ax, trace, "iteration", "error", f"{outer}, {relaxation}", style(outer))
+        ax.set(yscale="log", title=title)
+        ax.title.set_fontsize(7)
+    fig.supxlabel("outer iteration", fontsize=8)
+    fig.supylabel("error against Newton, relative", fontsize=8)
+    shared_legend(fig, axes)
+    ends = last_rows(frame, ["scene", "step_s", "mass_ratio", "outer", "relaxation", "iteration"])
+    footnote(fig, reasons_note(failed(ends, "error")))
+    return fig
+
+
+@figure("outer_convergence", "errors", table="errors")
+def errors(frame):
+    return error_curves(frame, ["plain", "incremental"])
+
+
+@figure("outer_convergence", "proximal", table="errors")
+def proximal(frame):
+    others = [name for name in frame["outer"].unique() if name != "incremental"]
+    return error_curves(frame, others) if len(others) > 1 else None
+
+
+@figure("outer_convergence", "map", table="map")
+def rate_map(frame):
+    """Measured rate of the plain iteration over step and mass ratio, with the line where theory predicts 1."""
+    frame = frame[(frame["outer"] == "plain") & (frame["mass_ratio"] > 0)]
+    sizes = frame.groupby("scene").apply(lambda rows: rows[["step_s", "mass_ratio"]].nunique().min())
+    scenes = [scene for scene, size in sizes.items() if size > 1]
+    if not scenes:
+        return None
+    fig, axes = panels(len(scenes), columns=2, height=2.6)
+    for ax, scene in zip(axes, scenes):
+        mesh = map_panel(ax, frame[frame["scene"] == scene])
+        ax.set(title=scene, xlabel="step", ylabel="mass ratio, heaviest to lightest node")
+    fig.colorbar(mesh, ax=axes, label="measured rate, error per iteration", extend="both")
+    handles = [plt.Line2D([], [], color=BLACK, linestyle="--"),
+               plt.Line2D([], [], color=BLACK, marker="x", linestyle="", markerfacecolor="none")]
+    fig.legend(handles, ["predicted rate = 1", "does not converge (grey: no rate)"], loc="upper center", bbox_to_anchor=(0.5, 0),
+               ncol=2)
+    footnote(fig, reasons_note(failed(frame, "measured_rate")))
+    return fig
+
+
+def map_panel(ax, rows):
+    measured = rows.pivot_table("measured_rate", "mass_ratio", "step_s", dropna=False)
+    predicted = rows.pivot_table("predicted_rate", "mass_ratio", "step_s", dropna=False).reindex_like(measured)
+    x, y = measured.columns.to_numpy(), measured.index.to_numpy()
+    mesh = ax.pcolormesh(edges(x), edges(y), on_log(measured.to_numpy()), norm=LogNorm(0.01, 100), cmap="PuOr_r")
+    ax.set(xscale="log", yscale="log", facecolor="#bbbbbb")
+    ax.set_xticks(x, [step_text(step) for step in x])
+    ax.set_yticks(y, [text_number(ratio) for ratio in y])
+    ax.minorticks_off()
+    ax.grid(False)
+    if np.nanmin(predicted) < 1 < np.nanmax(predicted):
+        ax.contour(x, y, np.log(predicted), levels=[0.0], colors=BLACK, linestyles="--")
+    bad = rows[(rows["status"] != "ok") | (rows["behaviour"] != "converging")]
+    ax.plot(bad["step_s"], bad["mass_ratio"], "x", color=BLACK, markersize=4, markeredgewidth=0.8)
+    return mesh
+
+
+def edges(centres):
+    """Cell edges around centres on a logarithmic axis."""
+    middles = np.sqrt(centres[1:] * centres[:-1])
+    return np.concatenate([[centres[0] ** 2 / middles[0]], middles, [centres[-1] ** 2 / middles[-1]]])
+
+
+@figure("outer_convergence", "predicted_rate", table="map")
+def predicted_rate(frame):
+    """Measured against predicted rate, every case of the plain iteration."""
+    frame = frame[frame["outer"] == "plain"]
+    fig, (ax,) = panels(1, height=2.9)
+    rows = good(frame, "predicted_rate", "measured_rate")
+    for scene, group in rows.groupby("scene"):
+        look = style(scene) | {"linestyle": "none"}
+        ax.plot(group["predicted_rate"], on_log(group["measured_rate"]), label=scene, markerfacecolor="white", **look)
+    draw_failed(ax, failed(frame, "predicted_rate", "measured_rate"), "predicted_rate", "measured_rate")
+    ends = frame["predicted_rate"].replace([np.inf, 0], np.nan).dropna()
+    line = np.array([ends.min() * 0.7, ends.max() * 1.4]) if len(ends) else np.array([0.1, 10])
+    ax.plot(line, line, color=BLACK, linewidth=0.5, label="measured = predicted")
+    ax.fill_between(line, 0.95 * line, 1.05 * line, color="#cccccc", linewidth=0, label="within 5 %")
+    ax.set(xscale="log", yscale="log", xlabel="predicted rate, spectral radius", ylabel="measured rate",
+           title="Plain iteration, error against Newton")
+    shared_legend(fig, [ax])
+    footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
+    return fig
+
+
+@figure("outer_convergence", "pendulum", table="map")
+def pendulum(frame):
+    """The pendulum's rates, measured and predicted, over the step."""
+    frame = frame[(frame["outer"] == "plain") & (frame["scene"] == "pendulum")].sort_values("step_s")
+    if frame.empty:
+        return None
+    fig, (ax,) = panels(1, height=2.4)
+    rows = good(frame, "measured_rate")
+    ax.plot(frame["step_s"], frame["predicted_rate"], "--", color=BLACK, label=r"predicted, $h^2 T/(m l)$")
+    ax.plot(rows["step_s"], on_log(rows["measured_rate"]), "o", color=RED, markersize=6, markerfacecolor="none",
+            label="measured")
+    for _, row in rows.iterrows():
+        ax.annotate(f"{row['measured_rate']:.4g}", (row["step_s"], row["measured_rate"]), xytext=(6, -8),
+                    textcoords="offset points", fontsize=7)
+    draw_failed(ax, failed(frame, "measured_rate"), "step_s", "measured_rate")
+    ax.set(xscale="log", yscale="log", xlabel="step (s)", ylabel="rate, error per outer iteration",
+           title="Pendulum, plain iteration, error against Newton")
+    ax.margins(0.15)
+    shared_legend(fig, [ax])
+    footnote(fig, reasons_note(failed(frame, "measured_rate")))
+    return fig

@@ -1,0 +1,166 @@
+"""Writes made-up result tables in the shape the experiments give them: for the tests of the plots and the report.
+
+    /usr/bin/python3 plots/sample.py DIR
+
+None of the numbers means anything.
+"""
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
+RATES = {"gauss_seidel": 0.95, "jacobi": 0.985, "nesterov_jacobi": 0.9, "direct": 1e-6}
+
+
+def write(directory, experiment, table, columns, rows):
+    path = Path(directory) / experiment / f"{table}.csv"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns.split())
+        writer.writerows([repr(float(c)) if isinstance(c, float) else c for c in row] for row in rows)
+
+
+def outer_convergence(directory):
+    errors, rates = [], []
+    for scene, step, ratio in [("pendulum", h, 1) for h in (0.2, 0.1, 0.05)] + \
+            [("chain20", h, r) for r in (1, 100, 1000) for h in (1 / 30, 1 / 60, 1 / 240)]:
+        kappa = 0.4 * (step / 0.2) ** 2 if scene == "pendulum" else 0.14 * (240 * step) ** 2 * ratio ** 0.45
+        for outer, rate in (("plain", kappa), ("incremental", 0.1), ("proximal", kappa / (1 + kappa))):
+            floor = 3e-3 if outer == "incremental" else 1e-15
+            status = "ok" if rate < 1 else "diverged" if rate > 30 else "not_converged"
+            reason = "" if rate < 1 else "budget of 60 outer iterations spent" if rate < 30 else "non-finite velocity"
+            trace = np.minimum(1e3, np.maximum(floor, 0.3 * rate ** np.arange(60)))
+            errors += [(scene, step, ratio, outer, "direct", k, float(e) if rate < 30 or k < 20 else float("nan"),
+                        status, reason) for k, e in enumerate(trace)]
+            behaviour = "converging" if rate < 1 else "oscillating" if rate < 30 else "diverging"
+            rates.append((scene, step, ratio, outer, rate, rate * 1.01 if rate < 30 else float("nan"), behaviour,
+                          float(trace[-1]), status, reason))
+    write(directory, "outer_convergence", "errors",
+          "scene step_s mass_ratio outer relaxation iteration error status reason", errors)
+    write(directory, "outer_convergence", "map",
+          "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason", rates)
+
+
+def inner_convergence(directory):
+    scenes = ("chain20", "cantilever", "cloth")
+    errors = [(s, r, k, 1e-5 * k * (4 if r == "direct" else 1), max(1e-15, RATES[r] ** k), "ok", "")
+              for s in scenes for r in RELAXATIONS for k in range(0, 400, 4)]
+    write(directory, "inner_convergence", "errors", "scene relaxation sweep wall_s error status reason", errors)
+    theory = {"gauss_seidel": "spectral radius of the sweep", "jacobi": "1 - 1/condition", "direct": "0",
+              "nesterov_jacobi": "1 - 1/sqrt(condition)"}
+    rates = [(s, r, RATES[r], RATES[r] * 1.002 if r != "direct" else float("nan"), theory[r],
+              "ok" if r != "direct" else "skipped", "" if r != "direct" else "exact after one sweep")
+             for s in scenes for r in RELAXATIONS]
+    write(directory, "inner_convergence", "rates",
+          "scene relaxation predicted_rate measured_rate theory status reason", rates)
+
+
+def dual_vs_primal(directory):
+    columns = "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason"
+    traces, final = [], []
+    for young in (1e5, 1e6, 1e7):
+        for poisson in (0.3, 0.45):
+            for strain in ("green", "corotational"):
+                for outer, relaxation in (("plain", "gauss_seidel"), ("plain", "nesterov_jacobi"),
+                                          ("incremental", "gauss_seidel")):
+                    rate = 1 - 0.03 * 1e5 / young
+                    floor = 4e-2 if outer == "incremental" else 1e-11
+                    bad = young == 1e7 and poisson > 0.4
+                    status, reason = ("not_converged", "budget of 3000 sweeps spent") if bad else ("ok", "")
+                    for sweeps in range(0, 3001, 100):
+                        error = max(floor, 0.5 * rate ** sweeps)
+                        traces.append(("cantilever", 192, young, poisson, strain, outer, relaxation, sweeps, error,
+                                       1e-4 * sweeps, status, reason))
+                    final.append(traces[-1])
+    write(directory, "dual_vs_primal", "errors", columns, traces)
+    write(directory, "dual_vs_primal", "final", columns, final)
+
+
+def mesh_refinement(directory):
+    rows = []
+    for model, order, floor in (("tet_p1", 1.8, 0.0), ("springs", 1.8, 0.2)):
+        for quantity, reference in (("compliance_j", 1.3e-3), ("frequency_hz", 4.1)):
+            for n in (1, 2, 4, 8):
+                error = 0.7 * n ** -order + floor
+                bad = n == 8 and model == "springs"
+                value = float("nan") if bad else reference * (1 - error)
+                rows.append((model, n, 5 * n ** 3 * 8, 0.25 / n, quantity, value, reference * 0.99, reference,
+                             float("nan") if bad else abs(error - 0.01), float("nan") if bad else error,
+                             "diverged" if bad else "ok", "non-finite positions" if bad else ""))
+    write(directory, "mesh_refinement", "beam", "model n elements h_m quantity value reference_mesh reference_beam "
+          "error_mesh error_beam status reason", rows)
+    write(directory, "mesh_refinement", "mms", "n h_m error_l2 error_h1 order_l2 order_h1",
+          [(n, 1 / n, 0.3 / n ** 2, 0.8 / n, float("nan") if n == 2 else 2.0, float("nan") if n == 2 else 1.0)
+           for n in (2, 4, 8, 16)])
+
+
+METHOD_COLUMNS = ("scene step_s integrator outer relaxation friction tolerance outer_iterations sweeps row_updates "
+                  "wall_s error status reason")
+
+
+def method_points(tolerance):
+    rows = []
+    for scene in ("chain20", "cantilever"):
+        for outer, relaxation, speed in (("plain", "gauss_seidel", 1), ("plain", "nesterov_jacobi", 0.5),
+                                         ("proximal", "gauss_seidel", 1.5), ("incremental", "gauss_seidel", 0.8),
+                                         ("judge", "primal_newton", 0.3)):
+            for t in (1e-2, 1e-4, 1e-6, 1e-8):
+                bad = outer == "plain" and t < 1e-5 and scene == "chain20"
+                work = int(20 * speed * np.log10(t) ** 2)
+                error = float("nan") if bad else max(t * 0.4, 4e-3 if outer == "incremental" else 0)
+                rows.append((scene, 1 / 60, "implicit_euler", outer, relaxation, "coulomb", *([t] if tolerance else []),
+                             work, 10 * work, 190 * work, 2e-6 * 190 * work, error,
+                             "not_converged" if bad else "ok", "budget of 200 outer iterations spent" if bad else ""))
+    return rows
+
+
+def work_precision(directory):
+    write(directory, "work_precision", "points", METHOD_COLUMNS, method_points(True))
+
+
+def effects_cost(directory):
+    write(directory, "effects_cost", "costs", "scene effect rows bytes wall_s status reason",
+          [(s, e, rows, rows * b, 1e-7 * rows, "ok", "") for s, rows in (("cloth", 5000), ("cantilever", 9000))
+           for e, b in (("distance", 120), ("tet_strain", 410), ("bending", 190), ("anchor", 60))])
+    rows = [("cantilever", r, n, n // 6, 1e-8 * n * (2 if r == "jacobi" else 1), 1.01, "ok", "")
+            for r in RELAXATIONS[:3] for n in (1000, 10000, 100000)]
+    write(directory, "effects_cost", "scaling", "scene relaxation rows elements wall_s_per_sweep exponent status reason",
+          rows + [("cantilever", "direct", 100000, 16666, float("nan"), 1.7, "skipped", "too large for the quick tier")])
+
+
+def judges(directory):
+    write(directory, "judges", "agreement", "scene nodes rows step_s reference_a reference_b difference residual_a "
+          "residual_b wall_s_a wall_s_b status reason",
+          [("pendulum", 2, 1, 0.05, "primal_newton", "ode", 3e-14, 1e-15, 1e-13, 1e-5, 1e-3, "ok", ""),
+           ("chain20", 21, 20, 1 / 60, "primal_newton", "ipopt", 2e-11, 1e-15, 1e-11, 1e-4, 2e-2, "ok", ""),
+           ("cantilever", 135, 1152, 1 / 60, "primal_newton", "ipopt", 4e-10, 1e-14, 1e-10, 1e-3, 0.4, "ok", ""),
+           ("cloth", 400, 1200, 1 / 60, "primal_newton", "ipopt", float("nan"), 1e-14, float("nan"), 1e-3, 9.0,
+            "not_converged", "Ipopt: iteration limit")])
+
+
+VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predicted rate", "relative difference", 0.01, 0.05, "holds"),
+            ("outer_convergence.all", "The plain iteration converges everywhere", "share not converged", 0.4, 0.0, "fails")]
+
+
+def write_all(directory):
+    for experiment in (outer_convergence, inner_convergence, dual_vs_primal, mesh_refinement, work_precision,
+                       effects_cost, judges):
+        experiment(directory)
+        name = experiment.__name__
+        write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)
+        run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
+               "flags": "-O3 -march=native", "processor": "Made-up CPU", "threads": 2, "seed": 1, "tier": "quick",
+               "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5}
+        (Path(directory) / name / "run.json").write_text(json.dumps(run), encoding="utf-8")
+    write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", ""), method_points(False))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: sample.py DIR")
+    write_all(sys.argv[1])

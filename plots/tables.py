@@ -1,0 +1,30 @@
+"""The columns that figures and report read from each table; a table may have more."""
+
+METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
+
+TABLES = {
+    ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
+    ("outer_convergence", "map"):
+        "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason",
+    ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
+    ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
+    ("dual_vs_primal", "errors"):
+        "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason",
+    ("dual_vs_primal", "final"):
+        "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason",
+    ("mesh_refinement", "beam"): "model n elements h_m quantity value reference_mesh reference_beam error_mesh "
+                                 "error_beam status reason",
+    ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
+    ("work_precision", "points"): METHOD + " tolerance",
+    ("effects_cost", "costs"): "scene effect rows bytes wall_s",
+    ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
+    ("judges", "agreement"): "scene nodes rows step_s reference_a reference_b difference residual_a residual_b "
+                             "wall_s_a wall_s_b status reason",
+    (".", "compare"): METHOD,
+}
+VERDICTS = "id statement quantity measured bound verdict"
+OWN_TABLES = ("verdicts",)  # shown by the report, never a figure
+
+
+def columns(experiment, table):
+    return TABLES[experiment, table].split()

@@ -1,0 +1,175 @@
+"""Tests of reading, of keeping failures visible, and of every figure:  python3 -m unittest discover -s plots"""
+
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import common
+import make
+import reading
+import sample
+import tables
+
+HERE = Path(__file__).parent
+
+
+class Reading(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = Path(self.folder.name) / "table.csv"
+
+    def read(self, text, columns=()):
+        self.path.write_text(text, encoding="utf-8")
+        return reading.read_table(self.path, columns)
+
+    def assert_refused(self, text, *words, columns=()):
+        with self.assertRaises(reading.InputError) as caught:
+            self.read(text, columns)
+        for word in (str(self.path), *words):
+            self.assertIn(word, str(caught.exception))
+
+    def test_all_17_digits_survive(self):
+        self.assertEqual(self.read("error\n0.10000000000000001\n1.0000000000000002\n")["error"].tolist(),
+                         [0.1, 1.0000000000000002])
+
+    def test_nan_infinities_and_nothing_are_numbers(self):
+        values = self.read("error,status\nnan,ok\ninf,ok\n-inf,ok\n,skipped\n")["error"]
+        self.assertTrue(math.isnan(values[0]) and math.isnan(values[3]))
+        self.assertEqual(values[1:3].tolist(), [math.inf, -math.inf])
+
+    def test_words_that_look_like_missing_values_stay_words(self):
+        self.assertEqual(self.read("scene,reason\nnan,NA\n").loc[0].tolist(), ["nan", "NA"])
+
+    def test_missing_column(self):
+        self.assert_refused("scene,sweep\nchain,1\n", "'error'", "needed: scene, error", "found: scene, sweep",
+                            columns=["scene", "error"])
+
+    def test_not_a_number(self):
+        self.assert_refused("scene,error\nchain,1\nchain,much\n", "line 3", "'error'", "'much'", "allowed",
+                            columns=["error"])
+
+    def test_words_in_a_column_nobody_asked_for(self):
+        self.assertEqual(self.read("error,colour\n1,red\n", ["error"])["colour"].tolist(), ["red"])
+
+    def test_unknown_status(self):
+        self.assert_refused("error,status\n1,fine\n", "line 2", "'fine'", "not_converged")
+
+    def test_too_few_and_too_many_cells(self):
+        self.assert_refused("scene,error\nchain\n", "line 2", "got 1 cells")
+        self.assert_refused("scene,error\nchain,1,2\n", "line 2", "got 3 cells")
+
+    def test_column_twice(self):
+        self.assert_refused("error,error\n1,2\n", "'error'", "twice")
+
+    def test_empty_and_absent_file(self):
+        self.assert_refused("", "header")
+        with self.assertRaises(reading.InputError):
+            reading.read_table(self.path.with_name("absent.csv"))
+
+    def test_bad_run(self):
+        (self.path.parent / "run.json").write_text("{", encoding="utf-8")
+        with self.assertRaises(reading.InputError):
+            reading.read_run(self.path.parent)
+
+
+class Failures(unittest.TestCase):
+    def test_every_row_is_good_or_failed(self):
+        frame = reading.pd.DataFrame({"error": [1.0, np.nan, np.inf, -1.0, 0.0, 2.0],
+                                     "status": ["ok", "ok", "ok", "ok", "ok", "diverged"], "reason": [""] * 5 + ["far"]})
+        self.assertEqual(reading.good(frame, "error").index.tolist(), [0, 4])
+        self.assertEqual(reading.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
+
+    def test_reasons_are_counted(self):
+        frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
+        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but not a number")
+
+    def test_steps_read_as_fractions(self):
+        self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
+
+
+class Drawing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.directory = Path(cls.folder.name)
+        sample.write_all(cls.directory)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def table(self, entry):
+        path = self.directory / entry.experiment / f"{entry.table}.csv"
+        return reading.read_table(path, tables.columns(entry.experiment, entry.table))
+
+    def test_every_figure_draws_the_sample(self):
+        for entry in common.FIGURES:
+            with self.subTest(entry.experiment + "_" + entry.name):
+                figure = entry.draw(self.table(entry))
+                self.assertIsNotNone(figure)
+                common.plt.close(figure)
+
+    def test_every_figure_survives_nothing_but_failures(self):
+        for entry in common.FIGURES:
+            with self.subTest(entry.experiment + "_" + entry.name):
+                frame = self.table(entry)
+                numbers = [c for c in frame if c not in reading.TEXT and c.startswith(("error", "measured", "value",
+                           "wall_s", "bytes", "difference", "residual"))]
+                frame[numbers] = np.nan
+                frame = frame.assign(status="diverged", reason="non-finite")
+                figure = entry.draw(frame)
+                if figure:
+                    common._give_empty_axes_limits(figure)
+                    figure.draw_without_rendering()
+                    common.plt.close(figure)
+
+    def test_saving_twice_gives_the_same_bytes(self):
+        entry = next(e for e in common.FIGURES if e.experiment == "mesh_refinement" and e.name == "mms")
+        written = []
+        for _ in range(2):
+            common.save(entry.draw(self.table(entry)), self.directory / "figures", "twice", "foot")
+            written.append([(self.directory / "figures" / f"twice.{kind}").read_bytes()
+                            for kind in ("png", "svg", "pdf")])
+        self.assertEqual(written[0], written[1])
+
+    def test_tables_without_a_figure_are_named(self):
+        sample.write(self.directory, "judges", "unseen", "scene value", [("a", 1.0)])
+        self.assertEqual([path.name for path in make.without_figure(self.directory)], ["unseen.csv"])
+        (self.directory / "judges" / "unseen.csv").unlink()
+
+
+class Commands(unittest.TestCase):
+    def run_plots(self, script, *arguments):
+        return subprocess.run([sys.executable, HERE / script, *arguments], capture_output=True, text=True, check=False)
+
+    def test_bad_table_exits_with_2_and_names_the_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.write(folder, "judges", "agreement", "scene nodes", [("pendulum", 2)])
+            result = self.run_plots("make.py", folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("agreement.csv: column 'rows' is missing", result.stderr)
+
+    def test_missing_experiments_are_skipped_with_a_message(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = self.run_plots("make.py", folder)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("skipped: judges_agreement", result.stderr)
+
+    def test_no_folder_exits_with_2(self):
+        self.assertEqual(self.run_plots("make.py", "/nonexistent/results").returncode, 2)
+
+    def test_compare(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.write_all(folder)
+            self.assertEqual(self.run_plots("compare.py", folder).returncode, 0)
+            self.assertTrue((Path(folder) / "figures" / "compare_seconds.svg").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

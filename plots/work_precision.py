@@ -1,0 +1,57 @@
+"""Which method gives which accuracy for which work?"""
+
+from common import curve_points, figure, footnote, panels, shared_legend, style
+from reading import failed, reasons_note, step_text
+
+RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "direct": "D"}
+
+
+def method_name(row):
+    """`outer, relaxation`; judges by the name of the reference."""
+    if row["outer"] == "judge":
+        return f"judge {row['relaxation']}"
+    return f"{row['outer']}, {row['relaxation']}"
+
+
+def method_style(row):
+    """Colour and line tell the outer iteration, the marker the relaxation."""
+    look = style(row["outer"])
+    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])}
+
+
+def draw_methods(frame, x, label):
+    """Error against work, one panel a scene, step, integrator and friction."""
+    groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
+    fig, axes = panels(len(groups), columns=2, height=2.4)
+    for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
+        for _, points in rows.groupby(["outer", "relaxation"], sort=False):
+            first = points.iloc[0]
+            curve_points(ax, points, x, "error", method_name(first), method_style(first))
+        extra = f", {friction}" if frame["friction"].nunique() > 1 else ""
+        ax.set(xscale="log", yscale="log", title=f"{scene}, {integrator}, h = {step_text(step)}{extra}")
+        ax.title.set_fontsize(7)
+    fig.supxlabel(label, fontsize=8)
+    fig.supylabel("error against the judge, relative", fontsize=8)
+    shared_legend(fig, axes, columns=3)
+    footnote(fig, reasons_note(failed(frame, x, "error")))
+    return fig
+
+
+@figure("work_precision", "seconds", table="points")
+def seconds(frame):
+    return draw_methods(frame, "wall_s", "wall time (s)")
+
+
+def without_judges(frame):
+    """Judges do not sweep: they have a place on the axis of seconds only."""
+    return frame[frame["outer"] != "judge"]
+
+
+@figure("work_precision", "row_updates", table="points")
+def row_updates(frame):
+    return draw_methods(without_judges(frame), "row_updates", "row updates")
+
+
+@figure("work_precision", "outer_iterations", table="points")
+def outer_iterations(frame):
+    return draw_methods(without_judges(frame), "outer_iterations", "outer iterations")

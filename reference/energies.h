@@ -1,0 +1,127 @@
+// The energy of a scene and its hard constraints, from the value of every effect alone; derivatives are
+// automatic.
+//
+//   U(x)  = sum over compliant constraints of 1/2 c^T A^-1 c,   f = gravity and external forces,   hard: c(x)
+//   = 0 L(x, gamma, rho) = U(x) - gamma^T c_hard(x) + sum_i rho_i/2 c_hard,i^2
+// gamma (N for lengths) is the force of a hard constraint along its direction, J^T gamma the force on the
+// nodes. For a compliant one the force is -A^-1 c. Every constraint is a function of a small matrix F = sum_a
+// x_a w_a^T (see constraint_values.h), so derivatives are taken by F and chained with the constant w.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "scene.h"
+
+namespace pbd::reference {
+
+using Vector = Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Rows and variables of one constraint: at most 6 rows and 9 entries of F, without allocation.
+using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+using LocalVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
+using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+
+enum class Kind { anchor, distance, bending, triangle, green, linear, corotational };
+
+/// One constraint with its rest quantities, derived here from the scene's rest positions.
+struct Element {
+  Kind kind = Kind::anchor;
+  int effect = 0, entry = 0;             // position in the scene
+  int nodes = 1, columns = 1, rows = 1;  // K, Q, R
+  std::array<int, 4> node{};             // first K used
+  Eigen::Matrix<double, 4, 3> weight;    // w, K x Q used (1 or 1/m)
+  Vec3 rest = Vec3::Zero();              // target (m), rest length (m) or rest angle (rad)
+  RowMatrix stiffness;                   // A^-1, R x R, zero for a hard constraint
+  int first_row = -1;                    // among the hard rows; -1 for a compliant constraint
+
+  bool hard() const { return first_row >= 0; }
+  int variables() const { return 3 * columns; }
+};
+
+/// Value (R) and derivatives (R x 3Q, and R of 3Q x 3Q) of a constraint by the entries of F in column order.
+struct Local {
+  RowVector value;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 9> jacobian;
+  std::array<LocalMatrix, 6> hessian;
+};
+
+/// A scene's constraints, forces and numbering of unknowns. Nodes of infinite mass have no unknowns.
+struct Model {
+  std::vector<Element> elements;  // in the scene's order
+  int hard_rows = 0;
+  int unknowns = 0;        // 3 per node of finite mass
+  std::vector<int> first;  // per node: its first unknown, or -1
+  Vector mass;             // per unknown, kg
+  Vector force;            // gravity and external forces per unknown, N
+};
+
+/// Throws SetupError for a scene that `validate` refuses.
+Model make_model(const Scene& scene);
+
+/// Unknowns of positions x, and positions with their unknowns replaced (nodes of infinite mass from `x`).
+Vector gather(const Model& model, const Points& x);
+Points scatter(const Model& model, const Points& x, const Vector& unknowns);
+
+/// F of an element, 3 x Q used.
+Eigen::Matrix3d local_matrix(const Element& element, const Points& x);
+
+/// Constraint value c(x), R entries.
+RowVector constraint_value(const Element& element, const Points& x);
+void differentiate(const Element& element, const Points& x, Local& local);
+
+/// Multipliers and penalties of the hard rows; empty vectors mean zero.
+struct Multipliers {
+  Vector gamma;  // N for lengths
+  Vector rho;    // N/m for lengths
+};
+
+/// L at x (J).
+double lagrangian(const Model& model, const Points& x, const Multipliers& multipliers);
+
+/// L, its gradient and Hessian by the unknowns, the hard values c and their Jacobian. `magnitude` bounds the
+/// sum of the absolute contributions to each gradient entry: the scale of its rounding errors.
+struct Derivatives {
+  double value = 0;
+  Vector gradient, magnitude;
+  SparseMatrix hessian;   // unknowns x unknowns, both triangles, constant pattern
+  Vector hard;            // c, hard_rows
+  SparseMatrix jacobian;  // hard_rows x unknowns
+};
+enum class Curvature {
+  full,
+  projected
+};  // projected: every element's Hessian by F made positive semidefinite
+
+/// Evaluates L with derivatives; keeps the pattern of the Hessian between calls.
+class Assembly {
+ public:
+  explicit Assembly(const Model& model);
+  const Derivatives& at(const Points& x, const Multipliers& multipliers,
+                        Curvature curvature = Curvature::full);
+
+ private:
+  void add(const Element& element, std::size_t index, const Multipliers& multipliers, Curvature curvature);
+  void add_jacobian(const Element& element, int node, int unknown);
+
+  const Model* model_;
+  Local local_;
+  Derivatives result_;
+  std::vector<std::array<int, 16>> offset_;  // of each node pair's block within its columns of the Hessian
+  std::vector<Eigen::Triplet<double>> jacobian_;
+};
+
+/// Constraint rows of all elements, hard and compliant, in the scene's order: c, J (rows x unknowns), force
+/// multipliers (gamma, or -A^-1 c), and the geometric stiffness sum_i multiplier_i d2c_i/dx2 (N/m).
+struct Rows {
+  std::vector<int> first;  // first row of each element, and the number of rows at the end
+  Vector value, multiplier;
+  Eigen::MatrixXd jacobian, compliance, geometric;
+};
+/// Dense: for small scenes.
+Rows all_rows(const Model& model, const Points& x, const Vector& gamma);
+
+}  // namespace pbd::reference

@@ -1,0 +1,53 @@
+// What a reference says about one step, and the list of references.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene.h"
+
+namespace pbd::reference {
+
+enum class Outcome { ok, not_converged, infeasible };
+inline constexpr std::array<std::string_view, 3> outcome_names{"ok", "not_converged", "infeasible"};
+
+/// The implicit Euler step of length h from (x_l, v_l): M (v - v_l)/h = f - dU/dx(x) + J(x)^T gamma, x = x_l
+/// + h v, hard c(x) = 0.
+struct Judgement {
+  Points x, v;  // end of the step, m and m/s, 3 x N
+  Eigen::VectorXd
+      multiplier;  // gamma of the hard rows in the scene's order, N for lengths; impulse p = h gamma
+  Outcome outcome = Outcome::not_converged;
+  std::string reason;  // empty if ok
+  std::string note;    // what had to be done: indefinite Hessians, redundant constraints
+  double residual =
+      0;  // largest unbalanced force, relative to the largest sum of absolute force contributions
+  double infeasible =
+      0;  // largest |c| of a hard row, divided by the length of its gradient and by the displacement
+  double correction = 0;  // last Newton correction of x, relative to the largest displacement of the step
+  bool certified =
+      false;     // a strict local minimum: Hessian positive definite on the hard constraints' null space
+  int rank = 0;  // of the hard constraints' Jacobian
+  int iterations = 0;
+  double seconds = 0;
+};
+
+/// Shown every iterate: seconds spent so far (observers excluded) and positions.
+using IterateObserver = std::function<void(double seconds, const Points& x)>;
+
+using Judge = Judgement (*)(const Scene& scene, const State& state, double h);
+struct NamedJudge {
+  std::string_view name;
+  Judge judge;
+};
+
+/// primal_newton and ipopt.
+std::span<const NamedJudge> judges();
+
+/// Throws SetupError naming the allowed ones.
+Judge find_judge(std::string_view name);
+
+}  // namespace pbd::reference

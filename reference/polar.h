@@ -1,0 +1,41 @@
+// The symmetric factor S of F = R S, R the nearest proper rotation, with first and second derivatives.
+//
+//   F = U diag(s) V^T with U, V rotations and |s3| the smallest (s3 < 0 for an inverted F);  S = V diag(s)
+//   V^T,  S S = F^T F differentiating S S = F^T F once and twice gives Sylvester equations, diagonal in the
+//   basis V: (s_i + s_j) dS_ij       = (dF^T F + F^T dF)_ij (s_i + s_j) d2S[a,b]_ij = (dF_a^T dF_b + dF_b^T
+//   dF_a - dS_a dS_b - dS_b dS_a)_ij
+// S is not differentiable where s_2 + s_3 = 0; there the sums are bounded from below by `smallest_sum`. The
+// Hessian of tr S has the twist modes of Smith, de Goes, Kim 2019 as eigenvectors, which a test checks.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace pbd::reference {
+
+inline constexpr double smallest_sum = 1e-9;
+
+using Strain6 = Eigen::Matrix<double, 6, 1>;
+
+/// U, s and V of F = U diag(s) V^T with proper rotations U, V; s descending in magnitude, s3 carries the sign
+/// of det F.
+struct ProperSvd {
+  Eigen::Matrix3d u;
+  Eigen::Vector3d s;
+  Eigen::Matrix3d v;
+};
+ProperSvd proper_svd(const Eigen::Matrix3d& f);
+
+/// c = S - I as (xx, yy, zz, 2 xy, 2 yz, 2 zx).
+Strain6 corotational_strain(const Eigen::Matrix3d& f);
+
+/// The same with derivatives by the entries of F in column order: jacobian 6 x 9, hessian[i] = d2 c_i / dF2
+/// (9 x 9).
+struct StrainDerivatives {
+  Strain6 value;
+  Eigen::Matrix<double, 6, 9> jacobian;
+  std::array<Eigen::Matrix<double, 9, 9>, 6> hessian;
+};
+StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f);
+
+}  // namespace pbd::reference

@@ -1,0 +1,173 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "relaxation.h"
+
+namespace pbd {
+namespace {
+
+/// A constraint keeps its rows where its compliance is below this part of J W J^T: eliminating it would
+/// square the stiffness ratio into the conditioning.
+constexpr double eliminated_above = 1e-10;
+/// Shift of kept rows' diagonal, as part of N_ii.
+constexpr double relative_shift = 1e-12;
+
+template <class Block>
+double trace_of_delassus(const Block& block, const std::vector<double>& inverse_mass, std::size_t i) {
+  double trace = 0;
+  for (int a = 0; a < Block::nodes; ++a)
+    trace += inverse_mass[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] *
+             block.jacobian[i].template middleCols<3>(3 * a).squaredNorm();
+  return trace;
+}
+
+template <class Block>
+Eigen::LLT<typename Block::Square> stiffness_factor(const Block& block, std::size_t i) {
+  return Eigen::LLT<typename Block::Square>(block.compliance[i]);
+}
+
+}  // namespace
+
+template <class Put>
+void Direct::assemble(const Rows& rows, Put&& put) const {
+  for (std::size_t node = 0; node < velocity_column_.size(); ++node)
+    for (int axis = 0; axis < 3 && velocity_column_[node] >= 0; ++axis)
+      put(velocity_column_[node] + axis, velocity_column_[node] + axis, 1 / rows.inverse_mass[node]);
+
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    std::visit(
+        [&]<class Block>(const Block& block) {
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            const auto& jacobian = block.jacobian[i];
+            const int impulse = impulse_column_[b][i];
+            std::array<int, Block::nodes * 3> column;
+            for (std::size_t a = 0; a < Block::nodes; ++a)
+              for (std::size_t axis = 0; axis < 3; ++axis) {
+                const int first = velocity_column_[static_cast<std::size_t>(block.node[i][a])];
+                column[3 * a + axis] = first < 0 ? -1 : first + static_cast<int>(axis);
+              }
+            if (impulse < 0) {
+              const Eigen::Matrix<double, 3 * Block::nodes, 3 * Block::nodes> stiffness =
+                  jacobian.transpose() * stiffness_factor(block, i).solve(jacobian);
+              for (std::size_t r = 0; r < column.size(); ++r)
+                for (std::size_t c = 0; c < column.size(); ++c)
+                  if (column[c] >= 0 && column[r] >= column[c])
+                    put(column[r], column[c], stiffness(static_cast<int>(r), static_cast<int>(c)));
+            } else {
+              const double shift =
+                  relative_shift * trace_of_delassus(block, rows.inverse_mass, i) / Block::rows;
+              for (int r = 0; r < Block::rows; ++r) {
+                for (std::size_t c = 0; c < column.size(); ++c)
+                  if (column[c] >= 0) put(impulse + r, column[c], jacobian(r, static_cast<int>(c)));
+                for (int c = 0; c <= r; ++c)
+                  put(impulse + r, impulse + c, -block.compliance[i](r, c) - (r == c ? shift : 0.0));
+              }
+            }
+          }
+        },
+        rows.blocks[b]);
+}
+
+void Direct::analyse(const Rows& rows) {
+  int unknowns = 0;
+  for (const double inverse_mass : rows.inverse_mass) {
+    velocity_column_.push_back(inverse_mass > 0 ? unknowns : -1);
+    if (inverse_mass > 0) unknowns += 3;
+  }
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    auto& columns = impulse_column_.emplace_back();
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const bool eliminated =
+          block.compliance[i].trace() > eliminated_above * trace_of_delassus(block, rows.inverse_mass, i);
+      columns.push_back(eliminated ? -1 : unknowns);
+      if (!eliminated) unknowns += Block::rows;
+    }
+  });
+
+  std::vector<Eigen::Triplet<double>> entries;
+  assemble(rows, [&](int row, int column, double) { entries.emplace_back(row, column, 0.0); });
+  matrix_.resize(unknowns, unknowns);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  for (const auto& entry : entries) {
+    const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[entry.col()];
+    const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[entry.col() + 1];
+    slot_.push_back(static_cast<int>(std::lower_bound(first, last, entry.row()) - matrix_.innerIndexPtr()));
+  }
+  factor_->analyzePattern(matrix_);
+}
+
+void Direct::begin(Rows& rows, const Points&, bool) {
+  if (slot_.empty()) analyse(rows);
+  matrix_.coeffs().setZero();
+  std::size_t next = 0;
+  assemble(rows, [&](int, int, double value) { matrix_.valuePtr()[slot_[next++]] += value; });
+  factor_->factorize(matrix_);
+  last_residual_ = std::numeric_limits<double>::infinity();
+}
+
+double Direct::right_hand_side(const Rows& rows, const Points& v) {
+  right_.setZero(matrix_.rows());
+  double squared = 0;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    std::visit(
+        [&]<class Block>(const Block& block) {
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            const typename Block::Value r = -block.residual(v, i, block.impulse[i]);
+            squared += r.dot(block.inverse_diagonal[i] * r);
+            if (impulse_column_[b][i] >= 0) {
+              right_.template segment<Block::rows>(impulse_column_[b][i]) = r;
+              continue;
+            }
+            const typename Block::Velocities push =
+                block.jacobian[i].transpose() * stiffness_factor(block, i).solve(r);
+            for (std::size_t a = 0; a < Block::nodes; ++a) {
+              const int column = velocity_column_[static_cast<std::size_t>(block.node[i][a])];
+              if (column >= 0)
+                right_.template segment<3>(column) += push.template segment<3>(3 * static_cast<int>(a));
+            }
+          }
+        },
+        rows.blocks[b]);
+  return std::sqrt(squared);
+}
+
+void Direct::correct(Rows& rows, const Points& v) {
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    std::visit(
+        [&]<class Block>(Block& block) {
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            typename Block::Value change;
+            if (impulse_column_[b][i] >= 0) {
+              change = -solution_.template segment<Block::rows>(impulse_column_[b][i]);
+            } else {
+              typename Block::Velocities dv = Block::Velocities::Zero();
+              for (std::size_t a = 0; a < Block::nodes; ++a) {
+                const int column = velocity_column_[static_cast<std::size_t>(block.node[i][a])];
+                if (column >= 0)
+                  dv.template segment<3>(3 * static_cast<int>(a)) = solution_.template segment<3>(column);
+              }
+              change = stiffness_factor(block, i).solve(-block.residual(v, i, block.impulse[i]) -
+                                                        block.jacobian[i] * dv);
+            }
+            block.impulse[i] += change;
+            block.apply(rows.inverse_mass, i, change, changed_);
+          }
+        },
+        rows.blocks[b]);
+}
+
+double Direct::sweep(Rows& rows, Points& v, BlockSeconds) {
+  const double residual = right_hand_side(rows, v);
+  constexpr double worthwhile = 0.5;
+  if (factor_->info() != Eigen::Success || !(residual < worthwhile * last_residual_)) return 0;
+  last_residual_ = residual;
+  solution_ = factor_->solve(right_);
+  changed_ = v;
+  correct(rows, v);
+  v.swap(changed_);
+  return residual;
+}
+
+}  // namespace pbd

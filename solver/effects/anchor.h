@@ -1,0 +1,23 @@
+// c = x - target, J = I.
+#pragma once
+
+#include "effects/constraint.h"
+
+namespace pbd {
+
+template <>
+struct Constraint<Anchor> : ConstraintShape<3, 1> {
+  static Nodes node(const Anchor& effect, std::size_t i) { return {effect.node[i]}; }
+
+  static Square compliance(const Anchor& effect, std::size_t i) {
+    return effect.compliance[i] * Square::Identity();
+  }
+
+  static void evaluate(const Anchor& effect, std::size_t i, const Positions& x, Value& value,
+                       Jacobian& jacobian) {
+    value = x - effect.target[i];
+    jacobian.setIdentity();
+  }
+};
+
+}  // namespace pbd

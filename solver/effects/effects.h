@@ -1,0 +1,23 @@
+// The list of effects the solver can compute. Every alternative of `Effect` must be one of the two kinds; a
+// new one that states neither Constraint<> nor Force<> does not compile.
+#pragma once
+
+#include "effects/anchor.h"
+#include "effects/bending.h"
+#include "effects/constraint.h"
+#include "effects/distance.h"
+#include "effects/external_force.h"
+#include "effects/gravity.h"
+#include "effects/tet_strain.h"
+#include "effects/triangle_strain.h"
+
+namespace pbd {
+
+template <class Variant>
+inline constexpr bool every_effect_is_stated = false;
+template <class... Effects>
+inline constexpr bool every_effect_is_stated<std::variant<Effects...>> = ((RowEffect<Effects> !=
+                                                                           ForceEffect<Effects>)&&...);
+static_assert(every_effect_is_stated<Effect>, "an effect needs either Constraint<> or Force<>");
+
+}  // namespace pbd

@@ -1,0 +1,70 @@
+// c = strain (xx, yy, zz, 2 xy, 2 yz, 2 zx) of a linear tetrahedron. F = Ds Dm^-1, Ds = [x1-x0, x2-x0,
+// x3-x0], Dm its rest; y_1..y_3 the rows of Dm^-1, y_0 = -(y_1 + y_2 + y_3). With T the matrix whose columns
+// enter the gradient,
+//   linear        e = (F + F^T)/2 - I          T = I
+//   corotational  e = (R^T F + F^T R)/2 - I    T = R, the polar rotation of F
+//   green         e = (F^T F - I)/2            T = F
+//   de_aa/dx_i = y_i[a] T_a^T,  d(2 e_ab)/dx_i = y_i[b] T_a^T + y_i[a] T_b^T.
+// For `corotational` this holds R fixed: single rows are not dc/dx, but J^T p is the exact energy gradient
+// wherever p is an isotropic stress of e, since that commutes with the stretch. A = C^-1/volume (Servin et
+// al. 2006).
+#pragma once
+
+#include <Eigen/LU>
+
+#include "effects/constraint.h"
+#include "effects/polar.h"
+#include "mesh.h"
+
+namespace pbd {
+
+template <>
+struct Constraint<TetStrain> : ConstraintShape<6, 4> {
+  static Nodes node(const TetStrain& effect, std::size_t i) { return effect.node[i]; }
+
+  static Square compliance(const TetStrain& effect, std::size_t i) {
+    const double nu = effect.material.poisson;
+    Square inverse = Square::Zero();
+    inverse.topLeftCorner<3, 3>().setConstant(-nu);
+    inverse.diagonal() << 1, 1, 1, 2 * (1 + nu), 2 * (1 + nu), 2 * (1 + nu);
+    return inverse / (effect.material.young * tet_volume(effect.rest[i]));
+  }
+
+  static void evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
+                       Jacobian& jacobian) {
+    const auto& rest = effect.rest[i];
+    const Eigen::Matrix3d inverse = Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
+    const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
+    const Eigen::Matrix3d t = directions(effect.strain, f);
+    const Eigen::Matrix3d stretch = t.transpose() * f;
+    const Eigen::Matrix3d twice = stretch + stretch.transpose();
+    value << twice.diagonal() / 2, twice(0, 1), twice(1, 2), twice(2, 0);
+    if (effect.strain == Strain::green) value /= 2;
+    value.head<3>().array() -= effect.strain == Strain::green ? 0.5 : 1.0;
+
+    Eigen::Matrix<double, 4, 3> y;
+    y << -inverse.colwise().sum(), inverse;
+    for (int node_index = 0; node_index < 4; ++node_index)
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3;
+        jacobian.block<1, 3>(a, 3 * node_index) = y(node_index, a) * t.col(a).transpose();
+        jacobian.block<1, 3>(3 + a, 3 * node_index) =
+            y(node_index, b) * t.col(a).transpose() + y(node_index, a) * t.col(b).transpose();
+      }
+  }
+
+ private:
+  static Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
+    switch (strain) {
+      case Strain::green:
+        return f;
+      case Strain::corotational:
+        return polar_rotation(f);
+      case Strain::linear:
+        return Eigen::Matrix3d::Identity();
+    }
+    return f;
+  }
+};
+
+}  // namespace pbd

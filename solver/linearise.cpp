@@ -1,0 +1,117 @@
+#include "linearise.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "effects/effects.h"
+
+namespace pbd {
+namespace {
+
+/// Inverse of a symmetric positive semidefinite N; its pseudo-inverse, and `singular` set, if it is not
+/// definite.
+template <class Square>
+Square invert(const Square& n, bool& singular) {
+  singular = false;
+  if constexpr (Square::RowsAtCompileTime == 1) {
+    singular = !(n(0, 0) > 0);
+    return Square(singular ? 0.0 : 1 / n(0, 0));
+  } else {
+    const Eigen::LLT<Square> factor(n);
+    constexpr double definite = 1e-14;  // smallest pivot against the largest entry
+    if (factor.info() == Eigen::Success &&
+        factor.matrixLLT().diagonal().array().square().minCoeff() > definite * n.diagonal().maxCoeff())
+      return factor.solve(Square::Identity());
+    singular = true;
+    const Eigen::SelfAdjointEigenSolver<Square> eigen(n);
+    const double cut = definite * eigen.eigenvalues().cwiseAbs().maxCoeff();
+    const auto inverse = (eigen.eigenvalues().array() > cut).select(1 / eigen.eigenvalues().array(), 0.0);
+    return eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();
+  }
+}
+
+template <class Block>
+typename Block::Square diagonal_block(const Block& block, const std::vector<double>& inverse_mass,
+                                      std::size_t i) {
+  typename Block::Square n = block.compliance[i];
+  for (int a = 0; a < Block::nodes; ++a) {
+    const auto part = block.jacobian[i].template middleCols<3>(3 * a);
+    n.noalias() += inverse_mass[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] *
+                   (part * part.transpose());
+  }
+  return n;
+}
+
+template <class Block>
+typename Block::Positions positions(const Block& block, const Points& x, std::size_t i) {
+  typename Block::Positions local;
+  for (int a = 0; a < Block::nodes; ++a) local.col(a) = x.col(block.node[i][static_cast<std::size_t>(a)]);
+  return local;
+}
+
+template <class E, class Block>
+double linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
+                       const std::vector<double>& inverse_mass, double unreachable_mass, Block& block) {
+  double squared = 0;
+  typename Block::Value value;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    Constraint<E>::evaluate(effect, i, positions(block, x, i), value, block.jacobian[i]);
+    block.bias[i] = value / map.d - block.jacobian[i] * block.gather(v, i);
+    block.compliance[i] = Constraint<E>::compliance(effect, i) / (map.s * map.d);
+    bool singular = false;
+    block.inverse_diagonal[i] = invert(diagonal_block(block, inverse_mass, i), singular);
+
+    const typename Block::Value r = value / map.d + block.compliance[i] * block.impulse[i];
+    squared += singular ? unreachable_mass * r.squaredNorm() : r.dot(block.inverse_diagonal[i] * r);
+  }
+  return squared;
+}
+
+template <class E>
+using BlockOf = RowBlock<Constraint<E>::rows, Constraint<E>::nodes>;
+
+}  // namespace
+
+Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block) {
+  Rows rows;
+  for (const double mass : scene.mass) rows.inverse_mass.push_back(std::isfinite(mass) ? 1 / mass : 0.0);
+  for (std::size_t index = 0; index < scene.effects.size(); ++index)
+    std::visit(
+        [&]<class E>(const E& effect) {
+          if constexpr (RowEffect<E>) {
+            if (effect.node.empty()) return;
+            BlockOf<E> block;
+            block.resize(effect.node.size());
+            for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = Constraint<E>::node(effect, i);
+            rows.blocks.emplace_back(std::move(block));
+            effect_of_block.push_back(index);
+          }
+        },
+        scene.effects[index]);
+  return rows;
+}
+
+double linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
+                 const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block) {
+  return std::visit(
+      [&]<class E>(const E& stated) {
+        if constexpr (RowEffect<E>)
+          return linearise_block(stated, map, x, v, inverse_mass, unreachable_mass,
+                                 std::get<BlockOf<E>>(block));
+        else
+          return 0.0;
+      },
+      effect);
+}
+
+void accelerations(const Scene& scene, Points& acceleration) {
+  acceleration.setZero(3, scene.nodes());
+  for (const auto& any : scene.effects)
+    std::visit(
+        [&]<class E>(const E& effect) {
+          if constexpr (ForceEffect<E>) Force<E>::add(effect, scene, acceleration);
+        },
+        any);
+}
+
+}  // namespace pbd

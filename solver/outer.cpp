@@ -1,0 +1,28 @@
+#include "outer.h"
+
+namespace pbd {
+namespace {
+
+void plain(OuterIteration& iteration) {
+  iteration.v() = iteration.rebuilt();
+  iteration.relax();
+}
+
+void incremental(OuterIteration& iteration) {
+  iteration.relax();
+}
+
+void frozen(OuterIteration& iteration) {
+  iteration.linearise_at_start();
+  iteration.v() = iteration.rebuilt();
+  iteration.relax();
+}
+
+}  // namespace
+
+const std::vector<Outer>& outers() {
+  static const std::vector<Outer> list{{"plain", plain}, {"incremental", incremental}, {"frozen", frozen}};
+  return list;
+}
+
+}  // namespace pbd

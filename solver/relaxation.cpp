@@ -1,0 +1,229 @@
+#include "relaxation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "names.h"
+
+namespace pbd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// f(block, index of its first row) for every block, its time added to `seconds`.
+template <class F>
+void visit_blocks(std::vector<AnyBlock>& blocks, BlockSeconds seconds, F&& f) {
+  std::size_t first_row = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const auto start = seconds ? Clock::now() : Clock::time_point{};
+    std::visit([&](auto& block) { f(block, first_row); }, blocks[b]);
+    if (seconds) (*seconds)[b] += std::chrono::duration<double>(Clock::now() - start).count();
+    first_row += static_cast<std::size_t>(row_count(blocks[b]));
+  }
+}
+
+/// The R entries of constraint i in an array with one entry a row.
+template <class Block>
+auto entries(std::vector<double>& flat, const Block&, std::size_t first_row, std::size_t i) {
+  return Eigen::Map<typename Block::Value>(flat.data() + first_row + i * Block::rows);
+}
+
+}  // namespace
+
+double GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  double squared = 0;
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+      const typename Block::Value change = -block.inverse_diagonal[i] * r;
+      squared -= r.dot(change);
+      block.impulse[i] += change;
+      block.apply(rows.inverse_mass, i, change, v);
+    }
+  });
+  return std::sqrt(squared);
+}
+
+double SpectralBound::power_step(const Rows& rows) {
+  velocity_.setZero();
+  std::size_t first_row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block.apply(rows.inverse_mass, i, entries(vector_, block, first_row, i), velocity_);
+    first_row += block.size() * Block::rows;
+  });
+  // Rayleigh quotient of D^-1 N in the metric of N: (g^T D^-1 g)/(p^T g) with g = N p.
+  double upper = 0, lower = 0;
+  first_row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      auto p = entries(vector_, block, first_row, i);
+      const typename Block::Value g =
+          block.compliance[i] * p + block.jacobian[i] * block.gather(velocity_, i);
+      const typename Block::Value next = block.inverse_diagonal[i] * g;
+      upper += g.dot(next);
+      lower += p.dot(g);
+      p = next;
+    }
+    first_row += block.size() * Block::rows;
+  });
+  const double estimate = lower > 0 ? upper / lower : 0.0;
+  if (estimate > 0)
+    for (double& entry : vector_) entry /= estimate;
+  ++sweeps_;
+  return estimate;
+}
+
+double SpectralBound::update(const Rows& rows, const Points& like) {
+  sweeps_ = 0;
+  int most_steps = 1;
+  if (vector_.empty()) {
+    most_steps = 60;
+    velocity_ = like;
+    std::vector<int> constraints(rows.inverse_mass.size(), 0);
+    std::size_t row = 0;
+    vector_.resize(static_cast<std::size_t>(row_count(rows)));
+    for (double& entry : vector_) entry = 1 + 0.5 * std::sin(12.9898 * static_cast<double>(row++));
+    for_each_block(rows.blocks, [&](const auto& block) {
+      for (const auto& nodes : block.node)
+        for (const int node : nodes)
+          if (rows.inverse_mass[static_cast<std::size_t>(node)] > 0)
+            ++constraints[static_cast<std::size_t>(node)];
+    });
+    constraints_at_a_node_ =
+        constraints.empty() ? 1 : *std::max_element(constraints.begin(), constraints.end());
+  }
+  double estimate = 0;
+  for (int k = 0; k < most_steps; ++k) {
+    const double next = power_step(rows);
+    const bool settled = std::abs(next - estimate) < 1e-3 * next;
+    estimate = next;
+    if (settled) break;
+  }
+  constexpr double safety = 1.05;
+  return std::max(1.0, std::min(constraints_at_a_node_, safety * estimate));
+}
+
+void Jacobi::begin(Rows& rows, const Points& v, bool) {
+  omega_ = std::min(1.0, 2 / bound_.update(rows, v));
+}
+
+double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  next_ = v;
+  double squared = 0;
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+      const typename Block::Value step = block.inverse_diagonal[i] * r;
+      squared += r.dot(step);
+      block.impulse[i] -= omega_ * step;
+      block.apply(rows.inverse_mass, i, -omega_ * step, next_);
+    }
+  });
+  v.swap(next_);
+  return std::sqrt(squared);
+}
+
+void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
+  omega_ = 1 / bound_.update(rows, v);
+  previous_v_ = v;
+  if (fresh) {
+    theta_ = 1;
+    beta_ = 0;
+    previous_.resize(static_cast<std::size_t>(row_count(rows)));
+  }
+  // The velocities of the previous impulses along the new directions; a fresh start has no previous impulses.
+  std::size_t first_row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      auto previous = entries(previous_, block, first_row, i);
+      if (fresh)
+        previous = block.impulse[i];
+      else
+        block.apply(rows.inverse_mass, i, previous - block.impulse[i], previous_v_);
+    }
+    first_row += block.size() * Block::rows;
+  });
+}
+
+double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  // v belongs to the impulses p; everything is linear, so v + beta (v - v_previous) belongs to the
+  // extrapolated ones.
+  extrapolated_ = v + beta_ * (v - previous_v_);
+  previous_v_ = v;
+  v = extrapolated_;
+  double squared = 0;
+  double gradient_along_step = 0;
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      auto previous = entries(previous_, block, first_row, i);
+      const typename Block::Value start = block.impulse[i] + beta_ * (block.impulse[i] - previous);
+      const typename Block::Value r = block.residual(extrapolated_, i, start);
+      const typename Block::Value change = -omega_ * (block.inverse_diagonal[i] * r);
+      squared -= r.dot(change) / omega_;
+      previous = block.impulse[i];
+      block.impulse[i] = start + change;
+      gradient_along_step += r.dot(block.impulse[i] - previous);
+      block.apply(rows.inverse_mass, i, change, v);
+    }
+  });
+  if (gradient_along_step > 0) {
+    theta_ = 1;
+    beta_ = 0;
+  } else {
+    const double square = theta_ * theta_;
+    const double next = (std::sqrt(square * square + 4 * square) - square) / 2;
+    beta_ = theta_ * (1 - theta_) / (square + next);
+    theta_ = next;
+  }
+  return std::sqrt(squared);
+}
+
+std::int64_t relax(Relaxation& any, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
+                   BlockSeconds first_sweep) {
+  return std::visit(
+      [&](auto& relaxation) -> std::int64_t {
+        relaxation.begin(rows, v, fresh);
+        std::int64_t sweeps = 0;
+        double target = budget.absolute;
+        for (; sweeps < budget.max_sweeps; ++sweeps) {
+          const double residual = relaxation.sweep(rows, v, sweeps == 0 ? first_sweep : nullptr);
+          if (sweeps == 0) target = std::max(target, budget.relative * residual);
+          if (!(residual > target)) {
+            ++sweeps;
+            break;
+          }
+        }
+        if constexpr (requires { relaxation.setup_sweeps(); }) sweeps += relaxation.setup_sweeps();
+        return sweeps;
+      },
+      any);
+}
+
+namespace {
+
+template <class>
+struct NameList;
+template <class... Kinds>
+struct NameList<std::variant<Kinds...>> {
+  static std::vector<std::string_view> all() { return {Kinds::name...}; }
+
+  static Relaxation make(std::string_view name) {
+    Relaxation made;
+    const bool found = ((Kinds::name == name && (made.emplace<Kinds>(), true)) || ...);
+    if (!found) throw unknown_name("relaxation", name, all());
+    return made;
+  }
+};
+
+}  // namespace
+
+std::vector<std::string_view> relaxation_names() {
+  return NameList<Relaxation>::all();
+}
+Relaxation make_relaxation(std::string_view name) {
+  return NameList<Relaxation>::make(name);
+}
+
+}  // namespace pbd

@@ -1,0 +1,128 @@
+// Relaxations improve impulses p and velocities v of linear rows, keeping v - W J^T p as it is:
+//   J v + b + Sigma p = 0  (unit of the rows per second).
+// They see rows only. `begin` is called after each linearisation, `sweep` visits every row once and returns
+// the residual sqrt(sum_i r_i^T N_ii^-1 r_i) (sqrt(J)) it met, each r_i taken when its constraint was
+// visited.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rows.h"
+
+namespace pbd {
+
+/// Seconds spent on each block; a null pointer takes no time.
+using BlockSeconds = std::vector<double>*;
+
+/// Block Gauss-Seidel in the scene's order: dp_i = -N_ii^-1 r_i, v updated at once.
+struct GaussSeidel {
+  static constexpr std::string_view name = "gauss_seidel";
+  void begin(Rows&, const Points&, bool) {}
+  double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+};
+
+/// Upper estimate of the largest eigenvalue of D^-1 N, D = blockdiag(N_ii): the smaller of the proven bound,
+/// the largest number of constraints at a node (N <= sum_a n_a J_a W_a J_a^T + Sigma), and 1.05 times a power
+/// iteration whose vector is kept from one linearisation to the next.
+class SpectralBound {
+ public:
+  double update(const Rows& rows, const Points& like);
+  std::int64_t sweeps() const { return sweeps_; }  // of power iteration, in the last update
+
+ private:
+  double power_step(const Rows& rows);
+  std::vector<double> vector_;  // one entry a row
+  Points velocity_;
+  double constraints_at_a_node_ = 0;
+  std::int64_t sweeps_ = 0;
+};
+
+/// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound).
+class Jacobi {
+ public:
+  static constexpr std::string_view name = "jacobi";
+  void begin(Rows& rows, const Points& v, bool fresh);
+  double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+  std::int64_t setup_sweeps() const { return bound_.sweeps(); }
+
+ private:
+  SpectralBound bound_;
+  double omega_ = 1;
+  Points next_;
+};
+
+/// Nesterov's acceleration of block Jacobi with step 1/bound and restart by the gradient test (Nesterov 1983;
+/// O'Donoghue, Candes 2015). The momentum is kept from one linearisation of a step to the next.
+class NesterovJacobi {
+ public:
+  static constexpr std::string_view name = "nesterov_jacobi";
+  void begin(Rows& rows, const Points& v, bool fresh);
+  double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+  std::int64_t setup_sweeps() const { return bound_.sweeps(); }
+
+ private:
+  SpectralBound bound_;
+  double omega_ = 1;
+  double theta_ = 1;
+  double beta_ = 0;
+  std::vector<double> previous_;  // impulses one sweep ago, one entry a row
+  Points previous_v_;             // velocities one sweep ago
+  Points extrapolated_;           // velocities at the extrapolated impulses
+};
+
+/// Sparse factorisation, exact up to rounding; each sweep is one step of iterative refinement. Compliant
+/// constraints are eliminated into the primal normal equations M + J^T Sigma^-1 J, those with (nearly) none
+/// keep their rows:
+///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
+///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
+/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-12 of N_ii, keeps redundant rows
+/// solvable and is removed by the refinement.
+class Direct {
+ public:
+  static constexpr std::string_view name = "direct";
+  void begin(Rows& rows, const Points& v, bool fresh);
+  double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+
+ private:
+  template <class Put>
+  void assemble(const Rows& rows, Put&& put) const;
+  void analyse(const Rows& rows);
+  double right_hand_side(const Rows& rows, const Points& v);
+  void correct(Rows& rows, const Points& v);
+
+  std::vector<int> velocity_column_;              // first unknown of each node, -1 for infinite mass
+  std::vector<std::vector<int>> impulse_column_;  // per block and constraint, -1 if eliminated
+  std::vector<int> slot_;                         // of each assembled entry in the matrix
+  Eigen::SparseMatrix<double> matrix_;            // lower triangle
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+  std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();
+  Eigen::VectorXd right_, solution_;
+  Points changed_;
+  double last_residual_ = 0;
+};
+
+using Relaxation = std::variant<GaussSeidel, Jacobi, NesterovJacobi, Direct>;
+
+/// When to end the sweeps: residual <= max(absolute, relative * that of the first sweep), or after
+/// max_sweeps.
+struct InnerBudget {
+  int max_sweeps = 1;
+  double relative = 0;
+  double absolute = 0;  // sqrt(J)
+};
+
+/// Sweeps until the budget's end; returns the number of sweeps, set-up sweeps (power iteration) included.
+/// Adds the first sweep's seconds of each block to `first_sweep` unless it is null.
+std::int64_t relax(Relaxation& relaxation, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
+                   BlockSeconds first_sweep);
+
+/// Names of all relaxations, and a fresh one by name (SetupError if unknown).
+std::vector<std::string_view> relaxation_names();
+Relaxation make_relaxation(std::string_view name);
+
+}  // namespace pbd

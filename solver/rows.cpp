@@ -1,0 +1,22 @@
+#include "rows.h"
+
+namespace pbd {
+
+std::int64_t row_count(const AnyBlock& any) {
+  return std::visit([](const auto& block) { return static_cast<std::int64_t>(block.size()) * block.rows; },
+                    any);
+}
+
+std::int64_t row_count(const Rows& rows) {
+  std::int64_t count = 0;
+  for (const auto& block : rows.blocks) count += row_count(block);
+  return count;
+}
+
+void apply_impulses(const Rows& rows, Points& v) {
+  for_each_block(rows.blocks, [&](const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) block.apply(rows.inverse_mass, i, block.impulse[i], v);
+  });
+}
+
+}  // namespace pbd

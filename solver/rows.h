@@ -1,0 +1,92 @@
+// Rows: all that a relaxation sees of a scene. Find impulses p and velocities v with
+//   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node).
+// Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
+// contiguous, one entry a constraint. Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
+// second.
+//
+// `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
+// singular.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "effects/constraint.h"
+
+namespace pbd {
+
+template <int R, int K>
+struct RowBlock : ConstraintShape<R, K> {
+  using Shape = ConstraintShape<R, K>;
+  using Velocities = Eigen::Matrix<double, 3 * K, 1>;
+
+  std::vector<typename Shape::Nodes> node;
+  std::vector<typename Shape::Jacobian> jacobian;
+  std::vector<typename Shape::Value> bias;
+  std::vector<typename Shape::Square> compliance;  // Sigma
+  std::vector<typename Shape::Square> inverse_diagonal;
+  std::vector<typename Shape::Value> impulse;
+
+  std::size_t size() const { return node.size(); }
+
+  void resize(std::size_t count) {
+    node.resize(count);
+    jacobian.resize(count);
+    bias.resize(count);
+    compliance.resize(count);
+    inverse_diagonal.resize(count);
+    impulse.assign(count, Shape::Value::Zero());
+  }
+
+  std::int64_t bytes() const {
+    return static_cast<std::int64_t>(
+        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
+  }
+
+  /// Velocities of constraint i's nodes, three entries a node.
+  Velocities gather(const Points& v, std::size_t i) const {
+    Velocities local;
+    for (int a = 0; a < K; ++a)
+      local.template segment<3>(3 * a) = v.col(node[i][static_cast<std::size_t>(a)]);
+    return local;
+  }
+
+  /// v += W J_i^T p
+  void apply(const std::vector<double>& inverse_mass, std::size_t i, const typename Shape::Value& p,
+             Points& v) const {
+    const Velocities push = jacobian[i].transpose() * p;
+    for (int a = 0; a < K; ++a) {
+      const int index = node[i][static_cast<std::size_t>(a)];
+      v.col(index) += inverse_mass[static_cast<std::size_t>(index)] * push.template segment<3>(3 * a);
+    }
+  }
+
+  /// J_i v + b_i + Sigma_i p
+  typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
+    return bias[i] + compliance[i] * p + jacobian[i] * gather(v, i);
+  }
+};
+
+using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>>;
+
+struct Rows {
+  std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass
+  std::vector<AnyBlock> blocks;      // in the scene's order, without empty ones
+};
+
+/// f(block) for every block, in order.
+template <class Blocks, class F>
+void for_each_block(Blocks&& blocks, F&& f) {
+  for (auto& block : blocks) std::visit(f, block);
+}
+
+/// Number of scalar rows.
+std::int64_t row_count(const Rows& rows);
+std::int64_t row_count(const AnyBlock& block);
+
+/// v += W J^T p with the impulses stored in the rows.
+void apply_impulses(const Rows& rows, Points& v);
+
+}  // namespace pbd

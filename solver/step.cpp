@@ -1,0 +1,214 @@
+#include "step.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "linearise.h"
+#include "names.h"
+#include "outer.h"
+#include "relaxation.h"
+#include "validate.h"
+
+namespace pbd {
+
+double Report::residual() const {
+  const double largest = std::max(primal, dual);
+  return largest > 0 ? largest / scale : largest;
+}
+
+namespace {
+
+struct StepData {
+  IntegratorFunction integrator;
+  void (*outer)(OuterIteration&);
+  Relaxation relaxation;
+  std::vector<std::size_t> effect_of_block;
+  Rows rows;
+  double finite_mass = 0;  // kg, of all nodes that can move
+
+  StepMap map;
+  Points acceleration, zero, v, x, rebuilt, previous;
+  std::vector<double> seconds;  // per block, of the current outer iteration's first sweep
+  std::vector<EffectCost> costs;
+
+  StepData(const Scene& scene, const Method& method)
+      : integrator(find_named(integrators(), "integrator", method.integrator).map),
+        outer(find_named(outers(), "outer", method.outer).iterate),
+        relaxation(make_relaxation(method.relaxation)),
+        rows(allocate_rows(scene, effect_of_block)),
+        zero(Points::Zero(3, scene.nodes())),
+        seconds(rows.blocks.size(), 0.0) {
+    for (const double mass : scene.mass)
+      if (std::isfinite(mass)) finite_mass += mass;
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      costs.push_back(
+          {std::visit([](const auto& effect) { return effect.name; }, scene.effects[effect_of_block[b]]),
+           row_count(rows.blocks[b]),
+           std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]), 0.0});
+  }
+
+  /// |v|_M over the nodes that can move, sqrt(J).
+  double norm(const Points& velocity) const { return distance(velocity, zero); }
+
+  double distance(const Points& a, const Points& b) const {
+    double squared = 0;
+    for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
+      if (rows.inverse_mass[node] > 0)
+        squared += (a.col(static_cast<int>(node)) - b.col(static_cast<int>(node))).squaredNorm() /
+                   rows.inverse_mass[node];
+    return std::sqrt(squared);
+  }
+
+  /// Refreshes all rows at velocity `at` and the velocities that the impulses give along the new directions.
+  /// Returns the dual residual.
+  double linearise_at(const Scene& scene, const Points& at) {
+    x = map.x0 + map.d * at;
+    double squared = 0;
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+      const auto start = std::chrono::steady_clock::now();
+      squared += linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass, finite_mass,
+                           rows.blocks[b]);
+      costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    rebuilt = map.v_free;
+    apply_impulses(rows, rebuilt);
+    return std::sqrt(squared);
+  }
+};
+
+}  // namespace
+
+struct Workspace::Data : StepData {
+  using StepData::StepData;
+};
+
+Workspace::Workspace(const Scene& scene, const Method& method) {
+  validate(scene);
+  data_ = std::make_unique<Data>(scene, method);
+}
+Workspace::~Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
+std::vector<EffectCost> Workspace::costs() const {
+  return data_->costs;
+}
+
+std::vector<double> Workspace::impulses(std::size_t index) const {
+  std::vector<double> flat;
+  for (std::size_t b = 0; b < data_->rows.blocks.size(); ++b)
+    if (data_->effect_of_block[b] == index)
+      std::visit(
+          [&](const auto& block) {
+            for (const auto& impulse : block.impulse) flat.insert(flat.end(), impulse.begin(), impulse.end());
+          },
+          data_->rows.blocks[b]);
+  return flat;
+}
+
+namespace {
+
+constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+
+/// Residual, scale and rounding level of an iterate; true if the outer iteration is to end.
+bool finished(const Method& method, double rounding, double first_residual, Report& report) {
+  const double residual = std::max(report.primal, report.dual);
+  constexpr double blown_up = 1e8;  // growth beyond any transient
+  if (!std::isfinite(report.primal) || !std::isfinite(report.dual)) {
+    report.status = Status::diverged;
+    report.reason = "not finite";
+  } else if (residual <= std::max(method.tolerance * report.scale, rounding)) {
+    report.status = Status::ok;
+    report.reason = "";
+  } else if (residual > blown_up * std::max(first_residual, report.scale)) {
+    report.status = Status::diverged;
+    report.reason = "residual grew beyond 1e8 times its start";
+  } else {
+    report.status = Status::not_converged;
+    report.reason = "outer iterations spent";
+    return report.outer_iterations >= method.max_outer;
+  }
+  return true;
+}
+
+/// Outer iterations' view of the step; adds up their work in the report.
+class StepIteration final : public OuterIteration {
+ public:
+  StepIteration(const Scene& scene, const Method& method, StepData& data, Report& report)
+      : scene_(scene), method_(method), data_(data), report_(report) {}
+
+  Points& v() override { return data_.v; }
+  const Points& rebuilt() override { return data_.rebuilt; }
+  bool first() override { return report_.outer_iterations == 0; }
+  void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
+
+  void relax() override {
+    constexpr double inner_share = 0.1;  // of the step's tolerance, left to the linear problem
+    const InnerBudget budget{.max_sweeps = method_.max_sweeps,
+                             .relative = method_.inner_tolerance,
+                             .absolute = inner_share * method_.tolerance * report_.scale};
+    std::fill(data_.seconds.begin(), data_.seconds.end(), 0.0);
+    const auto sweeps = pbd::relax(data_.relaxation, data_.rows, data_.v, report_.outer_iterations == 0,
+                                   budget, &data_.seconds);
+    report_.sweeps += sweeps;
+    report_.row_updates += sweeps * row_count(data_.rows);
+    for (std::size_t b = 0; b < data_.seconds.size(); ++b)
+      data_.costs[b].seconds += data_.seconds[b] * static_cast<double>(sweeps);
+  }
+
+ private:
+  const Scene& scene_;
+  const Method& method_;
+  StepData& data_;
+  Report& report_;
+};
+
+}  // namespace
+
+Report step(const Scene& scene, const Method& method, double h, State& state, Workspace& workspace,
+            const Observer& observer) {
+  StepData& w = *workspace.data_;
+  accelerations(scene, w.acceleration);
+  w.integrator(state, w.acceleration, h, w.map);
+  if (!method.warm_start)
+    for_each_block(w.rows.blocks, [](auto& block) {
+      for (auto& impulse : block.impulse) impulse.setZero();
+    });
+  w.v = state.v;
+  w.previous = w.v;
+
+  Report report;
+  const double free_change = w.distance(w.map.v_free, state.v);
+  const double rounding = 8 * rounding_unit * (w.norm(state.x) / w.map.d + w.norm(w.map.v_free));
+  double first_residual = 0;
+  StepIteration iteration(scene, method, w, report);
+
+  for (;; ++report.outer_iterations) {
+    report.dual = w.linearise_at(scene, w.v);
+    report.primal = w.distance(w.v, w.rebuilt);
+    report.scale = w.distance(w.v, state.v) + free_change;
+    if (report.outer_iterations == 0) first_residual = std::max(report.primal, report.dual);
+    if (observer)
+      observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,
+                report.scale, w.x, w.v});
+    if (finished(method, rounding, first_residual, report)) break;
+    if (report.outer_iterations > 0 && w.distance(w.v, w.previous) <= rounding_unit * w.norm(w.v)) {
+      report.reason = "stalled away from the solution";
+      break;
+    }
+    w.previous = w.v;
+    w.outer(iteration);
+  }
+  if (report.status != Status::diverged) {
+    state.x = w.x;
+    state.v = w.v;
+    state.time += h;
+  } else {
+    for_each_block(w.rows.blocks, [](auto& block) {
+      for (auto& impulse : block.impulse) impulse.setZero();
+    });
+  }
+  return report;
+}
+
+}  // namespace pbd

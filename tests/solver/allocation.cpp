@@ -1,0 +1,64 @@
+// Counts heap allocations by taking malloc's place, so not under sanitizers, which do the same.
+#if !defined(__SANITIZE_ADDRESS__)
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "scenes.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" {
+void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(std::size_t bytes) {
+  ++allocations;
+  return __libc_malloc(bytes);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
+  ++allocations;
+  return __libc_memalign(alignment, bytes);
+}
+}
+
+using namespace pbd;
+using namespace pbd::test;
+
+TEST_CASE("the counter counts") {
+  const long before = allocations;
+  std::vector<double> numbers(1000);
+  numbers[7] = 1;
+  CHECK(numbers[7] == 1);
+  CHECK(allocations > before);
+}
+
+TEST_CASE("a step allocates nothing on the heap after the first frame") {
+  const std::string relaxation = GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi");
+  const std::string outer = GENERATE("plain", "incremental", "frozen");
+  Scene scene = cantilever(8, {1e5, 0.3}, Strain::corotational);
+  const TriangleMesh mesh = grid_sheet({6, 6}, {1, 1});
+  const int first = add_sheet_nodes(scene, mesh, 0.2);
+  scene.effects.emplace_back(sheet_links(mesh, first, 0));
+  scene.effects.emplace_back(sheet_strain(mesh, first, {1e5, 0.3}, 1e-3));
+  scene.effects.emplace_back(sheet_bending(mesh, first, 1e2));
+  scene.effects.emplace_back(Anchor{.node = {first}, .target = {Vec3::Zero()}, .compliance = {0.0}});
+  Method method;
+  method.relaxation = relaxation;
+  method.outer = outer;
+  method.max_outer = 5;
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  step(scene, method, 0.001, state, workspace);
+  const long before = allocations;
+  for (int frame = 0; frame < 5; ++frame) step(scene, method, 0.001, state, workspace);
+  const long during = allocations - before;
+  INFO(relaxation << " " << outer);
+  CHECK(during == 0);
+}
+
+#endif

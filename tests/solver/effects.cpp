@@ -1,0 +1,135 @@
+#include "effects/effects.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "samples.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double difference_step = 1e-6;
+
+template <class E>
+typename Constraint<E>::Value value_at(const E& effect, const typename Constraint<E>::Positions& x) {
+  typename Constraint<E>::Value value;
+  typename Constraint<E>::Jacobian jacobian;
+  Constraint<E>::evaluate(effect, 0, x, value, jacobian);
+  return value;
+}
+
+/// Central differences of a vector function of the constraint's positions.
+template <class C, class F>
+auto differences(typename C::Positions x, F&& f) {
+  using Result = Eigen::MatrixXd;
+  Result derivative(f(x).size(), x.size());
+  for (int k = 0; k < x.size(); ++k) {
+    const double middle = x.reshaped()[k];
+    x.reshaped()[k] = middle + difference_step;
+    const Eigen::VectorXd above = f(x);
+    x.reshaped()[k] = middle - difference_step;
+    derivative.col(k) = (above - f(x)) / (2 * difference_step);
+    x.reshaped()[k] = middle;
+  }
+  return derivative;
+}
+
+template <class E>
+void check_jacobian(const E& effect) {
+  using C = Constraint<E>;
+  for (int seed = 0; seed < 20; ++seed) {
+    const auto x = bent_positions<C::nodes>(seed);
+    typename C::Value value;
+    typename C::Jacobian jacobian;
+    C::evaluate(effect, 0, x, value, jacobian);
+    const Eigen::MatrixXd expected =
+        differences<C>(x, [&](const auto& at) -> Eigen::VectorXd { return value_at(effect, at); });
+    INFO(effect.name << ", seed " << seed);
+    CHECK((jacobian - expected).cwiseAbs().maxCoeff() < 1e-7);
+  }
+}
+
+template <class E>
+void check_if_rows() {
+  if constexpr (RowEffect<E>) check_jacobian(sample<E>());
+}
+
+template <class... E>
+void check_all(const std::variant<E...>*) {
+  (check_if_rows<E>(), ...);
+}
+
+}  // namespace
+
+TEST_CASE("Jacobians of all effects equal central differences") {
+  check_all(static_cast<Effect*>(nullptr));
+}
+
+TEST_CASE("the Jacobian of linear strain equals central differences") {
+  TetStrain effect = sample<TetStrain>();
+  effect.strain = Strain::linear;
+  check_jacobian(effect);
+}
+
+TEST_CASE("for corotational strain, J^T A^-1 c is the gradient of the energy 1/2 c^T A^-1 c") {
+  using C = Constraint<TetStrain>;
+  TetStrain effect = sample<TetStrain>();
+  effect.strain = Strain::corotational;
+  const Eigen::Matrix<double, 6, 6> stiffness = C::compliance(effect, 0).inverse();
+  for (int seed = 0; seed < 20; ++seed) {
+    const auto x = bent_positions<4>(seed);
+    C::Value value;
+    C::Jacobian jacobian;
+    C::evaluate(effect, 0, x, value, jacobian);
+    const Eigen::MatrixXd expected = differences<C>(x, [&](const auto& at) -> Eigen::VectorXd {
+      const C::Value c = value_at(effect, at);
+      return Eigen::VectorXd::Constant(1, 0.5 * c.dot(stiffness * c));
+    });
+    const Eigen::RowVectorXd gradient = value.transpose() * stiffness * jacobian;
+    CHECK((gradient - expected).norm() < 1e-7 * gradient.norm());
+  }
+}
+
+TEST_CASE("strains of known deformations") {
+  const TetStrain green = sample<TetStrain>();
+  TetStrain corotational = green;
+  corotational.strain = Strain::corotational;
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
+  SECTION("a rotated rest state has none") {
+    CHECK(value_at(green, turn * green.rest[0]).norm() < 1e-14);
+    CHECK(value_at(corotational, turn * green.rest[0]).norm() < 1e-14);
+  }
+  SECTION("simple shear g: green e_xy = g/2, e_yy = g^2/2, engineering shear doubled") {
+    const double g = 0.3;
+    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+    f(0, 1) = g;
+    Eigen::Matrix<double, 6, 1> expected;
+    expected << 0, g * g / 2, 0, g, 0, 0;
+    CHECK((value_at(green, f * green.rest[0]) - expected).norm() < 1e-14);
+  }
+  SECTION("corotational strain of a rotated stretch is the stretch's") {
+    const Vec3 stretch(1.2, 0.9, 1.05);
+    Eigen::Matrix<double, 6, 1> expected;
+    expected << 0.2, -0.1, 0.05, 0, 0, 0;
+    CHECK((value_at(corotational, turn * stretch.asDiagonal() * green.rest[0]) - expected).norm() < 1e-14);
+  }
+  SECTION("a mirrored tetrahedron is far from rest") {
+    const Eigen::Matrix3d mirror = Vec3(1, 1, -1).asDiagonal();
+    CHECK(value_at(corotational, mirror * green.rest[0]).norm() > 1);
+  }
+}
+
+TEST_CASE("compliances invert the energy of isotropic elasticity") {
+  // Energy density mu e:e + lambda/2 tr(e)^2 with Lame's constants, against 1/2 c^T A^-1 c / volume.
+  const TetStrain effect = sample<TetStrain>();
+  const auto [young, nu] = effect.material;
+  const double mu = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
+  const Eigen::Matrix<double, 6, 6> stiffness = Constraint<TetStrain>::compliance(effect, 0).inverse();
+  Eigen::Matrix<double, 6, 1> c;
+  c << 0.01, -0.02, 0.03, 0.04, -0.05, 0.06;
+  const double squares = c.head<3>().squaredNorm() + c.tail<3>().squaredNorm() / 2;
+  const double density = mu * squares + lambda / 2 * std::pow(c.head<3>().sum(), 2);
+  CHECK(0.5 * c.dot(stiffness * c) == Approx(density * tet_volume(effect.rest[0])).epsilon(1e-12));
+}

@@ -1,0 +1,129 @@
+#include "relaxation.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "linearise.h"
+#include "scenes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+/// Linear rows of a scene at rest with a planted solution: random impulses, and the biases that make them
+/// exact.
+struct Planted {
+  Rows rows;
+  Points v_free, v_exact;
+
+  explicit Planted(const Scene& scene, double h = 1.0 / 60) {
+    std::vector<std::size_t> effect_of_block;
+    rows = allocate_rows(scene, effect_of_block);
+    StepMap map{scene.initial.x, scene.initial.v, h, h};
+    v_free = Points::Zero(3, scene.nodes());
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      linearise(scene.effects[effect_of_block[b]], map, scene.initial.x, scene.initial.v, rows.inverse_mass,
+                1, rows.blocks[b]);
+    for_each_block(rows.blocks, [](auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        for (int r = 0; r < block.rows; ++r)
+          block.impulse[i][r] = std::sin(7.0 * static_cast<double>(i) + 3 * r + 1);
+    });
+    v_exact = v_free;
+    apply_impulses(rows, v_exact);
+    for_each_block(rows.blocks, [&](auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        block.bias[i].setZero();
+        block.bias[i] = -block.residual(v_exact, i, block.impulse[i]);
+      }
+      for (auto& impulse : block.impulse) impulse.setZero();
+    });
+  }
+};
+
+/// Error of v against the planted one after each of `sweeps` sweeps.
+std::vector<double> errors(Planted problem, std::string_view name, int sweeps) {
+  Relaxation relaxation = make_relaxation(name);
+  Points v = problem.v_free;
+  std::vector<double> found;
+  std::visit(
+      [&](auto& kind) {
+        kind.begin(problem.rows, v, true);
+        for (int k = 0; k < sweeps; ++k) {
+          kind.sweep(problem.rows, v, nullptr);
+          found.push_back((v - problem.v_exact).norm() / (problem.v_exact - problem.v_free).norm());
+        }
+      },
+      relaxation);
+  return found;
+}
+
+/// Contraction per sweep, fitted over the last half of the errors above rounding.
+double measured_rate(const std::vector<double>& error) {
+  std::size_t last = 0;
+  while (last + 1 < error.size() && error[last + 1] > 1e-12) ++last;
+  const std::size_t first = last / 2;
+  return std::pow(error[last] / error[first], 1.0 / static_cast<double>(last - first));
+}
+
+}  // namespace
+
+TEST_CASE("every relaxation finds a planted solution of chain, sheet and solid") {
+  Scene scene = GENERATE(0, 1, 2) == 0 ? chain(8) : chain(4, 10);
+  SECTION("chain") {}
+  SECTION("solid") {
+    scene = cantilever(4, {1e5, 0.3}, Strain::green);
+  }
+  SECTION("sheet with links, strain and bending") {
+    const TriangleMesh mesh = grid_sheet({3, 3}, {1, 1});
+    scene = {};
+    const int first = add_sheet_nodes(scene, mesh, 0.2);
+    scene.effects.emplace_back(sheet_links(mesh, first, 1e-4));
+    scene.effects.emplace_back(sheet_strain(mesh, first, {1e5, 0.3}, 1e-3));
+    scene.effects.emplace_back(sheet_bending(mesh, first, 1e2));
+    scene.effects.emplace_back(Anchor{.node = {0}, .target = {Vec3::Zero()}, .compliance = {0.0}});
+  }
+  const Planted problem(scene);
+  for (const auto name : relaxation_names()) {
+    INFO(name);
+    CHECK(errors(problem, name, name == "direct" ? 3 : 20000).back() < 1e-9);
+  }
+}
+
+TEST_CASE("Jacobi and Gauss-Seidel on a free chain of N links contract by cos(pi/(N+1)) and its square") {
+  const int links = GENERATE(10, 20, 50);
+  const Planted problem(chain(links, 1, true));
+  const double jacobi = std::cos(std::numbers::pi / (links + 1));
+  const int sweeps = 12 * links * links;
+  // Within 2 % of the decay per sweep, that is of 1 - rate.
+  CHECK(1 - measured_rate(errors(problem, "jacobi", sweeps)) == Approx(1 - jacobi).epsilon(0.02));
+  CHECK(1 - measured_rate(errors(problem, "gauss_seidel", sweeps)) ==
+        Approx(1 - jacobi * jacobi).epsilon(0.02));
+}
+
+TEST_CASE("accelerated Jacobi needs about the square root of Jacobi's sweeps") {
+  const int links = 50;
+  const Planted problem(chain(links, 1, true));
+  const auto sweeps_to = [&](std::string_view name) {
+    const auto error = errors(problem, name, 40000);
+    return std::find_if(error.begin(), error.end(), [](double e) { return e < 1e-6; }) - error.begin();
+  };
+  const double kappa = 1 / std::pow(std::tan(std::numbers::pi / (2 * (links + 1))), 2);
+  // Nesterov's bound with restart is a few sqrt(kappa) sweeps per factor e (O'Donoghue, Candes 2015: 2 e
+  // sqrt(8)/2).
+  CHECK(static_cast<double>(sweeps_to("nesterov_jacobi")) < 2 * std::exp(1) * std::sqrt(8 * kappa));
+  CHECK(sweeps_to("jacobi") > 10 * sweeps_to("nesterov_jacobi"));
+}
+
+TEST_CASE("direct solves doubled constraints and gives equal motion") {
+  Scene doubled = chain(8);
+  doubled.effects.push_back(doubled.effects.back());
+  const Planted problem(doubled);
+  CHECK(errors(problem, "direct", 4).back() < 1e-11);
+}
+
+TEST_CASE("an unknown relaxation is refused with the list") {
+  CHECK_THROWS_WITH(make_relaxation("sor"), Catch::Contains("sor") && Catch::Contains("gauss_seidel"));
+}

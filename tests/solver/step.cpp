@@ -1,0 +1,239 @@
+#include "step.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "scenes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+Method direct_method(double tolerance = 1e-13) {
+  Method method;
+  method.relaxation = "direct";
+  method.tolerance = tolerance;
+  return method;
+}
+
+Report one_step(const Scene& scene, const Method& method, double h, State& state,
+                const Observer& observer = {}) {
+  Workspace workspace(scene, method);
+  return step(scene, method, h, state, workspace, observer);
+}
+
+Scene pendulum() {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1, 0, 0), 1);
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("free fall is implicit Euler's to rounding: it lags by g h t / 2") {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), 2);
+  scene.effects.emplace_back(Gravity{});
+  const double h = 0.01;
+  State state = scene.initial;
+  Workspace workspace(scene, {});
+  for (int k = 0; k < 100; ++k) CHECK(step(scene, {}, h, state, workspace).status == Status::ok);
+  CHECK(state.x(2, 0) == Approx(-9.81 / 2 - 9.81 * h / 2).epsilon(1e-13));
+  CHECK(state.time == Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("a compliant link is a spring: implicit Euler's amplitude is 1/sqrt(1 + (w h)^2) a step") {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(2, 0, 0), 1);  // one metre beyond the rest length
+  const double w = 2 * std::numbers::pi, h = 0.01;
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1 / (w * w)}});
+  State state = scene.initial;
+  Method method = direct_method();
+  Workspace workspace(scene, method);
+  for (int k = 0; k < 100; ++k) step(scene, method, h, state, workspace);
+  const double stretch = state.x(0, 1) - 1;
+  // q^2 w^2 + v^2 falls by 1/(1 + (w h)^2) a step exactly.
+  const double amplitude = std::sqrt(stretch * stretch + std::pow(state.v(0, 1) / w, 2));
+  CHECK(amplitude == Approx(std::pow(1 + w * w * h * h, -50)).epsilon(1e-10));
+}
+
+TEST_CASE("static stretch of a compliant link is m g A whatever the step") {
+  const double h = GENERATE(1e-3, 1e-1, 10.0);
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(0, 0, -1), 1);
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1e-4}});
+  State state = scene.initial;
+  state.x(2, 1) = -1 - 9.81e-4;
+  const auto report = one_step(scene, direct_method(), h, state);
+  CHECK(report.status == Status::ok);
+  CHECK(-state.x(2, 1) - 1 == Approx(9.81e-4).epsilon(1e-9));
+  CHECK(state.v.norm() < 1e-9);
+}
+
+TEST_CASE("plain converges to the equations of motion, incremental to another point of the manifold") {
+  const Scene scene = chain(2);
+  const double h = 1.0 / 60;
+  const State start = advanced(scene, 1.0 / 240, 60);
+  Method method = direct_method();
+  State plain = start, incremental = start;
+  const Report exact = one_step(scene, method, h, plain);
+  CHECK(exact.status == Status::ok);
+  CHECK(exact.primal <= 1e-12 * exact.scale);
+  method.outer = "incremental";
+  const Report other = one_step(scene, method, h, incremental);
+  CHECK(other.status == Status::not_converged);
+  CHECK(other.dual <= 1e-12 * other.scale);
+  CHECK(other.primal > 1e-4 * other.scale);
+}
+
+TEST_CASE("the plain iteration contracts a pendulum's error by h^2 T/(m l)") {
+  const double h = GENERATE(0.2, 0.1, 0.05);
+  const Scene scene = pendulum();
+  State state = scene.initial;
+  state.x.col(1) = Vec3(std::sin(0.4), 0, -std::cos(0.4));
+  State solved = state;
+  std::vector<Points> iterates;
+  Method method = direct_method(1e-15);
+  Workspace workspace(scene, method);
+  step(scene, method, h, solved, workspace, [&](const Iterate& iterate) { iterates.push_back(iterate.x); });
+  const double impulse = std::abs(workspace.impulses(1).at(0));
+  const double predicted = h * impulse;  // lambda/(m l) with lambda = h p, m = 1 kg, l = 1 m
+  std::vector<double> error;
+  for (const auto& x : iterates)
+    if (const double e = (x - solved.x).norm(); e > 1e-12) error.push_back(e);
+  const double measured = error.back() / error[error.size() - 2];
+  CHECK(measured == Approx(predicted).epsilon(0.01));
+}
+
+TEST_CASE("frozen solves one linearisation and says that the nonlinear step is not solved") {
+  const Scene scene = pendulum();
+  State state = scene.initial;
+  Method method = direct_method(1e-10);
+  method.outer = "frozen";
+  const Report report = one_step(scene, method, 0.1, state);
+  CHECK(report.status == Status::not_converged);
+  // Linearised at (1, 0, 0) the link holds x; the fall is free: z = -g h^2.
+  CHECK(state.x(0, 1) == Approx(1).epsilon(1e-12));
+  CHECK(state.x(2, 1) == Approx(-9.81 * 0.01).epsilon(1e-12));
+}
+
+TEST_CASE("a step that is not solvable says so") {
+  Scene scene = pendulum();
+  SECTION("a stretched link between two fixed nodes") {
+    scene.mass[1] = infinity;
+    scene.initial.x(0, 1) = 2;
+    add_node(scene, Vec3(5, 0, 0), 1);
+    State state = scene.initial;
+    CHECK(one_step(scene, {}, 0.01, state).status == Status::not_converged);
+  }
+  SECTION("a budget too small") {
+    Method method;
+    method.max_outer = 1;
+    method.max_sweeps = 1;
+    method.tolerance = 1e-14;
+    State state = scene.initial;
+    const Report report = one_step(chain(20), method, 0.01, state = chain(20).initial);
+    CHECK(report.status == Status::not_converged);
+    CHECK(report.residual() > method.tolerance);
+  }
+  SECTION("overflow leaves the state as it was") {
+    State state = scene.initial;
+    state.v(2, 1) = 1e300;
+    const State before = state;
+    CHECK(one_step(scene, {}, 0.01, state).status == Status::diverged);
+    CHECK(state.x == before.x);
+    CHECK(state.time == before.time);
+  }
+}
+
+TEST_CASE("linear momentum of internal constraints is conserved, converged or not") {
+  Scene scene = chain(20, 10, true);
+  scene.effects.erase(scene.effects.begin());
+  for (int node = 0; node < scene.nodes(); ++node)
+    scene.initial.v.col(node) = Vec3(std::sin(node), std::cos(2.0 * node), std::sin(3.0 * node));
+  const std::string relaxation = GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "direct");
+  Method method;
+  method.relaxation = relaxation;
+  method.max_outer = 3;
+  State state = scene.initial;
+  Workspace workspace(scene, method);
+  const Vec3 before = momentum(scene, state);
+  for (int k = 0; k < 100; ++k) step(scene, method, 0.01, state, workspace);
+  INFO(relaxation);
+  CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
+}
+
+TEST_CASE("an empty effect changes no bit and adds no rows") {
+  const Scene scene = chain(20);
+  Scene padded = scene;
+  padded.effects.insert(padded.effects.begin(), Bending{});
+  padded.effects.emplace_back(TetStrain{});
+  padded.effects.emplace_back(ExternalForce{});
+  for (const std::string relaxation : {"gauss_seidel", "jacobi", "nesterov_jacobi", "direct"}) {
+    Method method;
+    method.relaxation = relaxation;
+    Workspace plain_workspace(scene, method), padded_workspace(padded, method);
+    State a = scene.initial, b = padded.initial;
+    for (int k = 0; k < 20; ++k) {
+      step(scene, method, 1.0 / 240, a, plain_workspace);
+      step(padded, method, 1.0 / 240, b, padded_workspace);
+    }
+    INFO(relaxation);
+    CHECK(a.x == b.x);
+    CHECK(a.v == b.v);
+    CHECK(padded_workspace.costs().size() == plain_workspace.costs().size());
+  }
+}
+
+TEST_CASE("warm starting changes the path, not the solution") {
+  const Scene scene = cantilever(4, {1e5, 0.3}, Strain::corotational);
+  State warm = scene.initial, cold = scene.initial;
+  Method method = direct_method(1e-12);
+  Workspace warm_workspace(scene, method);
+  for (int k = 0; k < 5; ++k) step(scene, method, 0.01, warm, warm_workspace);
+  method.warm_start = false;
+  Workspace cold_workspace(scene, method);
+  for (int k = 0; k < 5; ++k) step(scene, method, 0.01, cold, cold_workspace);
+  CHECK((warm.x - cold.x).norm() < 1e-10 * (warm.x - scene.initial.x).norm());
+}
+
+TEST_CASE("dimensionless results do not change with the units of length, mass and time") {
+  const double length = GENERATE(1e-3, 1.0, 1e3);
+  const double mass = GENERATE(1e-6, 1.0, 1e6);
+  const double time = GENERATE(1e-3, 1.0, 1e3);
+  const auto displacement = [](double l, double m, double t) {
+    Scene scene;
+    scene.effects.emplace_back(Gravity{.acceleration = Vec3(0, 0, -9.81) * l / (t * t)});
+    const double pressure = m / (l * t * t);
+    add_solid(scene, kuhn_grid({4, 1, 1}, l * Vec3(1, 0.25, 0.25)), 1000 * m / (l * l * l),
+              {1e5 * pressure, 0.3}, Strain::corotational);
+    for (int node = 0; node < scene.nodes(); ++node)
+      if (scene.initial.x(0, node) == 0) scene.mass[static_cast<std::size_t>(node)] = infinity;
+    const int tip = scene.nodes() - 1;
+    const int bob = add_node(scene, scene.initial.x.col(tip) + l * Vec3(0.1, 0, 0), 5 * m);
+    scene.effects.emplace_back(Distance{.node = {{tip, bob}}, .rest_length = {0.1 * l}, .compliance = {0}});
+    State state = scene.initial;
+    Method method = direct_method(1e-12);
+    Workspace workspace(scene, method);
+    for (int k = 0; k < 10; ++k) step(scene, method, t / 240, state, workspace);
+    return Points((state.x - scene.initial.x) / l);
+  };
+  const Points expected = displacement(1, 1, 1);
+  CHECK((displacement(length, mass, time) - expected).norm() < 1e-9 * expected.norm());
+}
+
+TEST_CASE("unknown names are refused before anything is computed") {
+  Method method;
+  method.outer = "newton";
+  CHECK_THROWS_WITH(Workspace(pendulum(), method), Catch::Contains("outer") && Catch::Contains("plain"));
+  method = {};
+  method.integrator = "rk4";
+  CHECK_THROWS_WITH(Workspace(pendulum(), method), Catch::Contains("integrator"));
+}

@@ -78,7 +78,7 @@ format-check: ## fail if a C++ source is not formatted (needs clang-format 14)
 	@if $(CLANG_FORMAT) --version | grep -q 'version 14\.'; then $(CLANG_FORMAT) --dry-run --Werror $(SOURCES); \
 	else echo "format-check skipped: needs clang-format 14, found $$($(CLANG_FORMAT) --version)"; fi
 
-tidy: configure ## run clang-tidy over the C++ sources
+tidy: build ## run clang-tidy over the C++ sources
 	@$(INSTALL) tidy
 	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/release -extra-arg=-Wno-unknown-warning-option "^$(CURDIR)/(solver|reference|experiments|tests)/"
 

@@ -255,7 +255,7 @@ Rows all_rows(const Model& model, const Points& x, const Vector& gamma) {
   for (const Element& e : model.elements) r.first.push_back(r.first.back() + e.rows);
   const int rows = r.first.back(), n = model.unknowns;
   r.value.setZero(rows), r.multiplier.setZero(rows);
-  r.jacobian.setZero(rows, n), r.compliance.setZero(rows, rows), r.geometric.setZero(n, n);
+  r.jacobian.setZero(rows, n), r.geometric.setZero(n, n);
   Local local;
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const Element& e = model.elements[k];
@@ -264,7 +264,6 @@ Rows all_rows(const Model& model, const Points& x, const Vector& gamma) {
     const RowVector multiplier = -stress(e, local.value, {gamma, {}});
     r.value.segment(at, e.rows) = local.value;
     r.multiplier.segment(at, e.rows) = multiplier;
-    if (!e.hard()) r.compliance.block(at, at, e.rows, e.rows) = Eigen::MatrixXd(e.stiffness).inverse();
     const LocalMatrix h = curvature_of(local, multiplier, RowMatrix::Zero(e.rows, e.rows));
     for (int a = 0; a < e.nodes; ++a) {
       const int i = unknown_of(model, e, a);

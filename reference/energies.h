@@ -119,7 +119,7 @@ class Assembly {
 struct Rows {
   std::vector<int> first;  // first row of each element, and the number of rows at the end
   Vector value, multiplier;
-  Eigen::MatrixXd jacobian, compliance, geometric;
+  Eigen::MatrixXd jacobian, geometric;
 };
 /// Dense: for small scenes.
 Rows all_rows(const Model& model, const Points& x, const Vector& gamma);

@@ -30,7 +30,7 @@ struct Judgement {
   double correction = 0;  // last Newton correction of x, relative to the largest displacement of the step
   bool certified =
       false;     // a strict local minimum: Hessian positive definite on the hard constraints' null space
-  int rank = 0;  // of the hard constraints' Jacobian
+  int rank = 0;  // of the hard constraints' Jacobian; -1 where the judge does not find it
   int iterations = 0;
   double seconds = 0;
 };

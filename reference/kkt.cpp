@@ -104,6 +104,18 @@ Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma) {
   return least;
 }
 
+void measure(const Objective& o, const Derivatives& d, const Vector& u, double displacement,
+             Judgement& judgement) {
+  judgement.residual =
+      o.gradient(u, d).cwiseAbs().maxCoeff() / std::max(o.magnitude(u, d).maxCoeff(), 1e-300);
+  const Vector squares = SparseMatrix(d.jacobian.cwiseProduct(d.jacobian)) * Vector::Ones(u.size());
+  judgement.infeasible = 0;
+  for (int i = 0; i < d.hard.size(); ++i) {
+    const double length = squares(i) > 0 ? std::sqrt(squares(i)) : 1;
+    judgement.infeasible = std::max(judgement.infeasible, std::abs(d.hard(i)) / length / displacement);
+  }
+}
+
 Polish polish(const Objective& o, Assembly& assembly, const PolishSettings& settings, Vector& u,
               Vector& gamma, const std::function<void(const Vector&)>& shown) {
   constexpr int most = 40;

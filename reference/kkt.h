@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "energies.h"
+#include "judge.h"
 
 namespace pbd::reference {
 
@@ -35,6 +36,10 @@ std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobi
 
 /// Multipliers of least 2-norm with the same force J^T gamma.
 Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma);
+
+/// Sets the judgement's residual and infeasible from the derivatives of L at u with its multipliers.
+void measure(const Objective& objective, const Derivatives& d, const Vector& u, double displacement,
+             Judgement& judgement);
 
 struct PolishSettings {
   double displacement;    // m, the length corrections and violations are compared with

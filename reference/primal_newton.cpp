@@ -202,13 +202,7 @@ Judgement judge(Search& s, bool converged) {
   j.x = s.objective.positions(s.u);
   j.multiplier = s.multipliers.gamma;
   const Derivatives& d = s.assembly.at(j.x, s.multipliers);
-  j.residual = s.objective.gradient(s.u, d).cwiseAbs().maxCoeff() /
-               std::max(s.objective.magnitude(s.u, d).maxCoeff(), 1e-300);
-  const Vector lengths = SparseMatrix(d.jacobian.cwiseProduct(d.jacobian)) * Vector::Ones(s.u.size());
-  for (int i = 0; i < d.hard.size(); ++i)
-    j.infeasible =
-        std::max(j.infeasible,
-                 std::abs(d.hard(i)) / (lengths(i) > 0 ? std::sqrt(lengths(i)) : 1.0) / s.displacement());
+  measure(s.objective, d, s.u, s.displacement(), j);
   const SparseMatrix jacobian = d.jacobian;
   j.rank = s.rank > 0 ? s.rank : static_cast<int>(independent_rows(s.model(), jacobian, 1e-10).size());
   j.certified = certify(s, inverse_effective_mass(s.model(), jacobian));

@@ -1,0 +1,41 @@
+// Rates predicted from the dense matrices of a small scene, to be compared with measured ones.
+//
+// Plain fixed point: x_{k+1} solves the problem linearised at x_k with its total multipliers,
+//   M (x_{k+1} - y)/h^2 = f + J_k^T gamma_{k+1},   c_k + J_k (x_{k+1} - x_k) + A gamma_{k+1} = 0
+// With e = x - x*, J_k^T gamma* = J*^T gamma* + (sum_i gamma_i d2c_i) e_k and c_k + J_k (e_{k+1} - e_k) = c*
+// + J* e_{k+1} up to O(e^2), so that on the null space of the hard rows
+//   (M + h^2 J_c^T A^-1 J_c) e_{k+1} = h^2 G e_k,   G = sum_i gamma_i d2c_i  (gamma = -A^-1 c for compliant
+//   rows)
+// Under tension gamma < 0 and the eigenvalues are negative: the iteration oscillates. Pendulum: -h^2 T/(m l).
+//
+// Relaxation of the linearised problem, N = J W J^T + A/h^2 in blocks per constraint, N = L + D + L^T:
+//   Jacobi I - omega D^-1 N,   Gauss-Seidel -(L + D)^-1 L^T
+#pragma once
+
+#include <Eigen/Core>
+
+#include "scene.h"
+
+namespace pbd::reference {
+
+/// Extreme eigenvalues of the error map; the iteration contracts if radius() < 1.
+struct Contraction {
+  double smallest = 0, largest = 0;
+  double radius() const { return std::max(-smallest, largest); }
+};
+
+/// At a solved step's positions x (3 x N) and force multipliers gamma of the hard rows (N for lengths, as in
+/// Judgement).
+Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::VectorXd& gamma, double h);
+
+struct RelaxationRates {
+  double jacobi = 0;        // spectral radius of block Jacobi with the given factor
+  double gauss_seidel = 0;  // of block Gauss-Seidel, blocks in the scene's order
+  double condition = 0;     // largest / smallest eigenvalue of D^-1 N; infinite if N is singular
+};
+
+/// Throws SetupError for corotational tetrahedra (their rows depend on how the rotation is treated) and for a
+/// scene without rows.
+RelaxationRates relaxation_rates(const Scene& scene, const Points& x, double h, double omega = 1);
+
+}  // namespace pbd::reference

@@ -5,6 +5,7 @@
 
 #include "choices.h"
 #include "commands.h"
+#include "files.h"
 #include "judges.h"
 #include "scene_file.h"
 
@@ -32,8 +33,8 @@ std::vector<Item> experiment_items() {
 /// The scenes that come with the program, by path so that the name can be given to `simulate`.
 std::vector<Item> scene_items() {
   std::vector<Item> items;
-  if (std::filesystem::is_directory(PBDCHECK_SCENES))
-    for (const auto& entry : std::filesystem::directory_iterator(PBDCHECK_SCENES))
+  if (std::filesystem::is_directory(scenes_folder()))
+    for (const auto& entry : std::filesystem::directory_iterator(scenes_folder()))
       if (entry.path().extension() == ".toml")
         items.push_back({entry.path().string(), scene_description(entry.path())});
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.name < b.name; });

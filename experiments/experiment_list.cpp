@@ -1,10 +1,27 @@
 // The experiments, in the order of the report: one row each.
-#include "experiment.h"
+#include "experiments.h"
 
 namespace pbdcheck {
 
 const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> list;
+  static const std::vector<Experiment> list{
+      {"judges", "Do two independent reference solvers agree on every scene used below?", judges},
+      {"outer_convergence",
+       "How fast do the outer iterations approach the implicit Euler step, and when do they fail?",
+       outer_convergence},
+      {"inner_convergence",
+       "How fast do the relaxations solve the linearised step, and does theory predict it?",
+       inner_convergence},
+      {"dual_vs_primal", "Does the constraint solver reach the solution of the primal elasticity problem?",
+       dual_vs_primal},
+      {"mesh_refinement",
+       "Is the finite element constraint more accurate than a mass-spring network on the same mesh?",
+       mesh_refinement},
+      {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
+       work_precision},
+      {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
+       effects_cost},
+  };
   return list;
 }
 

@@ -34,4 +34,8 @@ void require_writable(const std::filesystem::path& directory, std::string_view o
   std::filesystem::remove(trial, failure);
 }
 
+std::filesystem::path scenes_folder() {
+  return PBDCHECK_SCENES;
+}
+
 }  // namespace pbdcheck

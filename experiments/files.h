@@ -17,4 +17,7 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// be made or written to.
 void require_writable(const std::filesystem::path& directory, std::string_view option = "-o");
 
+/// Folder of the scenes and meshes that come with the program.
+std::filesystem::path scenes_folder();
+
 }  // namespace pbdcheck

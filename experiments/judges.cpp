@@ -2,18 +2,35 @@
 
 #include "choices.h"
 #include "error.h"
+#include "judge.h"
+#include "known_answers.h"
 
 namespace pbdcheck {
 
 std::vector<std::string> reference_names() {
-  return {};
+  std::vector<std::string> names;
+  for (const auto& judge : pbd::reference::judges()) names.emplace_back(judge.name);
+  return names;
 }
 
 std::vector<std::string> case_names() {
-  return {};
+  std::vector<std::string> names;
+  for (const auto& known : pbd::reference::known_answers()) names.emplace_back(known.id);
+  return names;
 }
 
-Judged judge_step(const std::string& name, const pbd::Scene&, const pbd::State&, double) {
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h) {
+  const auto& all = pbd::reference::judges();
+  for (const auto& judge : all)
+    if (name.empty() || judge.name == name) {
+      const auto judged = judge.judge(scene, state, h);
+      return {judged.x,
+              std::string(pbd::reference::outcome_names[static_cast<std::size_t>(judged.outcome)]),
+              judged.reason,
+              judged.iterations,
+              judged.seconds,
+              judged.residual};
+    }
   throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
 }
 

@@ -12,6 +12,14 @@ double seconds(Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
+}  // namespace
+
+double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
+  const double displacement = (reference - start).colwise().norm().maxCoeff();
+  const double error = (x - reference).colwise().norm().maxCoeff();
+  return displacement > 0 ? error / displacement : error;
+}
+
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
                    const pbd::Points& reference_x) {
   Trace trace;
@@ -35,14 +43,6 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
     trace.points.push_back({report.outer_iterations, report.sweeps, report.row_updates, wall,
                             relative_error(end.x, reference_x, state.x), report.residual()});
   return trace;
-}
-
-}  // namespace
-
-double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
-  const double displacement = (reference - start).colwise().norm().maxCoeff();
-  const double error = (x - reference).colwise().norm().maxCoeff();
-  return displacement > 0 ? error / displacement : error;
 }
 
 Trace measure(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,

@@ -32,6 +32,11 @@ inline constexpr int timed_repeats = 3;
 /// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 
+/// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the end
+/// positions `reference_x`. Throws SetupError as Workspace does.
+Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
+                   const pbd::Points& reference_x);
+
 /// Does the step of h seconds from `state` `timed_repeats` times, each with a fresh workspace (no warm
 /// start), against the end positions `reference_x`. Throws SetupError as Workspace does.
 Trace measure(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,

@@ -1,6 +1,6 @@
-// How fast do the outer iterations approach the implicit Euler step, and when does the paper's fixed point not?
-// Near the solution the plain iteration's error is multiplied by the geometric stiffness it leaves out, projected onto
-// the motions that the constraints allow; the reference computes that spectral radius densely.
+// How fast do the outer iterations approach the implicit Euler step, and when does the paper's fixed point
+// not? Near the solution the plain iteration's error is multiplied by the geometric stiffness it leaves out,
+// projected onto the motions that the constraints allow; the reference computes that spectral radius densely.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "experiments.h"
 #include "measure.h"
 #include "primal_newton.h"
-#include "scenes/builders.h"
+#include "scenes/standard.h"
 
 namespace pbdcheck {
 namespace {
@@ -21,8 +21,8 @@ struct Course {
   Report report;
 };
 
-Course course(const Scene& scene, const State& start, double h, const Points& reference, std::string_view outer,
-              std::string_view relaxation, int iterations) {
+Course course(const Scene& scene, const State& start, double h, const Points& reference,
+              std::string_view outer, std::string_view relaxation, int iterations) {
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
@@ -39,8 +39,8 @@ Course course(const Scene& scene, const State& start, double h, const Points& re
 
 constexpr double rounding_floor = 1e-12;  // errors below it say nothing about the rate
 
-/// Contraction an iteration, over the last half of the errors above rounding; NaN if there are fewer than four, or if
-/// they do not fall.
+/// Contraction an iteration, over the last half of the errors above rounding; NaN if there are fewer than
+/// four, or if they do not fall.
 double measured_rate(const std::vector<double>& error) {
   std::size_t count = 0;
   while (count < error.size() && error[count] > rounding_floor && std::isfinite(error[count])) ++count;
@@ -50,15 +50,18 @@ double measured_rate(const std::vector<double>& error) {
   return rate < 1 ? rate : std::nan("");
 }
 
-/// converged: at rounding; converging: falls steadily; diverging: larger than the step itself; oscillating: neither.
+/// converged: at rounding; converging: falls steadily; diverging: larger than the step itself; oscillating:
+/// neither.
 std::string behaviour(const std::vector<double>& error) {
-  const double last = *std::max_element(error.end() - std::min<std::ptrdiff_t>(10, std::ssize(error)), error.end());
+  const double last =
+      *std::max_element(error.end() - std::min<std::ptrdiff_t>(10, std::ssize(error)), error.end());
   if (!std::isfinite(error.back()) || !(last <= 1)) return "diverging";
   if (error.back() < 1e-10) return "converged";
   return last < 1e-3 * error.front() ? "converging" : "oscillating";
 }
 
-/// Straight chain released horizontally, swung for 0.3 s by the reference, so that every mass ratio has a state.
+/// Straight chain released horizontally, swung for 0.3 s by the reference, so that every mass ratio has a
+/// state.
 State mid_swing(const Scene& scene) {
   constexpr double h = 1.0 / 100;
   State state = scene.initial;
@@ -81,7 +84,7 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
   for (const double h : {0.2, 0.1, 0.05}) {
     const Scene scene = pendulum(0.3, 2);
     const auto judged = reference::primal_newton(scene, scene.initial, h);
-    const double predicted = reference::contraction(scene, judged, h).rate();
+    const double predicted = reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius();
     const Course found = course(scene, scene.initial, h, judged.x, "plain", "direct", 60);
     const double measured = measured_rate(found.error);
     write_course(errors, "pendulum", h, 1, "plain", "direct", found);
@@ -89,8 +92,8 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
              std::string(status_names[static_cast<std::size_t>(found.report.status)]),
              std::string(found.report.reason)});
     context.verdict("outer.pendulum_rate." + std::to_string(h).substr(0, 4),
-                    "the plain iteration contracts a pendulum's error by h^2 T/(m l)", "|measured/predicted - 1|",
-                    std::abs(measured / predicted - 1), 0.01);
+                    "the plain iteration contracts a pendulum's error by h^2 T/(m l)",
+                    "|measured/predicted - 1|", std::abs(measured / predicted - 1), 0.01);
     context.advance("pendulum");
   }
 }
@@ -104,7 +107,8 @@ void error_curves(Context& context, Table& errors) {
     double ratio;
   };
   std::vector<Case> cases;
-  for (const auto& [ratio, h] : {std::pair{1.0, 1.0 / 240}, {1.0, 1.0 / 60}, {100.0, 1.0 / 240}, {100.0, 1.0 / 60}}) {
+  for (const auto& [ratio, h] :
+       {std::pair{1.0, 1.0 / 240}, {1.0, 1.0 / 60}, {100.0, 1.0 / 240}, {100.0, 1.0 / 60}}) {
     Scene scene = chain(20, ratio);
     State start = mid_swing(scene);
     cases.push_back({"chain20", std::move(scene), std::move(start), h, ratio});
@@ -112,14 +116,15 @@ void error_curves(Context& context, Table& errors) {
   for (const double young : {1e5, 1e6}) {
     Scene scene = cantilever(8, {young, 0.3}, Strain::green);
     State start = mid_swing(scene);
-    cases.push_back({young < 5e5 ? "cantilever E=1e5 Pa" : "cantilever E=1e6 Pa", std::move(scene), std::move(start),
-                     1.0 / 60, 1});
+    cases.push_back({young < 5e5 ? "cantilever E=1e5 Pa" : "cantilever E=1e6 Pa", std::move(scene),
+                     std::move(start), 1.0 / 60, 1});
   }
   for (const auto& each : cases) {
     const auto judged = reference::primal_newton(each.scene, each.start, each.h);
-    for (const auto& [outer, relaxation, iterations] :
-         {std::tuple{"plain", "direct", 60}, {"incremental", "direct", 60}, {"incremental", "gauss_seidel", 200},
-          {"frozen", "direct", 3}})
+    for (const auto& [outer, relaxation, iterations] : {std::tuple{"plain", "direct", 60},
+                                                        {"incremental", "direct", 60},
+                                                        {"incremental", "gauss_seidel", 200},
+                                                        {"frozen", "direct", 3}})
       write_course(errors, each.name, each.h, each.ratio, outer, relaxation,
                    course(each.scene, each.start, each.h, judged.x, outer, relaxation, iterations));
     context.advance(each.name);
@@ -133,9 +138,9 @@ struct Cell {
 };
 
 void chain_map(Context& context, Table& map) {
-  const std::vector<double> ratios = context.full()
-                                         ? std::vector<double>{1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000}
-                                         : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
+  const std::vector<double> ratios =
+      context.full() ? std::vector<double>{1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000}
+                     : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
   const std::vector<double> rates_hz = context.full()
                                            ? std::vector<double>{30, 42, 60, 85, 120, 170, 240, 340, 480}
                                            : std::vector<double>{30, 60, 120, 240, 480};
@@ -148,8 +153,8 @@ void chain_map(Context& context, Table& map) {
       const double h = 1 / rates_hz[s];
       const auto judged = reference::primal_newton(scene, start, h);
       Cell& cell = cells[static_cast<std::size_t>(r) * rates_hz.size() + s];
-      cell = {h, ratio, reference::contraction(scene, judged, h).rate(), 0, "",
-              course(scene, start, h, judged.x, "plain", "direct", 1000)};
+      cell = {h, ratio, reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius(),
+              0, "",    course(scene, start, h, judged.x, "plain", "direct", 1000)};
       cell.measured = measured_rate(cell.course.error);
       cell.behaviour = behaviour(cell.course.error);
     }
@@ -158,16 +163,19 @@ void chain_map(Context& context, Table& map) {
   double worst = 0, claimed = 0;
   for (const auto& cell : cells) {
     map.row({"chain20", cell.h, cell.ratio, "plain", cell.predicted, cell.measured, cell.behaviour,
-             cell.course.error.back(), std::string(status_names[static_cast<std::size_t>(cell.course.report.status)]),
+             cell.course.error.back(),
+             std::string(status_names[static_cast<std::size_t>(cell.course.report.status)]),
              std::string(cell.course.report.reason)});
     if (cell.predicted < 0.95) worst = std::max(worst, std::abs(cell.measured / cell.predicted - 1));
     if (std::isnan(cell.measured) && cell.predicted < 0.95) worst = std::nan("");
     if (cell.predicted > 1.05 && cell.course.report.status == Status::ok) ++claimed;
   }
-  context.verdict("outer.chain_map.rate", "measured rate equals the predicted spectral radius where that is < 0.95",
+  context.verdict("outer.chain_map.rate",
+                  "measured rate equals the predicted spectral radius where that is < 0.95",
                   "largest |measured/predicted - 1|", worst, 0.05);
-  context.verdict("outer.chain_map.no_false_claim", "no convergence is claimed where the predicted rate exceeds 1.05",
-                  "cells that claim it", claimed, 0);
+  context.verdict("outer.chain_map.no_false_claim",
+                  "no convergence is claimed where the predicted rate exceeds 1.05", "cells that claim it",
+                  claimed, 0);
   context.advance("chain map");
 }
 
@@ -175,10 +183,10 @@ void chain_map(Context& context, Table& map) {
 
 void outer_convergence(Context& context) {
   context.begin(3 + 6 + 1);
-  Table errors = context.table("errors", {"scene", "step_s", "mass_ratio", "outer", "relaxation", "iteration", "error",
-                                          "status", "reason"});
-  Table map = context.table("map", {"scene", "step_s", "mass_ratio", "outer", "predicted_rate", "measured_rate",
-                                    "behaviour", "error_final", "status", "reason"});
+  Table errors = context.table("errors", {"scene", "step_s", "mass_ratio", "outer", "relaxation", "iteration",
+                                          "error", "status", "reason"});
+  Table map = context.table("map", {"scene", "step_s", "mass_ratio", "outer", "predicted_rate",
+                                    "measured_rate", "behaviour", "error_final", "status", "reason"});
   pendulum_rates(context, errors, map);
   error_curves(context, errors);
   chain_map(context, map);

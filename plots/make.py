@@ -1,6 +1,8 @@
 """Draws every figure of a result folder:  /usr/bin/python3 plots/make.py DIR  writes DIR/figures."""
 
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import dual_vs_primal  # noqa: F401  (each of these registers its figures)
@@ -44,8 +46,8 @@ def without_figure(directory):
 def main(directory):
     if not directory.is_dir():
         raise InputError(f"{directory}: got no folder; allowed: a result folder, as written by `pbdcheck run`")
-    for entry in FIGURES:
-        draw(entry, directory)
+    with ProcessPoolExecutor() as pool:
+        list(pool.map(partial(draw, directory=directory), FIGURES))
     for path in without_figure(directory):
         say(f"warning: {path}: no figure reads this table")
 

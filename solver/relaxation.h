@@ -48,6 +48,7 @@ class Jacobi {
   static constexpr std::string_view name = "jacobi";
   void begin(Rows& rows, const Points& v, bool fresh);
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+  double factor() const { return omega_; }  // omega of the last linearisation
   std::int64_t setup_sweeps() const { return bound_.sweeps(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "scenes.h"
 
@@ -24,12 +25,7 @@ Report one_step(const Scene& scene, const Method& method, double h, State& state
 }
 
 Scene pendulum() {
-  Scene scene;
-  add_node(scene, Vec3::Zero(), infinity);
-  add_node(scene, Vec3(1, 0, 0), 1);
-  scene.effects.emplace_back(Gravity{});
-  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
-  return scene;
+  return pbdcheck::pendulum(std::numbers::pi / 2, 0);
 }
 
 }  // namespace

@@ -9,12 +9,12 @@ namespace pbdcheck {
 /// Bob of 1 kg on a massless hard link of 1 m, `angle` (rad) from straight down, turning at `rate` (rad/s).
 pbd::Scene pendulum(double angle, double rate);
 
-/// Straight chain of `links` hard links over 1 m along x from the origin, 0.1 kg a node, the last one 0.1 * ratio kg;
-/// the first node is fixed unless `free`.
+/// Straight chain of `links` hard links over 1 m along x from the origin, 0.1 kg a node, the last one 0.1 *
+/// ratio kg; the first node is fixed unless `free`.
 pbd::Scene chain(int links, double ratio = 1, bool free = false);
 
-/// Sheet of 1 x 1 m in cells x cells squares, 0.2 kg/m^2, held along one edge and released in its horizontal plane.
-/// Links along all edges of its triangles (1e-5 m/N); bending (100 rad/(N m)) unless `links_only`.
+/// Sheet of 1 x 1 m in cells x cells squares, 0.2 kg/m^2, held along one edge and released in its horizontal
+/// plane. Links along all edges of its triangles (1e-5 m/N); bending (100 rad/(N m)) unless `links_only`.
 pbd::Scene cloth(int cells, bool links_only = false);
 
 /// Any solid of density 1000 kg/m^3 under gravity, its nodes at the smallest x fixed.

@@ -1,4 +1,4 @@
-#include "scenes/builders.h"
+#include "scenes/standard.h"
 
 #include <cmath>
 
@@ -9,7 +9,8 @@ using namespace pbd;
 Scene pendulum(double angle, double rate) {
   Scene scene;
   add_node(scene, Vec3::Zero(), infinity);
-  add_node(scene, Vec3(std::sin(angle), 0, -std::cos(angle)), 1, rate * Vec3(std::cos(angle), 0, std::sin(angle)));
+  add_node(scene, Vec3(std::sin(angle), 0, -std::cos(angle)), 1,
+           rate * Vec3(std::cos(angle), 0, std::sin(angle)));
   scene.effects.emplace_back(Gravity{});
   scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
   return scene;

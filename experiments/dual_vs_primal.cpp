@@ -1,0 +1,131 @@
+// Does the constraint solver, which works on the dual, reach the minimum of the primal incremental potential?
+// One step of a falling cantilever against Newton on the energy, for stiffness, strains, meshes, relaxations
+// and outer iterations; and the floor where incremental multipliers stop.
+#include <algorithm>
+#include <cmath>
+
+#include "experiments.h"
+#include "files.h"
+#include "measure.h"
+#include "mesh_file.h"
+#include "primal_newton.h"
+#include "scenes/standard.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+constexpr double step_s = 1.0 / 60;
+
+struct Problem {
+  std::string mesh;
+  TetMesh tets;
+  double young, poisson;
+  Strain strain;
+};
+
+std::vector<Problem> problems(bool full) {
+  const auto beam = [](int cells) { return kuhn_grid({cells, cells / 4, cells / 4}, Vec3(1, 0.25, 0.25)); };
+  std::vector<std::pair<std::string, TetMesh>> meshes{
+      {"grid n=8", beam(8)},
+      {"grid n=12", beam(12)},
+      {"beam.msh", read_tet_mesh(scenes_folder() / "meshes/beam.msh")}};
+  std::vector<Problem> all;
+  for (const auto& [name, mesh] : meshes)
+    for (const double young : {1e5, 1e6, 1e7})
+      for (const double poisson : {0.3, 0.45})
+        for (const Strain strain : {Strain::green, Strain::corotational, Strain::linear}) {
+          const bool small = name == "grid n=8" && (poisson == 0.3 || strain == Strain::green);
+          const bool sample = young == 1e6 && poisson == 0.3 && strain == Strain::green;
+          if (full || small || sample) all.push_back({name, mesh, young, poisson, strain});
+        }
+  return all;
+}
+
+struct Solver {
+  std::string outer, relaxation;
+  int max_outer, max_sweeps;
+};
+
+std::vector<Solver> solvers(bool full) {
+  const int budget = full ? 1000 : 200;
+  return {{"plain", "direct", 200, 10},
+          {"plain", "gauss_seidel", budget, 50},
+          {"plain", "nesterov_jacobi", budget, 50},
+          {"plain", "jacobi", budget / 4, 50},
+          {"incremental", "direct", 60, 10},
+          {"incremental", "gauss_seidel", 20 * budget / 4, 1}};
+}
+
+std::string solver_name(const Solver& solver) {
+  return solver.outer + "." + solver.relaxation;
+}
+
+/// Worst error of a solver over problems of stiffness up to `young`, and whether each claimed to be solved.
+struct Worst {
+  double error = 0;
+  void add(double e) { error = std::isnan(e) || std::isnan(error) ? std::nan("") : std::max(error, e); }
+};
+
+}  // namespace
+
+void dual_vs_primal(Context& context) {
+  const auto all = problems(context.full());
+  const auto methods = solvers(context.full());
+  context.begin(std::ssize(all));
+  const std::vector<std::string> columns{"scene",      "elements", "young_pa", "poisson", "strain", "outer",
+                                         "relaxation", "sweeps",   "error",    "wall_s",  "status", "reason"};
+  Table errors = context.table("errors", columns);
+  Table final = context.table("final", columns);
+  Worst direct, soft_gauss_seidel, soft_nesterov, false_claims;
+
+  for (const auto& problem : all) {
+    const Scene scene = clamped_solid(problem.tets, {problem.young, problem.poisson}, problem.strain);
+    State start = scene.initial;
+    for (int k = 0; k < 10; ++k) {
+      const auto judged = reference::primal_newton(scene, start, step_s);
+      start = {start.time + step_s, judged.x, judged.v};
+    }
+    const auto exact = reference::primal_newton(scene, start, step_s);
+    for (const auto& solver : methods) {
+      Method method;
+      method.outer = solver.outer;
+      method.relaxation = solver.relaxation;
+      method.tolerance = 1e-12;
+      method.max_outer = solver.max_outer;
+      method.max_sweeps = solver.max_sweeps;
+      const Trace trace = measure_once(scene, start, step_s, method, exact.x);
+      const auto status = std::string(status_names[static_cast<std::size_t>(trace.report.status)]);
+      const auto write = [&](Table& table, const TracePoint& point) {
+        table.row({problem.mesh, std::ssize(problem.tets.tets), problem.young, problem.poisson,
+                   std::string(strain_names[static_cast<std::size_t>(problem.strain)]), solver.outer,
+                   solver.relaxation, point.sweeps, point.error, point.wall_s, status,
+                   std::string(trace.report.reason)});
+      };
+      for (const auto& point : trace.points) write(errors, point);
+      const TracePoint& last = trace.points.back();
+      write(final, last);
+
+      const auto name = solver_name(solver);
+      if (name == "plain.direct") direct.add(last.error);
+      if (name == "plain.gauss_seidel" && problem.young < 5e6) soft_gauss_seidel.add(last.error);
+      if (name == "plain.nesterov_jacobi" && problem.young < 5e6) soft_nesterov.add(last.error);
+      if (trace.report.status == Status::ok) false_claims.add(last.error);
+    }
+    context.advance(problem.mesh);
+  }
+  const std::string statement = "the constraint solver reaches the primal solution with plain and ";
+  context.verdict("dual.direct", statement + "direct, all stiffnesses", "largest error", direct.error, 1e-10);
+  context.verdict("dual.gauss_seidel", statement + "gauss_seidel, E <= 1e6 Pa", "largest error",
+                  soft_gauss_seidel.error, 1e-10);
+  context.verdict("dual.nesterov_jacobi", statement + "nesterov_jacobi, E <= 1e6 Pa", "largest error",
+                  soft_nesterov.error, 1e-10);
+  context.verdict("dual.no_false_claim",
+                  "a step that claims to be solved to 1e-12 is within 1e-9 of the judge",
+                  "largest error of status ok", false_claims.error, 1e-9);
+  errors.close();
+  final.close();
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,16 @@
+// The experiments: one source each, named as here and in experiment_list.cpp.
+#pragma once
+
+#include "experiment.h"
+
+namespace pbdcheck {
+
+void judges(Context& context);
+void outer_convergence(Context& context);
+void inner_convergence(Context& context);
+void dual_vs_primal(Context& context);
+void mesh_refinement(Context& context);
+void work_precision(Context& context);
+void effects_cost(Context& context);
+
+}  // namespace pbdcheck

@@ -1,0 +1,61 @@
+#include "rows_of_step.h"
+
+#include <Eigen/Dense>
+
+#include "linearise.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+/// All rows as dense J (m x 3N), Sigma (m x m) and b (m).
+struct DenseRows {
+  Eigen::MatrixXd jacobian, sigma;
+  Eigen::VectorXd bias;
+};
+
+DenseRows dense(const Rows& rows, int nodes) {
+  const auto count = row_count(rows);
+  DenseRows all{Eigen::MatrixXd::Zero(count, 3 * nodes), Eigen::MatrixXd::Zero(count, count),
+                Eigen::VectorXd::Zero(count)};
+  std::int64_t row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i, row += Block::rows) {
+      for (int a = 0; a < Block::nodes; ++a)
+        all.jacobian.block(row, 3 * block.node[i][static_cast<std::size_t>(a)], Block::rows, 3) =
+            block.jacobian[i].template middleCols<3>(3 * a);
+      all.sigma.block(row, row, Block::rows, Block::rows) = block.compliance[i];
+      all.bias.segment(row, Block::rows) = block.bias[i];
+    }
+  });
+  return all;
+}
+
+}  // namespace
+
+LinearStep linear_step(const Scene& scene, const State& state, double h) {
+  LinearStep step;
+  std::vector<std::size_t> effect_of_block;
+  step.rows = allocate_rows(scene, effect_of_block);
+  Points acceleration;
+  accelerations(scene, acceleration);
+  step.v_free = state.v + h * acceleration;
+  const StepMap map{state.x, step.v_free, h, h};
+  const Points at_rest = Points::Zero(3, scene.nodes());
+  for (std::size_t b = 0; b < step.rows.blocks.size(); ++b)
+    linearise(scene.effects[effect_of_block[b]], map, state.x, at_rest, step.rows.inverse_mass, 1,
+              step.rows.blocks[b]);
+
+  const DenseRows all = dense(step.rows, scene.nodes());
+  Eigen::VectorXd weights(3 * scene.nodes());
+  for (int k = 0; k < weights.size(); ++k)
+    weights[k] = step.rows.inverse_mass[static_cast<std::size_t>(k / 3)];
+  const Eigen::MatrixXd weighted = all.jacobian * weights.asDiagonal();
+  const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
+  const Eigen::VectorXd impulses = n.ldlt().solve(-(all.bias + all.jacobian * step.v_free.reshaped()));
+  step.v_solved = step.v_free + (weighted.transpose() * impulses).reshaped(3, scene.nodes());
+  return step;
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,19 @@
+// The linear rows of a step, linearised once where the step begins, and their exact solution by a dense
+// factorisation.
+#pragma once
+
+#include "rows.h"
+#include "scene.h"
+
+namespace pbdcheck {
+
+struct LinearStep {
+  pbd::Rows rows;        // impulses zero
+  pbd::Points v_free;    // m/s
+  pbd::Points v_solved;  // m/s, by Eigen's dense LDL^T of N = J W J^T + Sigma
+};
+
+/// Implicit Euler rows of h seconds from `state`, linearised at its positions.
+LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h);
+
+}  // namespace pbdcheck

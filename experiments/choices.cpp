@@ -57,8 +57,8 @@ std::string joined(std::span<const std::string> names) {
 std::string allowed_names(std::string_view name, std::span<const std::string> candidates) {
   if (candidates.empty()) return "none, there are no names of this kind";
   const std::string nearest = nearest_name(name, candidates);
-  const std::string suggestion = nearest.empty() ? "" : "did you mean `" + nearest + "`? ";
-  return suggestion + (candidates.size() == 1 ? "only " : "one of ") + joined(candidates);
+  return (candidates.size() == 1 ? "only " : "one of ") + joined(candidates) +
+         (nearest.empty() ? "" : "; did you mean `" + nearest + "`?");
 }
 
 void require_name(std::string_view where, std::string_view name, std::span<const std::string> candidates) {

@@ -15,7 +15,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 /// "a, b, c".
 std::string joined(std::span<const std::string> names);
 
-/// "did you mean `x`? one of a, b, c": what an error says is allowed in the place of `name`.
+/// "one of a, b, c; did you mean `b`?": what an error says is allowed in the place of `name`.
 std::string allowed_names(std::string_view name, std::span<const std::string> candidates);
 
 /// Throws SetupError at `where` unless `name` is one of the candidates.

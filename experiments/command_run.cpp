@@ -38,13 +38,12 @@ nlohmann::ordered_json settings_json(const RunOptions& options) {
   return {{"tier", options.tier}};
 }
 
-/// Whether `directory` holds a complete run of this commit, tier and settings.
+/// Whether `directory` holds a complete run by this very program, with the same tier and settings.
 bool already_complete(const std::filesystem::path& directory, const RunOptions& options) {
   std::ifstream in(directory / "run.json");
   if (!in) return false;
   const auto record = nlohmann::ordered_json::parse(in, nullptr, false);
-  return record.is_object() && record.value("status", "") == outcome_names[0] &&
-         record.value("commit", "") == build_commit() && !record.value("dirty", true) && !build_dirty() &&
+  return record.is_object() && from_this_build(record) && record.value("status", "") == outcome_names[0] &&
          record.value("tier", "") == options.tier &&
          record.value("settings", nlohmann::ordered_json()) == settings_json(options);
 }

@@ -72,7 +72,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
     commands.push_back(command->get_name());
   const std::string first = argc > 1 ? argv[1] : "";
   if (std::find(commands.begin(), commands.end(), first) == commands.end())
-    error_message(fmt::format("got command `{}`; allowed: {}", first, allowed_names(first, commands)));
+    error_message(fmt::format("got {}; allowed: {}", first.empty() ? "no command" : "command `" + first + "`",
+                              allowed_names(first, commands)));
   else
     error_message(fmt::format("{}; see pbdcheck {} --help", error.what(), first));
   return exit_usage;

@@ -33,12 +33,9 @@ nlohmann::ordered_json libraries() {
 
 }  // namespace
 
-std::string build_commit() {
-  return build_info::commit;
-}
-
-bool build_dirty() {
-  return build_info::dirty;
+bool from_this_build(const nlohmann::ordered_json& record) {
+  return record.value("commit", "") == build_info::commit &&
+         record.value("changes", "") == build_info::changes;
 }
 
 std::string version_text() {
@@ -52,6 +49,7 @@ std::string version_text() {
 nlohmann::ordered_json provenance(int threads) {
   return {{"commit", build_info::commit},
           {"dirty", build_info::dirty},
+          {"changes", build_info::changes},
           {"version", build_info::version},
           {"compiler", build_info::compiler},
           {"flags", build_info::flags},

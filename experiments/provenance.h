@@ -7,15 +7,15 @@
 
 namespace pbdcheck {
 
-/// The commit this program was built from ("unknown" outside a git work tree), and whether files differed
-/// from it.
-std::string build_commit();
-bool build_dirty();
+/// Whether a run.json was written by this very program: the same commit ("unknown" outside a git work tree)
+/// and the same differences from it.
+bool from_this_build(const nlohmann::ordered_json& record);
 
 /// "pbdcheck VERSION (COMMIT)" and the libraries with their versions, one a line.
 std::string version_text();
 
-/// The fields every run.json begins with: commit, dirty, version, compiler, flags, processor, threads, seed,
+/// The fields every run.json begins with: commit, dirty, changes (a hash of the
+/// differences from the commit), version, compiler, flags, processor, threads, seed,
 /// libraries.
 nlohmann::ordered_json provenance(int threads);
 

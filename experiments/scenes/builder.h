@@ -28,6 +28,10 @@ struct Builder {
   pbd::Scene finish();
 };
 
+/// Bodies with more nodes than this are taken for a typing error: their step would not fit a machine's
+/// memory.
+inline constexpr double most_nodes = 1e7;
+
 /// Nodes [first, first + count) of the scene, the ones a selection may pick and counts from.
 struct NodeRange {
   int first = 0;

@@ -49,7 +49,10 @@ std::string shown(const toml::node& node) {
     out << "a list of " << array->size() << " entries";
   else
     node.visit([&](const auto& value) { out << value; });
-  return out.str();
+  std::string line;  // a list may be printed over several
+  for (const char c : out.str())
+    if (c != '\n' && !(c == ' ' && line.ends_with(' '))) line += c;
+  return line;
 }
 
 constexpr std::string_view vector_text = "a list of three finite numbers";

@@ -26,6 +26,10 @@ std::array<int, K> cells(Keys& keys) {
   const auto found = keys.integers("cells", 1);
   if (found.size() != K)
     keys.refuse("cells", fmt::format("{} numbers", found.size()), fmt::format("{} integers >= 1", K));
+  double nodes = 1;
+  for (const int count : found) nodes *= count + 1.0;
+  if (nodes > most_nodes)
+    keys.refuse("cells", fmt::format("{:g} nodes", nodes), fmt::format("at most {:g} nodes", most_nodes));
   std::array<int, K> counts{};
   std::copy(found.begin(), found.end(), counts.begin());
   return counts;

@@ -50,6 +50,8 @@ struct Chain {
 Chain read_chain(Keys& keys) {
   Chain chain;
   chain.links = keys.integer_or("links", 20, 1);
+  if (chain.links > most_nodes)
+    keys.refuse("links", std::to_string(chain.links), fmt::format("at most {:g}", most_nodes));
   chain.length = keys.number("length_m", Range::positive);
   chain.mass = keys.number("mass_kg", Range::positive);
   chain.tip_mass = keys.number_or("tip_mass_kg", chain.mass, Range::positive);

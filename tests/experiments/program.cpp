@@ -105,3 +105,24 @@ TEST_CASE("list prints names, as JSON if asked; --help, --version and completion
   }
   CHECK_THAT(run_program({"completion"}).out, Catch::Contains("complete -F _pbdcheck pbdcheck"));
 }
+
+TEST_CASE("compare writes the reference's row and every iterate of every method, with errors that fall") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"compare", scenes / "pendulum.toml", "--at-step", "30", "--method",
+                                "relaxation=direct", "--method", "relaxation=jacobi max_sweeps=50",
+                                "--reference", "primal_newton", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto rows = rows_of(folder.path / "compare.csv");
+  CHECK(rows[0] == std::vector<std::string>{"scene", "step_s", "integrator", "outer", "relaxation",
+                                            "friction", "outer_iterations", "sweeps", "row_updates", "wall_s",
+                                            "error", "status", "reason"});
+  CHECK(rows[1][3] == "primal_newton");
+  REQUIRE(rows.size() > 6);
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    CHECK(rows[i][11] == "ok");
+    const bool last = i + 1 == rows.size() || rows[i + 1][4] != rows[i][4];
+    if (last) CHECK(std::stod(rows[i][10]) < 1e-8);
+  }
+  CHECK(rows[2][4] == "direct");
+  CHECK(rows.back()[4] == "jacobi");
+}

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -25,7 +26,10 @@ std::vector<std::string> files_in(const std::filesystem::path& directory) {
   return names;
 }
 
+int times_counted = 0;
+
 const std::vector<Experiment> samples{
+    {"counted", "How often does it run?", [](Context&) { ++times_counted; }},
     {"good", "Does a verdict at its bound hold?",
      [](Context& context) { context.verdict("g1", "holds, \"just\"", "error", 1, 1); }},
     {"bad", "Does one above it fail?",
@@ -132,4 +136,33 @@ TEST_CASE("an experiment that throws or is stopped says so and leaves no partial
   CHECK(run(options, samples) == exit_interrupted);
   CHECK(run_record(folder.path / "stopped")["status"] == "interrupted");
   CHECK_FALSE(std::filesystem::exists(folder.path / "bad"));
+}
+
+TEST_CASE("--resume skips what is complete with the same tier, and repeats the rest") {
+  const TemporaryFolder folder;
+  RunOptions options{.experiments = {"counted"}, .resume = true, .directory = folder.path};
+  times_counted = 0;
+  CHECK(run(options, samples) == exit_done);
+  CHECK(run(options, samples) == exit_done);
+  CHECK(times_counted == 1);
+  options.tier = "full";
+  CHECK(run(options, samples) == exit_done);
+  CHECK(times_counted == 2);
+
+  const auto record = run_record(folder.path / "counted");
+  for (const auto& [key, value] :
+       std::map<std::string, std::string>{{"status", "interrupted"}, {"commit", "old"}}) {
+    auto changed = record;
+    changed[key] = value;
+    folder.write("counted/run.json", changed.dump());
+    const int before = times_counted;
+    CHECK(run(options, samples) == exit_done);
+    CHECK(times_counted == before + 1);
+  }
+  folder.write("counted/run.json", "{ not json");
+  CHECK(run(options, samples) == exit_done);
+  CHECK(times_counted == 5);
+  options.resume = false;
+  CHECK(run(options, samples) == exit_done);
+  CHECK(times_counted == 6);
 }

@@ -222,3 +222,24 @@ TEST_CASE("a method survives being written as text and read again") {
   CHECK(again.tolerance == method.tolerance);
   CHECK(parse_method("max_outer=3", method, "--method").outer == "frozen");
 }
+
+TEST_CASE("every example of the format's description is read") {
+  const std::filesystem::path scenes = PBDCHECK_SCENES;
+  const std::string four_particles =
+      "[particles]\nposition_m = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]\nmass_kg = 1\n";
+  const std::string document = read_text(scenes / "README.md");
+  const std::string opening = "```toml\n";
+  int count = 0;
+  for (auto at = document.find(opening); at != std::string::npos; at = document.find(opening, at + 1)) {
+    const auto begin = at + opening.size();
+    const std::string example = document.substr(begin, document.find("```", begin) - begin);
+    INFO(example);
+    const TemporaryFolder folder;
+    std::filesystem::create_directory_symlink(scenes / "meshes", folder.path / "meshes");
+    const auto whole = example + (example.find("[particles]") == std::string::npos ? four_particles : "") +
+                       (example.find("[step]") == std::string::npos ? step : "");
+    CHECK_NOTHROW(read_scene_file(folder.write("scene.toml", whole)));
+    ++count;
+  }
+  CHECK(count >= 15);
+}

@@ -59,7 +59,7 @@ struct Model {
   Vector force;            // gravity and external forces per unknown, N
 };
 
-/// Throws SetupError for a scene that `validate` refuses.
+/// Throws SetupError for a scene that `validate` refuses or that has no node of finite mass.
 Model make_model(const Scene& scene);
 
 /// Unknowns of positions x, and positions with their unknowns replaced (nodes of infinite mass from `x`).

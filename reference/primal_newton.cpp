@@ -10,6 +10,10 @@
 namespace pbd::reference {
 namespace {
 
+/// Displacements below this share of the positions count as this share: rounding would dominate relative
+/// measures.
+constexpr double smallest_displacement = 1e-6;
+
 /// Time spent, with pauses while observers run.
 class Clock {
  public:
@@ -48,7 +52,8 @@ struct Search {
   const Model& model() const { return *objective.model; }
   double displacement() const {
     const double target = objective.inertia.any() ? (objective.target - start).cwiseAbs().maxCoeff() : 0;
-    return std::max({(u - start).cwiseAbs().maxCoeff(), target, 1e-12});
+    return std::max(
+        {(u - start).cwiseAbs().maxCoeff(), target, smallest_displacement * u.cwiseAbs().maxCoeff(), 1e-300});
   }
   void show(const Vector& unknowns) {
     if (!settings.observer) return;
@@ -254,12 +259,11 @@ Judgement primal_static(const Scene& scene, const NewtonSettings& settings) {
   for (int i = 0; i < 60 && !converged; ++i, h *= 2) {
     const Vector before = search.u;
     search.objective.inertia = model.mass / (h * h);
-    search.objective.target = search.start = before;
+    search.objective.target = before;
     if (!minimise(search)) break;
     const double moved = (search.u - before).cwiseAbs().maxCoeff();
     converged = moved < 1e-4 * (search.u - at_rest).cwiseAbs().maxCoeff() + 1e-14;
   }
-  search.start = at_rest;
   search.objective.inertia.setZero();
   if (converged && model.hard_rows > 0) {
     const Polish p = polish(search.objective, search.assembly, {search.displacement(), 1e-10}, search.u,

@@ -1,5 +1,5 @@
 // Values against formulas, derivatives against finite differences.
-#include "energies.h"
+#include "assembly.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

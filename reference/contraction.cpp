@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "energies.h"
+#include "assembly.h"
 #include "error.h"
 
 namespace pbd::reference {

@@ -57,9 +57,14 @@ struct Model {
   std::vector<int> first;  // per node: its first unknown, or -1
   Vector mass;             // per unknown, kg
   Vector force;            // gravity and external forces per unknown, N
+
+  /// First unknown of an element's node a, or -1.
+  int unknown(const Element& element, int a) const {
+    return first[static_cast<std::size_t>(element.node[static_cast<std::size_t>(a)])];
+  }
 };
 
-/// Throws SetupError for a scene that `validate` refuses.
+/// Throws SetupError for a scene that `validate` refuses or that has no node of finite mass.
 Model make_model(const Scene& scene);
 
 /// Unknowns of positions x, and positions with their unknowns replaced (nodes of infinite mass from `x`).
@@ -82,46 +87,9 @@ struct Multipliers {
 /// L at x (J).
 double lagrangian(const Model& model, const Points& x, const Multipliers& multipliers);
 
-/// L, its gradient and Hessian by the unknowns, the hard values c and their Jacobian. `magnitude` bounds the
-/// sum of the absolute contributions to each gradient entry: the scale of its rounding errors.
-struct Derivatives {
-  double value = 0;
-  Vector gradient, magnitude;
-  SparseMatrix hessian;   // unknowns x unknowns, both triangles, constant pattern
-  Vector hard;            // c, hard_rows
-  SparseMatrix jacobian;  // hard_rows x unknowns
-};
-enum class Curvature {
-  full,
-  projected
-};  // projected: every element's Hessian by F made positive semidefinite
-
-/// Evaluates L with derivatives; keeps the pattern of the Hessian between calls.
-class Assembly {
- public:
-  explicit Assembly(const Model& model);
-  const Derivatives& at(const Points& x, const Multipliers& multipliers,
-                        Curvature curvature = Curvature::full);
-
- private:
-  void add(const Element& element, std::size_t index, const Multipliers& multipliers, Curvature curvature);
-  void add_jacobian(const Element& element, int node, int unknown);
-
-  const Model* model_;
-  Local local_;
-  Derivatives result_;
-  std::vector<std::array<int, 16>> offset_;  // of each node pair's block within its columns of the Hessian
-  std::vector<Eigen::Triplet<double>> jacobian_;
-};
-
-/// Constraint rows of all elements, hard and compliant, in the scene's order: c, J (rows x unknowns), force
-/// multipliers (gamma, or -A^-1 c), and the geometric stiffness sum_i multiplier_i d2c_i/dx2 (N/m).
-struct Rows {
-  std::vector<int> first;  // first row of each element, and the number of rows at the end
-  Vector value, multiplier;
-  Eigen::MatrixXd jacobian, geometric;
-};
-/// Dense: for small scenes.
-Rows all_rows(const Model& model, const Points& x, const Vector& gamma);
+/// Force-like factors of an element's rows, dL/dc: A^-1 c, or rho c - gamma for a hard one.
+RowVector stress(const Element& element, const RowVector& c, const Multipliers& multipliers);
+/// The element's part of L (J).
+double energy(const Element& element, const RowVector& c, const Multipliers& multipliers);
 
 }  // namespace pbd::reference

@@ -27,7 +27,8 @@ struct Judgement {
       0;  // largest unbalanced force, relative to the largest sum of absolute force contributions
   double infeasible =
       0;  // largest |c| of a hard row, divided by the length of its gradient and by the displacement
-  double correction = 0;  // last Newton correction of x, relative to the largest displacement of the step
+  double correction =
+      0;  // last Newton correction of x, relative to the step's largest displacement (or 1e-6 |x| if larger)
   bool certified =
       false;     // a strict local minimum: Hessian positive definite on the hard constraints' null space
   int rank = 0;  // of the hard constraints' Jacobian; -1 where the judge does not find it

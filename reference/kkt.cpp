@@ -92,15 +92,19 @@ std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobi
 }
 
 Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma) {
-  // Tikhonov's solution, refined: it stays in the range of J and converges to the solution of least norm.
+  // Tikhonov's solution, refined until the force is met: it stays in the range of J, hence has least norm.
+  // Each refinement adds rounding errors outside the range, divided by the shift.
+  constexpr double relative_shift = 1e-6, met = 1e-13;
   SparseMatrix normal = jacobian * jacobian.transpose();
-  const double shift = 1e-10 * normal.diagonal().maxCoeff();
+  const double shift = relative_shift * normal.diagonal().maxCoeff();
   for (int i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
   Eigen::CholmodSupernodalLLT<SparseMatrix> factor(normal);
   const Vector force = jacobian.transpose() * gamma;
-  Vector least = Vector::Zero(gamma.size());
-  for (int i = 0; i < 20; ++i)
-    least += factor.solve(Vector(jacobian * (force - jacobian.transpose() * least)));
+  Vector least = Vector::Zero(gamma.size()), missing = force;
+  for (int i = 0; i < 50 && missing.norm() > met * force.norm(); ++i) {
+    least += factor.solve(Vector(jacobian * missing));
+    missing = force - jacobian.transpose() * least;
+  }
   return least;
 }
 

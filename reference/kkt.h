@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "energies.h"
+#include "assembly.h"
 #include "judge.h"
 
 namespace pbd::reference {

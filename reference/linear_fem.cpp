@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "energies.h"
+#include "assembly.h"
 
 namespace pbd::reference {
 namespace {

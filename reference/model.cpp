@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "energies.h"
+#include "error.h"
 #include "validate.h"
 
 namespace pbd::reference {
@@ -139,6 +140,7 @@ Model make_model(const Scene& scene) {
     model.first.push_back(fixed ? -1 : model.unknowns);
     if (!fixed) model.unknowns += 3;
   }
+  if (model.unknowns == 0) throw SetupError("scene mass", "infinite masses only", "at least one finite mass");
   model.mass.resize(model.unknowns);
   model.force.setZero(model.unknowns);
   for (std::size_t a = 0; a < scene.mass.size(); ++a)

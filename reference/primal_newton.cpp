@@ -1,124 +1,11 @@
 #include "primal_newton.h"
 
-#include <Eigen/CholmodSupport>
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "kkt.h"
+#include "newton_search.h"
 
 namespace pbd::reference {
 namespace {
-
-/// Time spent, with pauses while observers run.
-class Clock {
- public:
-  double seconds() const { return spent_ + since(); }
-  void pause() { spent_ += since(); }
-  void resume() { start_ = now(); }
-
- private:
-  using Time = std::chrono::steady_clock::time_point;
-  static Time now() { return std::chrono::steady_clock::now(); }
-  double since() const { return std::chrono::duration<double>(now() - start_).count(); }
-  Time start_ = now();
-  double spent_ = 0;
-};
-
-/// One minimisation: the objective, its factorisation and what happened so far.
-struct Search {
-  Objective objective;
-  Assembly assembly;
-  Vector u, start;  // unknowns now and at the beginning, m
-  Multipliers multipliers;
-  const NewtonSettings& settings;
-  Clock clock;
-  Eigen::CholmodSupernodalLLT<SparseMatrix> factor;
-  bool analysed = false;
-  int iterations = 0, projected = 0, shifted = 0, rank = 0;
-  double correction = 0;
-
-  Search(Objective problem, const Vector& first, const NewtonSettings& s)
-      : objective(std::move(problem)), assembly(*objective.model), u(first), start(first), settings(s) {
-    multipliers.gamma.setZero(objective.model->hard_rows);
-    factor.cholmod().print = 0;
-    factor.cholmod().quick_return_if_not_posdef = 1;
-  }
-
-  const Model& model() const { return *objective.model; }
-  double displacement() const {
-    const double target = objective.inertia.any() ? (objective.target - start).cwiseAbs().maxCoeff() : 0;
-    return std::max({(u - start).cwiseAbs().maxCoeff(), target, 1e-12});
-  }
-  void show(const Vector& unknowns) {
-    if (!settings.observer) return;
-    clock.pause();
-    settings.observer(clock.seconds(), objective.positions(unknowns));
-    clock.resume();
-  }
-};
-
-bool factorise(Search& s, const SparseMatrix& hessian, double shift) {
-  SparseMatrix h = hessian;
-  h.diagonal() += s.objective.inertia + shift * s.model().mass;
-  if (!s.analysed) s.factor.analyzePattern(h);
-  s.analysed = true;
-  s.factor.factorize(h);
-  return s.factor.info() == Eigen::Success;
-}
-
-/// Factorises the Hessian at u, made positive definite if it is not. Returns the gradient and its magnitude.
-struct Slope {
-  Vector gradient, magnitude;
-  double value;
-};
-Slope factorise_at(Search& s) {
-  const Points x = s.objective.positions(s.u);
-  const Derivatives* d = &s.assembly.at(x, s.multipliers);
-  Slope slope{s.objective.gradient(s.u, *d), s.objective.magnitude(s.u, *d),
-              s.objective.value(s.u, s.multipliers)};
-  if (factorise(s, d->hessian, 0)) return slope;
-  ++s.projected;
-  d = &s.assembly.at(x, s.multipliers, Curvature::projected);
-  double shift = 0;
-  const double unit = std::max(d->hessian.diagonal().cwiseQuotient(s.model().mass).maxCoeff(), 1e-300);
-  while (!factorise(s, d->hessian, shift)) {
-    shift = std::max(10 * shift, 1e-10 * unit);
-    ++s.shifted;
-  }
-  return slope;
-}
-
-/// Largest t in 1, 1/2, 1/4 ... with sufficient decrease (up to rounding), or 0.
-double line_search(const Search& s, const Slope& slope, const Vector& dx) {
-  const double rounding = 1e-15 * (slope.magnitude.dot(s.u.cwiseAbs()) + std::abs(slope.value));
-  const double descent = slope.gradient.dot(dx);
-  for (double t = 1; t > 1e-12; t /= 2) {
-    const double value = s.objective.value(s.u + t * dx, s.multipliers);
-    if (std::isfinite(value) && value <= slope.value + 1e-4 * t * descent + rounding) return t;
-  }
-  return 0;
-}
-
-/// Newton with fixed multipliers until the correction, relative to the displacement, is below the tolerance
-/// or stalls at rounding. Returns whether it did.
-bool descend(Search& s, double tolerance) {
-  constexpr double rounding = 1e-9;
-  double previous = infinity;
-  for (; s.iterations < s.settings.max_iterations; ++s.iterations) {
-    const Slope slope = factorise_at(s);
-    const Vector dx = -s.factor.solve(slope.gradient);
-    const double t = line_search(s, slope, dx);
-    s.correction = dx.cwiseAbs().maxCoeff() / s.displacement();
-    if (!std::isfinite(s.correction) || t == 0) return s.correction < rounding;
-    s.u += t * dx;
-    s.show(s.u);
-    const bool stalled = s.correction < rounding && s.correction > 0.25 * previous;
-    if (t == 1 && (s.correction <= tolerance || stalled)) return ++s.iterations, true;
-    previous = s.correction;
-  }
-  return false;
-}
 
 /// Penalties (N/m) that make each hard row alone `weight` times as stiff as the inertia it acts on; none for
 /// rows without unknowns.
@@ -254,12 +141,11 @@ Judgement primal_static(const Scene& scene, const NewtonSettings& settings) {
   for (int i = 0; i < 60 && !converged; ++i, h *= 2) {
     const Vector before = search.u;
     search.objective.inertia = model.mass / (h * h);
-    search.objective.target = search.start = before;
+    search.objective.target = before;
     if (!minimise(search)) break;
     const double moved = (search.u - before).cwiseAbs().maxCoeff();
     converged = moved < 1e-4 * (search.u - at_rest).cwiseAbs().maxCoeff() + 1e-14;
   }
-  search.start = at_rest;
   search.objective.inertia.setZero();
   if (converged && model.hard_rows > 0) {
     const Polish p = polish(search.objective, search.assembly, {search.displacement(), 1e-10}, search.u,

@@ -33,6 +33,15 @@ TEST_CASE("a clamped beam of linear tetrahedra has the compliance of its mesh") 
   CHECK(compliance(4) == Approx(3.1730961e-3).epsilon(1e-7));
 }
 
+TEST_CASE("a bar without Poisson contraction stretches exactly under end traction") {
+  const LinearSolid solid = clamped_beam({4, 2, 2}, Vec3(1, 0.1, 0.1), {1e7, 0}, 1000);
+  const auto tip = [](const Vec3& x) { return x.x() > 1 - 1e-9; };
+  const Points u = linear_static(solid, face_loads(solid.mesh, tip, Vec3(1e4, 0, 0)));
+  Points exact = Points::Zero(3, u.cols());
+  exact.row(0) = 1e-3 * solid.mesh.x.row(0);
+  CHECK((u - exact).cwiseAbs().maxCoeff() <= 1e-15);
+}
+
 TEST_CASE("a clamped beam of linear tetrahedra has the first frequency of its mesh") {
   const auto first = [](int n, MassMatrix mass) { return linear_modes(beam(n), 2, mass).front(); };
   CHECK(first(1, MassMatrix::consistent) == Approx(3.02611455).epsilon(1e-8));

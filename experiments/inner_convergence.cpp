@@ -52,6 +52,7 @@ std::vector<Case> cases(bool full) {
 struct Run {
   std::vector<double> error;    // after each sweep
   std::vector<double> seconds;  // spent so far
+  double factor = 1;            // omega that Jacobi used
 };
 
 constexpr double rounding_floor = 1e-13;
@@ -78,6 +79,7 @@ Run run_once(const Case& each, const LinearStep& step, std::string_view name) {
           if (name == Direct::name && k >= 3) break;
           start = Clock::now();
         }
+        if constexpr (requires { relaxation.factor(); }) found.factor = relaxation.factor();
       },
       any);
   return found;
@@ -107,22 +109,17 @@ struct Prediction {
   std::string theory;
 };
 
-Prediction predict(const Case& each, std::string_view relaxation) {
-  const auto dense = reference::relaxation_rates(each.scene, each.state.x, each.h);
+Prediction predict(const Case& each, std::string_view relaxation, double factor) {
   if (relaxation == Direct::name) return {0, "exact"};
-  if (relaxation == NesterovJacobi::name)
-    return {1 - 1 / std::sqrt(dense.kappa), "1 - 1/sqrt(kappa), Nesterov's bound"};
-  if (each.chain_links > 0) {
-    const double jacobi = std::cos(std::numbers::pi / (each.chain_links + 1));
-    return relaxation == Jacobi::name ? Prediction{jacobi, "cos(pi/(N+1))"}
-                                      : Prediction{jacobi * jacobi, "cos(pi/(N+1))^2"};
+  const bool jacobi = relaxation == Jacobi::name;
+  if (each.chain_links > 0 && relaxation != NesterovJacobi::name) {
+    const double radius = std::cos(std::numbers::pi / (each.chain_links + 1));
+    return jacobi ? Prediction{radius, "cos(pi/(N+1))"} : Prediction{radius * radius, "cos(pi/(N+1))^2"};
   }
-  if (relaxation == Jacobi::name) {
-    const double omega = std::min(1.0, 2 / dense.largest);
-    return {std::max(std::abs(1 - omega * dense.smallest), std::abs(1 - omega * dense.largest)),
-            "damped by omega = min(1, 2/largest eigenvalue)"};
-  }
-  return {dense.gauss_seidel, "spectral radius of the dense iteration matrix"};
+  const auto dense = reference::relaxation_rates(each.scene, each.state.x, each.h, factor);
+  if (jacobi) return {dense.jacobi, "spectral radius of I - omega D^-1 N"};
+  if (relaxation == GaussSeidel::name) return {dense.gauss_seidel, "spectral radius of -(L + D)^-1 L^T"};
+  return {1 - 1 / std::sqrt(dense.condition), "1 - 1/sqrt(kappa), Nesterov's bound"};
 }
 
 /// The errors that draw the curve: all of the first 100 sweeps, then about 1 % apart.
@@ -141,7 +138,7 @@ void run_case(Context& context, const Case& each, Table& errors, Table& rates) {
       if (worth_drawing(k, found.error.size()))
         errors.row({each.name, std::string(name), static_cast<std::int64_t>(k + 1), found.seconds[k],
                     found.error[k], status, reason});
-    const Prediction predicted = predict(each, name);
+    const Prediction predicted = predict(each, name, found.factor);
     const double measured = name == Direct::name ? found.error.front() : measured_rate(found.error);
     rates.row({each.name, std::string(name), predicted.rate, measured, predicted.theory, status, reason});
     if (each.chain_links > 0 && (name == Jacobi::name || name == GaussSeidel::name))

@@ -1,9 +1,9 @@
 #include "judges.h"
 
 #include "choices.h"
-#include "closed_form.h"
 #include "error.h"
 #include "judge.h"
+#include "known_answers.h"
 
 namespace pbdcheck {
 

@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 /// Root n = 1, 2, ... of cosh(x) cos(x) = sign, near (n - 1/2) pi (clamped-free, sign -1) or (n + 1/2) pi
 /// (free-free, 1). Divided by cosh, so that it stays of order one.
 double beam_root(int mode, double sign) {
-  const double near = (mode - sign * -0.5) * pi;
+  const double near = (mode + sign * 0.5) * pi;
   return find_root([&](double x) { return std::cos(x) - sign / std::cosh(x); }, near - 0.45, near + 0.45);
 }
 

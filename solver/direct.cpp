@@ -76,11 +76,13 @@ void Direct::analyse(const Rows& rows) {
     velocity_column_.push_back(inverse_mass > 0 ? unknowns : -1);
     if (inverse_mass > 0) unknowns += 3;
   }
+  const int velocities = unknowns;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    const bool redundant = block.size() * Block::rows > static_cast<std::size_t>(velocities);
     auto& columns = impulse_column_.emplace_back();
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const bool eliminated =
-          block.compliance[i].trace() > eliminated_above * trace_of_delassus(block, rows.inverse_mass, i);
+      const double least = redundant ? 0 : eliminated_above * trace_of_delassus(block, rows.inverse_mass, i);
+      const bool eliminated = block.compliance[i].trace() > least;
       columns.push_back(eliminated ? -1 : unknowns);
       if (!eliminated) unknowns += Block::rows;
     }

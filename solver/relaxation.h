@@ -48,6 +48,7 @@ class Jacobi {
   static constexpr std::string_view name = "jacobi";
   void begin(Rows& rows, const Points& v, bool fresh);
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+  double factor() const { return omega_; }  // omega of the last linearisation
   std::int64_t setup_sweeps() const { return bound_.sweeps(); }
 
  private:
@@ -80,8 +81,8 @@ class NesterovJacobi {
 /// keep their rows:
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
-/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-12 of N_ii, keeps redundant rows
-/// solvable and is removed by the refinement.
+/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
+/// rows solvable and is removed by the refinement.
 class Direct {
  public:
   static constexpr std::string_view name = "direct";

@@ -38,7 +38,7 @@ struct NodeRange {
 /// point), `box_m` ([lowest, highest corner]; all within, borders included) or `corners` (a list of places in
 /// the nodes' bounding box, 0 to 1 along each axis; the nearest node to each). Indices count from the range's
 /// first node; positions are the initial ones. Refuses a table with none or several of these keys, an index
-/// out of range or twice, and a box without nodes.
+/// out of range or twice, and a box without nodes. To be called after the table's other keys were read.
 std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range);
 
 /// `compliance_m_per_n` or its inverse `stiffness_n_per_m`, whichever stands there; 0 if neither does.

@@ -79,7 +79,8 @@ void hold(Keys& keys, Builder& builder, const NodeRange& range) {
   if (tables.empty()) return;
   pbd::Anchor anchor;
   for (auto& anchored : tables) {
-    builder.anchor(anchored, select_nodes(anchored, builder.scene, range), read_compliance(anchored), anchor);
+    const double compliance = read_compliance(anchored);
+    builder.anchor(anchored, select_nodes(anchored, builder.scene, range), compliance, anchor);
     anchored.refuse_unknown();
   }
   builder.add(tables[0].line(), std::move(anchor));

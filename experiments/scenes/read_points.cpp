@@ -130,9 +130,11 @@ void read_anchors(Keys& root, Builder& builder) {
   if (tables.empty()) return;
   pbd::Anchor effect;
   for (auto& keys : tables) {
+    const double compliance = read_compliance(keys);
+    const bool moved = keys.has("target_m");
     const auto nodes = select_nodes(keys, builder.scene, all_nodes(builder.scene));
-    builder.anchor(keys, nodes, read_compliance(keys), effect);
-    if (keys.has("target_m")) {
+    builder.anchor(keys, nodes, compliance, effect);
+    if (moved) {
       if (nodes.size() != 1) keys.refuse("target_m", "one target for several nodes", "one node");
       effect.target.back() = keys.vector("target_m");
     }

@@ -66,14 +66,15 @@ Probe read_probe(Keys& keys, const pbd::Scene& scene) {
   Probe probe;
   probe.kind = keys.choice_or("kind", "", kinds);
   const bool at_node = probe.kind == "position" || probe.kind == "velocity";
+  const bool named = keys.has("name");
   if (at_node) {
     const auto nodes = select_nodes(keys, scene, {0, scene.nodes()});
     if (nodes.size() != 1)
       throw pbd::SetupError(keys.where(), fmt::format("{} nodes", nodes.size()), "one node");
     probe.node = nodes[0];
   }
-  probe.name = keys.has("name") ? keys.text("name") : at_node ? fmt::format("node_{}", probe.node) : "";
-  if (keys.has("name") && !name_is_plain(probe.name))
+  probe.name = named ? keys.text("name") : at_node ? fmt::format("node_{}", probe.node) : "";
+  if (named && !name_is_plain(probe.name))
     keys.refuse("name", "`" + probe.name + "`", "lower case letters, digits and _");
   keys.refuse_unknown();
   return probe;

@@ -1,0 +1,180 @@
+// What a user can get wrong: each mistake is refused with exit code 2 and a message that says where it is,
+// what stands there and what may, and nothing is written.
+#include <catch2/catch.hpp>
+
+#include "program.h"
+
+using namespace pbdcheck::test;
+
+namespace {
+
+// Lines 1 to 9 of every scene below.
+const std::string two_particles = R"([[particle]]
+position_m = [0, 0, 0]
+mass_kg = 1
+[[particle]]
+position_m = [1, 0, 0]
+mass_kg = 1
+[step]
+step_s = 0.01
+steps = 2
+)";
+
+struct Mistake {
+  std::string text;  // of the whole scene if it contains [step], of what follows the two particles otherwise
+  std::vector<std::string> message;
+};
+
+const std::vector<Mistake> mistakes{
+    {"[graviti]\n", {"scene.toml:10: graviti", "unknown key", "did you mean `gravity`?"}},
+    {"[gravity]\nacceleration = [0, 0, -1]\n",
+     {"scene.toml:11: gravity.acceleration", "did you mean `acceleration_m_s2`?"}},
+    {"[gravity]\nacceleration_m_s2 = [0, 0]\n",
+     {"scene.toml:11: gravity.acceleration_m_s2", "[ 0, 0 ]", "three"}},
+    {"[gravity]\nacceleration_m_s2 = [0, 0, nan]\n", {"scene.toml:11", "got nan", "a finite number"}},
+    {"[gravity]\nacceleration_m_s2 = \"down\"\n",
+     {"scene.toml:11", "down", "a list of three finite numbers"}},
+    {"[gravity\n", {"scene.toml:10", "TOML"}},
+    {"[[particle]]\nposition_m = [0, 1, 0]\nmass_kg = -1\n",
+     {"scene.toml:12: particle.2.mass_kg", "got -1", "a number > 0, or inf"}},
+    {"[[particle]]\nposition_m = [0, 1, 0]\nmass_kg = nan\n", {"scene.toml:12", "got nan", "> 0"}},
+    {"[[particle]]\nposition_m = [0, inf, 0]\nmass_kg = 1\n",
+     {"scene.toml:11: particle.2.position_m", "got inf"}},
+    {"[[particle]]\nposition_m = [0, 1, 0]\n", {"scene.toml:10: particle.2.mass_kg", "got nothing"}},
+    {"[particles]\nposition_m = [[0, 1, 0], [0, 2, 0]]\nmass_kg = [1, 2, 3]\n",
+     {"scene.toml:12: particles.mass_kg", "3 numbers", "a list of 2"}},
+    {"[[distance]]\nnodes = [0, 0]\n",
+     {"scene.toml:11: distance.0.nodes", "node 0 twice", "different nodes"}},
+    {"[[distance]]\nnodes = [0, 2]\n", {"scene.toml:11", "got 2", "a node index from 0 to 1"}},
+    {"[[distance]]\nnodes = [0, -1]\n", {"scene.toml:11", "got -1", "an integer >= 0"}},
+    {"[[distance]]\nnodes = [0, 1, 2]\n", {"scene.toml:11", "[ 0, 1, 2 ]", "2 integers"}},
+    {"[[distance]]\nnodes = [0, 1]\nrest_length_m = -1\n",
+     {"scene.toml:12", "got -1", "a finite number >= 0"}},
+    {"[[distance]]\nnodes = [0, 1]\ncompliance_m_per_n = -1e-3\n",
+     {"scene.toml:12: distance.0.compliance_m_per_n", "got -0.001", ">= 0"}},
+    {"[[distance]]\nnodes = [0, 1]\ncompliance_m_per_n = 1\nstiffness_n_per_m = 1\n",
+     {"scene.toml:13: distance.0.stiffness_n_per_m", "one of them"}},
+    {"[[anchor]]\nnode = 0\n[[anchor]]\nnode = 0\n", {"scene.toml:12: anchor.1", "node 0 anchored twice"}},
+    {"[[anchor]]\nnodes = [0, 0]\n", {"scene.toml:11: anchor.0.nodes", "node 0 twice", "each node once"}},
+    {"[[anchor]]\nnode = 7\n", {"scene.toml:11: anchor.0.node", "got 7", "from 0 to 1"}},
+    {"[[anchor]]\nbox_m = [[5, 5, 5], [6, 6, 6]]\n",
+     {"scene.toml:11: anchor.0.box_m", "a box without nodes"}},
+    {"[[anchor]]\ncompliance_m_per_n = 0\n", {"scene.toml:10: anchor.0", "exactly one of node, nodes"}},
+    {"[[anchor]]\nnod = 0\n", {"scene.toml:11: anchor.0.nod", "did you mean `node`?"}},
+    {"[[bending]]\nnodes = [0, 1, 1, 0]\n", {"scene.toml:11: bending.0.nodes", "twice"}},
+    {"[[force]]\nnode = 0\n", {"scene.toml:10: force.0.force_n", "got nothing"}},
+    {"[[chain]]\nlength_m = 1\nmass_kg = 1\nlinks = 0\n", {"scene.toml:13: chain.0.links", "got 0", ">= 1"}},
+    {"[[chain]]\nlength_m = 1\nmass_kg = 1\ndirection = [0, 0, 0]\n", {"scene.toml:13", "the zero vector"}},
+    {"[[chain]]\nlength_m = 1\nmass_kg = 1\nstart = \"anchord\"\n",
+     {"scene.toml:13", "did you mean `anchored`?"}},
+    {"[method]\nrelaxation = \"jacoby\"\n",
+     {"scene.toml:11: method.relaxation", "`jacoby`", "did you mean `jacobi`?", "gauss_seidel"}},
+    {"[method]\nintegrator = \"euler\"\n", {"scene.toml:11: method.integrator", "`euler`", "implicit_euler"}},
+    {"[method]\nmax_outer = 0\n", {"scene.toml:11: method.max_outer", "got 0", "an integer >= 1"}},
+    {"[method]\nmax_sweeps = 1.5\n", {"scene.toml:11: method.max_sweeps", "got 1.5", "an integer"}},
+    {"[method]\nwarm_start = 1\n", {"scene.toml:11: method.warm_start", "got 1", "true or false"}},
+    {"[method]\ntolerance = \"small\"\n",
+     {"scene.toml:11: method.tolerance", "small", "a finite number >= 0"}},
+    {"[[probe]]\nkind = \"speed\"\n", {"scene.toml:11: probe.0.kind", "`speed`", "position, velocity"}},
+    {"[[probe]]\nkind = \"position\"\n", {"scene.toml:10: probe.0", "no choice of nodes"}},
+    {"[[probe]]\nkind = \"energy\"\n[[probe]]\nkind = \"energy\"\n",
+     {"scene.toml:12: probe.1", "same columns"}},
+    {"[[probe]]\nkind = \"energy\"\nname = \"a,b\"\n", {"scene.toml:12: probe.0.name", "`a,b`"}},
+    {"[[cloth]]\nfile = \"none.obj\"\narea_density_kg_m2 = 1\n",
+     {"scene.toml:11: cloth.0.file", "no such file"}},
+    {"[[cloth]]\ncells = [2, 0]\nsize_m = [1, 1]\narea_density_kg_m2 = 1\n",
+     {"scene.toml:11: cloth.0.cells", "got 0"}},
+    {"[[solid]]\ncells = [1, 1, 1]\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1\nyoung_pa = 1\npoisson = 0.5\n",
+     {"scene.toml:15: solid.0.poisson", "got 0.5", "-1 < poisson < 0.5"}},
+    {"[[solid]]\ncells = [1, 1, 1]\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1\nyoung_pa = inf\npoisson = 0.3\n",
+     {"scene.toml:14: solid.0.young_pa", "got inf"}},
+    {"[[solid]]\nfile = \"inverted.node\"\ndensity_kg_m3 = 1\nyoung_pa = 1\npoisson = 0\n",
+     {"scene.toml:10: solid.0", "inverted.node tetrahedron 1", "volume -", "a positive volume"}},
+    {"[[solid]]\nfile = \"bad.msh\"\ndensity_kg_m3 = 1\nyoung_pa = 1\npoisson = 0\n",
+     {"bad.msh:2", "binary", "ASCII"}},
+    {"[step]\nstep_s = 0\nsteps = 1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
+     {"scene.toml:2: step.step_s", "got 0", "a finite number > 0"}},
+    {"[step]\nstep_s = 0.1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
+     {"scene.toml:1: step.duration_s", "got nothing"}},
+    {"[step]\nstep_s = 0.1\nsteps = 1\n", {"scene.toml", "a scene without nodes"}},
+};
+
+std::string whole_scene(const Mistake& mistake) {
+  return mistake.text.starts_with("[step]") ? mistake.text : two_particles + mistake.text;
+}
+
+void check_refused(const Ran& ran, const std::vector<std::string>& message) {
+  CHECK(ran.exit_code == 2);
+  CHECK(ran.out.empty());
+  for (const auto& part : message) CHECK_THAT(ran.err, Catch::Contains(part));
+}
+
+}  // namespace
+
+TEST_CASE("mistakes in a scene file are refused with line, key, value and what is allowed") {
+  for (const auto& mistake : mistakes) {
+    INFO(mistake.text);
+    const TemporaryFolder folder;
+    folder.write("inverted.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n");
+    folder.write("inverted.ele", "2 4 0\n0 0 1 2 3\n1 0 1 2 4\n");
+    folder.write("bad.msh", "$MeshFormat\n4.1 1 8\n");
+    const auto scene = folder.write("scene.toml", whole_scene(mistake));
+    const auto out = folder.path / "out";
+    check_refused(run_program({"simulate", scene, "-o", out}), mistake.message);
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+}
+
+TEST_CASE("mistakes in --set are refused with the setting") {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.toml", two_particles);
+  const std::vector<std::pair<std::string, std::vector<std::string>>> settings{
+      {"method.relaxatoin=jacobi", {"--set method.relaxatoin", "unknown key", "did you mean `relaxation`?"}},
+      {"method.relaxation=jacoby", {"--set method.relaxation", "`jacoby`", "did you mean `jacobi`?"}},
+      {"step.step_s=-1", {"--set step.step_s", "got -1", "> 0"}},
+      {"step.step_s=fast", {"--set step.step_s", "fast", "a finite number > 0"}},
+      {"stepp.step_s=1", {"--set stepp", "did you mean `step`?"}},
+      {"particle.2.mass_kg=1", {"--set particle.2.mass_kg", "entry `2`", "from 0 to 1"}},
+      {"particle.x.mass_kg=1", {"--set particle.x.mass_kg", "entry `x`"}},
+      {"step.step_s.x=1", {"--set step.step_s.x", "below a value"}},
+      {"step..step_s=1", {"--set step..step_s", "a dotted path"}},
+      {"step.step_s", {"--set", "`step.step_s`", "KEY=VALUE"}}};
+  for (const auto& [setting, message] : settings) {
+    INFO(setting);
+    const auto out = folder.path / "out";
+    check_refused(run_program({"simulate", scene, "--set", setting, "-o", out}), message);
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+}
+
+TEST_CASE("mistakes on the command line are refused with what is allowed") {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("scene.toml", two_particles).string();
+  const auto file = folder.write("file", "").string();
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> lines{
+      {{"simulat", scene}, {"`simulat`", "did you mean `simulate`?"}},
+      {{"simulate", folder.path / "none.toml"}, {"none.toml", "no such file"}},
+      {{"simulate"}, {"SCENE"}},
+      {{"simulate", scene, "--exprot", "vtk"}, {"--exprot"}},
+      {{"simulate", scene, "--export", "vtu"}, {"--export", "`vtu`", "vtk"}},
+      {{"simulate", scene, "-o", file}, {"-o", file, "a directory"}},
+      {{"simulate", scene, "-o", file + "/below"}, {"-o", file, "a directory"}},
+      {{"simulate", scene, "-o", "/proc/nothing"}, {"-o", "/proc/nothing", "a directory"}},
+      {{"list", "integratorz"}, {"`integratorz`", "did you mean `integrators`?"}},
+      {{"run", "no_such_experiment"}, {"run", "`no_such_experiment`"}},
+      {{"run"}, {"nothing to run", "--all"}},
+      {{"run", "--all", "--tier", "ful"}, {"--tier", "did you mean `full`?"}},
+      {{"run", "--all", "--threads", "0"}, {"--threads", "got 0"}},
+      {{"run", "--all", "--threads", "many"}, {"--threads", "many"}},
+      {{"compare", scene}, {"--method"}},
+      {{"compare", scene, "--method", "relaxation=jacoby"},
+       {"--method relaxation", "did you mean `jacobi`?"}},
+      {{"compare", scene, "--method", "speed=1"}, {"--method speed", "unknown key"}},
+      {{"compare", scene, "--method", "outer=plain", "--reference", "oracle"}, {"--reference", "`oracle`"}},
+      {{"compare", scene, "--method", "outer=plain", "--at-step", "-1"}, {"--at-step"}},
+      {{"completion", "fish"}, {"`fish`", "bash"}}};
+  for (const auto& [line, message] : lines) {
+    INFO(line[0] << " " << (line.size() > 1 ? line.back() : ""));
+    check_refused(run_program(line), message);
+  }
+}

@@ -1,0 +1,133 @@
+// Predicted rates against formulas and stated values.
+#include "contraction.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "closed_form.h"
+#include "error.h"
+#include "mesh.h"
+#include "primal_newton.h"
+
+using namespace pbd;
+using namespace pbd::reference;
+
+namespace {
+
+/// Straight vertical chain of hard links below a fixed node (or between two if `closed`), equal masses but
+/// the last.
+Scene vertical_chain(int masses, double last, bool closed) {
+  Scene scene;
+  Distance links;
+  add_node(scene, Vec3::Zero(), infinity);
+  for (int i = 1; i <= masses + (closed ? 1 : 0); ++i) {
+    add_node(scene, Vec3(0, 0, -i), i > masses ? infinity : i == masses ? last : 1);
+    links.node.push_back({i - 1, i});
+    links.rest_length.push_back(1);
+    links.compliance.push_back(0);
+  }
+  scene.effects = {Gravity{}, links};
+  return scene;
+}
+
+RelaxationRates rates_of(const Scene& scene) {
+  return relaxation_rates(scene, scene.initial.x, 1.0 / 60);
+}
+
+}  // namespace
+
+TEST_CASE("a chain's Jacobi radius is a cosine and Gauss-Seidel's its square") {
+  for (const int links : {2, 5, 10, 20}) {
+    // N links fixed at neither end have the tridiagonal matrix (-1, 2, -1).
+    Scene scene = vertical_chain(links + 1, 1, false);
+    auto& chain = std::get<Distance>(scene.effects[1]);
+    chain.node.erase(chain.node.begin());
+    chain.rest_length.pop_back(), chain.compliance.pop_back();
+    const RelaxationRates rates = rates_of(scene);
+    CHECK(rates.jacobi == Approx(chain_jacobi_radius(links)).epsilon(1e-12));
+    CHECK(rates.gauss_seidel == Approx(std::pow(chain_jacobi_radius(links), 2)).epsilon(1e-10));
+    CHECK(rates.condition == Approx((1 + rates.jacobi) / (1 - rates.jacobi)).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a heavy last mass raises the condition number as stated") {
+  const auto check = [](int masses, double last, double condition, double sweeps, double digits) {
+    const RelaxationRates rates = rates_of(vertical_chain(masses, last, false));
+    CHECK(rates.condition == Approx(condition).epsilon(digits));
+    CHECK(iterations_per_decade(rates.gauss_seidel) == Approx(sweeps).epsilon(digits));
+  };
+  check(10, 1, 161.45, 92.94, 1e-4);
+  check(10, 100, 3709.26, 2135.2, 1e-4);
+  check(10, 1e4, 360109, 207295, 1e-4);
+  check(20, 1800, 137282, 79026, 1e-4);
+  check(50, 200, 42451, 24437, 1e-4);
+}
+
+TEST_CASE("compliance enters the relaxation's matrix as A/h^2") {
+  Scene scene = vertical_chain(2, 1, false);
+  const double h = 0.1, compliance = 0.003, sigma = compliance / (h * h);
+  for (double& c : std::get<Distance>(scene.effects[1]).compliance) c = compliance;
+  // N = [1, -1; -1, 2] + sigma I: eigenvalues of D^-1 N are 1 -+ 1/sqrt((1 + sigma)(2 + sigma)).
+  const double radius = 1 / std::sqrt((1 + sigma) * (2 + sigma));
+  const RelaxationRates rates = relaxation_rates(scene, scene.initial.x, h);
+  CHECK(rates.jacobi == Approx(radius).epsilon(1e-12));
+  CHECK(rates.gauss_seidel == Approx(radius * radius).epsilon(1e-12));
+  CHECK(relaxation_rates(scene, scene.initial.x, h, 0.5).jacobi ==
+        Approx(1 - 0.5 * (1 - radius)).epsilon(1e-12));
+}
+
+TEST_CASE("redundant links have an infinite condition number and corotational rows are refused") {
+  Scene scene = vertical_chain(2, 1, false);
+  scene.effects.push_back(scene.effects[1]);
+  CHECK(std::isinf(rates_of(scene).condition));
+  Scene solid;
+  add_solid(solid, kuhn_grid({1, 1, 1}, Vec3::Ones()), 1000, {}, Strain::corotational);
+  CHECK_THROWS_AS(rates_of(solid), SetupError);
+}
+
+TEST_CASE("a hanging pendulum's fixed point oscillates with the rate h^2 T/(m l)") {
+  Scene scene = vertical_chain(1, 2, false);
+  const double h = 0.1, tension = 2 * 9.81;
+  const Judgement judged = primal_newton(scene, scene.initial, h);
+  REQUIRE(judged.outcome == Outcome::ok);
+  CHECK(-judged.multiplier(0) == Approx(tension).epsilon(1e-10));
+  const Contraction rate = plain_contraction(scene, judged.x, judged.multiplier, h);
+  CHECK(rate.smallest == Approx(-h * h * tension / (2 * 1)).epsilon(1e-10));
+  CHECK(rate.radius() == Approx(h * h * tension / (2 * 1)).epsilon(1e-10));
+}
+
+TEST_CASE("the predicted rate is that of the plain fixed point iteration") {
+  // Planar pendulum of mass m: x_{k+1} = y + n_k t with n_k . (x_{k+1} - p) = l, y the free step, n_k along
+  // x_k - p.
+  Scene scene = vertical_chain(1, 1, false);
+  scene.initial.x.col(1) = Vec3(0.6, 0, -0.8);
+  scene.initial.v.col(1) = Vec3(0.8, 0, 0.6) * 0.5;
+  const double h = 0.2;
+  const Judgement judged = primal_newton(scene, scene.initial, h);
+  const Contraction rate = plain_contraction(scene, judged.x, judged.multiplier, h);
+  const Vec3 free = scene.initial.x.col(1) + h * scene.initial.v.col(1) + h * h * Vec3(0, 0, -9.81);
+  Vec3 x = judged.x.col(1) + Vec3(1e-5, 0, 0);
+  Vec3 error = x - judged.x.col(1);
+  double measured = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 n = x.normalized();
+    x = free + n * (1 - n.dot(free));
+    const Vec3 next = x - judged.x.col(1);
+    measured = next.dot(error) / error.squaredNorm();
+    error = next;
+  }
+  CHECK(measured == Approx(rate.smallest).epsilon(1e-4));
+}
+
+TEST_CASE("a stretched spring's fixed point has the rate of its geometric stiffness") {
+  // Tension T = k (x - l) at length x: transverse rate -h^2 (T/x)/m, along it 0 (the material part is solved
+  // exactly).
+  Scene scene = vertical_chain(1, 2, false);
+  std::get<Distance>(scene.effects[1]).compliance[0] = 1e-2;
+  const double h = 0.1, length = 1.3, tension = 0.3 / 1e-2;
+  Points x = scene.initial.x;
+  x(2, 1) = -length;
+  const Contraction rate = plain_contraction(scene, x, {}, h);
+  CHECK(rate.smallest == Approx(-h * h * tension / length / 2).epsilon(1e-12));
+  CHECK(rate.largest == Approx(0).margin(1e-12));
+}

@@ -1,0 +1,57 @@
+// Formulas against stated values (to their digits) and against the same quantity by other means.
+#include "known_answers.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "closed_form.h"
+
+using namespace pbd::reference;
+
+TEST_CASE("every known answer follows from its formula to the digits stated") {
+  for (const KnownAnswer& row : known_answers()) {
+    INFO(row.id << " " << row.statement << ": " << row.value);
+    CHECK(std::abs(row.value - std::stod(row.stated)) <= 1.000001 * half_digit(row));
+  }
+}
+
+TEST_CASE("known answers agree with quadrature, recurrences, ODEs and eigenvalues") {
+  int checked = 0;
+  for (const KnownAnswer& row : known_answers()) {
+    if (!row.check) continue;
+    INFO(row.id << " " << row.statement);
+    CHECK(row.value == Approx(*row.check).epsilon(1e-10));
+    ++checked;
+  }
+  CHECK(checked > 40);
+}
+
+TEST_CASE("the pendulum's elliptic functions solve its differential equation") {
+  const double length = 1, g = 9.81, amplitude = 2;
+  const auto slope = [&](double, const std::vector<double>& y) {
+    return std::vector<double>{y[1], -g / length * std::sin(y[0])};
+  };
+  for (const double t : {0.1, 1.0, 5.0}) {
+    const Angle exact = pendulum_motion(length, g, amplitude, t);
+    const std::vector<double> integrated = solve_ode(slope, {amplitude, 0}, t);
+    CHECK(exact.angle == Approx(integrated[0]).margin(1e-11));
+    CHECK(exact.rate == Approx(integrated[1]).margin(1e-11));
+  }
+  CHECK(pendulum_motion(length, g, amplitude, pendulum_period(length, g, amplitude)).angle ==
+        Approx(amplitude).epsilon(1e-12));
+}
+
+TEST_CASE("a hanging chain's modes solve (x y')' + lambda y = 0 with a free lower end") {
+  // y(x) regular at the free end x = 0; by ODE from there, y vanishes at the support for a mode. Series
+  // start: y = 1 - lambda x + ..., lambda = w^2/g.
+  for (int mode = 1; mode <= 3; ++mode) {
+    const double lambda =
+        std::pow(2 * 3.14159265358979323846 * hanging_chain_frequency(mode, 1, 9.81), 2) / 9.81;
+    const double start = 1e-6;
+    const auto slope = [&](double t, const std::vector<double>& y) {
+      return std::vector<double>{y[1] / (start + t), -lambda * y[0]};
+    };
+    const auto end = solve_ode(slope, {1 - lambda * start, -lambda * start}, 1 - start);
+    CHECK(end[0] == Approx(0).margin(1e-9));
+  }
+}

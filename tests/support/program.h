@@ -1,0 +1,56 @@
+// A folder that is removed again, and the built program run in a shell.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace pbdcheck::test {
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct TemporaryFolder {
+  std::filesystem::path path;
+
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "pbdcheck_XXXXXX").string();
+    path = mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+    return path / name;
+  }
+};
+
+struct Ran {
+  int exit_code;
+  std::string out;
+  std::string err;
+};
+
+inline Ran run_program(const std::vector<std::string>& arguments, const std::string& before = "") {
+  const TemporaryFolder folder;
+  std::string command = before + " '" PBDCHECK_PROGRAM "'";
+  for (const auto& argument : arguments) command += " '" + argument + "'";
+  command += " >'" + (folder.path / "out").string() + "' 2>'" + (folder.path / "err").string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder.path / "out"),
+          read_text(folder.path / "err")};
+}
+
+}  // namespace pbdcheck::test

@@ -26,8 +26,8 @@ def judges(results):
             "judge means nothing below these numbers.")
         section.tables.append(Table(
             "Agreement of the judges, one step each.",
-            ["scene", "rows", "step", "first", "second", "difference", "residuals", "seconds", "status"],
-            [[f"`{r['scene']}`", f"{r['rows']:.0f}", step_text(r["step_s"]), f"`{r['reference_a']}`",
+            ["scene", "nodes", "step", "first", "second", "difference", "residuals", "seconds", "status"],
+            [[f"`{r['scene']}`", f"{r['nodes']:.0f}", step_text(r["step_s"]), f"`{r['reference_a']}`",
               f"`{r['reference_b']}`", number(r["difference"]), f"{number(r['residual_a'])}, {number(r['residual_b'])}",
               f"{number(r['wall_s_a'])}, {number(r['wall_s_b'])}", f"`{r['status']}`"] for _, r in frame.iterrows()]))
     return section

@@ -18,7 +18,7 @@ TABLES = {
     ("work_precision", "points"): METHOD + " tolerance",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
-    ("judges", "agreement"): "scene nodes rows step_s reference_a reference_b difference residual_a residual_b "
+    ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",
     (".", "compare"): METHOD,
 }

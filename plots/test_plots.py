@@ -153,7 +153,7 @@ class Commands(unittest.TestCase):
             sample.write(folder, "judges", "agreement", "scene nodes", [("pendulum", 2)])
             result = self.run_plots("make.py", folder)
             self.assertEqual(result.returncode, 2)
-            self.assertIn("agreement.csv: column 'rows' is missing", result.stderr)
+            self.assertIn("agreement.csv: column 'step_s' is missing", result.stderr)
 
     def test_missing_experiments_are_skipped_with_a_message(self):
         with tempfile.TemporaryDirectory() as folder:

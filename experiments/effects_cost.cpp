@@ -112,24 +112,22 @@ void absent_is_free(Context& context) {
   context.advance("absent effects");
 }
 
-/// Seconds a sweep of `relaxation`, the smallest of several.
-double sweep_seconds(const Scene& scene, std::string_view relaxation) {
-  Method method = fixed_work(relaxation);
-  method.max_outer = 1;
-  Workspace workspace(scene, method);
-  const auto timed = [&](int sweeps) {
-    method.max_sweeps = sweeps;
-    double best = infinity;
-    for (int repeat = 0; repeat < 4; ++repeat) {
-      State state = scene.initial;
-      const auto start = Clock::now();
-      step(scene, method, 1.0 / 240, state, workspace);
-      best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
-    }
-    return best;
-  };
-  constexpr int few = 2, many = 10;
-  return (timed(many) - timed(few)) / (many - few);
+/// Seconds a sweep of `relaxation` over the rows of a step, the smallest of several.
+double sweep_seconds(LinearStep step, std::string_view relaxation) {
+  constexpr int sweeps = 8;
+  double best = infinity;
+  Relaxation any = make_relaxation(relaxation);
+  std::visit(
+      [&](auto& kind) {
+        kind.begin(step.rows, step.v_free, true);
+        for (int k = 0; k < sweeps; ++k) {
+          const auto start = Clock::now();
+          kind.sweep(step.rows, step.v_free, nullptr);
+          best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+        }
+      },
+      any);
+  return best;
 }
 
 /// Least-squares slope of log(time) over log(size).
@@ -148,7 +146,8 @@ double exponent(const std::vector<double>& size, const std::vector<double>& time
 
 struct Family {
   std::string name;
-  std::vector<int> sizes;
+  std::vector<int> sizes;  // elements, about
+  std::int64_t rows_an_element;
   Scene (*make)(int);
 };
 
@@ -163,35 +162,35 @@ Scene cube_of(int tets) {
 }
 
 void scaling(Context& context, Table& table) {
-  const std::vector<Family> families{{"chain", {1'000, 10'000, 100'000, 1'000'000}, chain_of},
-                                     {"solid", {1'000, 10'000, 100'000, 300'000}, cube_of}};
-  for (const auto& family : families)
-    for (const std::string relaxation : {"gauss_seidel", "nesterov_jacobi"}) {
-      std::vector<double> rows, time;
-      std::vector<std::int64_t> elements;
-      for (const int size : family.sizes) {
-        const Scene scene = family.make(size);
-        Workspace workspace(scene, fixed_work());
-        std::int64_t count = 0;
-        for (const auto& cost : workspace.costs()) count += cost.rows;
-        rows.push_back(static_cast<double>(count));
-        elements.push_back(family.name == "chain" ? count : count / 6);
-        time.push_back(sweep_seconds(scene, relaxation));
-        context.advance(family.name);
-      }
-      const double slope = exponent(rows, time);
+  const std::vector<Family> families{{"chain", {1'000, 10'000, 100'000, 1'000'000}, 1, chain_of},
+                                     {"solid", {1'000, 10'000, 100'000, 300'000}, 6, cube_of}};
+  const std::vector<std::string> relaxations{"gauss_seidel", "nesterov_jacobi"};
+  for (const auto& family : families) {
+    std::vector<double> rows;
+    std::vector<std::vector<double>> time(relaxations.size());
+    for (const int size : family.sizes) {
+      const Scene scene = family.make(size);
+      const LinearStep step = linear_step(scene, scene.initial, 1.0 / 240);
+      rows.push_back(static_cast<double>(row_count(step.rows)));
+      for (std::size_t r = 0; r < relaxations.size(); ++r)
+        time[r].push_back(sweep_seconds(step, relaxations[r]));
+      context.advance(family.name);
+    }
+    for (std::size_t r = 0; r < relaxations.size(); ++r) {
+      const double slope = exponent(rows, time[r]);
       for (std::size_t i = 0; i < rows.size(); ++i)
-        table.row({family.name, relaxation, static_cast<std::int64_t>(rows[i]), elements[i], time[i], slope,
-                   "ok", ""});
-      context.verdict("effects.linear." + family.name + "." + relaxation,
+        table.row({family.name, relaxations[r], static_cast<std::int64_t>(rows[i]),
+                   static_cast<std::int64_t>(rows[i]) / family.rows_an_element, time[r][i], slope, "ok", ""});
+      context.verdict("effects.linear." + family.name + "." + relaxations[r],
                       "the time of a sweep grows linearly", "exponent", slope, 1.1);
     }
+  }
 }
 
 }  // namespace
 
 void effects_cost(Context& context) {
-  context.begin(2 + 16);
+  context.begin(2 + 8);
   Table costs = context.table("costs", {"scene", "effect", "rows", "bytes", "wall_s", "wall_s_per_step"});
   Table growth = context.table("scaling", {"scene", "relaxation", "rows", "elements", "wall_s_per_sweep",
                                            "exponent", "status", "reason"});

@@ -46,16 +46,19 @@ LinearStep linear_step(const Scene& scene, const State& state, double h) {
   for (std::size_t b = 0; b < step.rows.blocks.size(); ++b)
     linearise(scene.effects[effect_of_block[b]], map, state.x, at_rest, step.rows.inverse_mass, 1,
               step.rows.blocks[b]);
+  return step;
+}
 
-  const DenseRows all = dense(step.rows, scene.nodes());
-  Eigen::VectorXd weights(3 * scene.nodes());
+Points dense_solution(const LinearStep& step) {
+  const auto nodes = static_cast<int>(step.rows.inverse_mass.size());
+  const DenseRows all = dense(step.rows, nodes);
+  Eigen::VectorXd weights(3 * nodes);
   for (int k = 0; k < weights.size(); ++k)
     weights[k] = step.rows.inverse_mass[static_cast<std::size_t>(k / 3)];
   const Eigen::MatrixXd weighted = all.jacobian * weights.asDiagonal();
   const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
   const Eigen::VectorXd impulses = n.ldlt().solve(-(all.bias + all.jacobian * step.v_free.reshaped()));
-  step.v_solved = step.v_free + (weighted.transpose() * impulses).reshaped(3, scene.nodes());
-  return step;
+  return step.v_free + (weighted.transpose() * impulses).reshaped(3, nodes);
 }
 
 }  // namespace pbdcheck

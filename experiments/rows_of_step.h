@@ -8,12 +8,14 @@
 namespace pbdcheck {
 
 struct LinearStep {
-  pbd::Rows rows;        // impulses zero
-  pbd::Points v_free;    // m/s
-  pbd::Points v_solved;  // m/s, by Eigen's dense LDL^T of N = J W J^T + Sigma
+  pbd::Rows rows;      // impulses zero
+  pbd::Points v_free;  // m/s
 };
 
 /// Implicit Euler rows of h seconds from `state`, linearised at its positions.
 LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h);
+
+/// Velocities (m/s) that solve the rows exactly, by Eigen's dense LDL^T of N = J W J^T + Sigma.
+pbd::Points dense_solution(const LinearStep& step);
 
 }  // namespace pbdcheck

@@ -117,6 +117,8 @@ double Direct::right_hand_side(const Rows& rows, const Points& v) {
         [&]<class Block>(const Block& block) {
           for (std::size_t i = 0; i < block.size(); ++i) {
             const typename Block::Value r = -block.residual(v, i, block.impulse[i]);
+            const bool movable = block.inverse_diagonal[i].trace() > 0;
+            if (!movable) continue;
             squared += r.dot(block.inverse_diagonal[i] * r);
             if (impulse_column_[b][i] >= 0) {
               right_.template segment<Block::rows>(impulse_column_[b][i]) = r;

@@ -117,8 +117,8 @@ struct EffectCheck {
     not_negative(effect.rest_length, "rest_length");
     not_negative(effect.compliance, "compliance");
     for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
-      require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"), "0 and compliance 0",
-              "a rest length > 0 for a link without compliance");
+      require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
+              "0 and compliance 0", "a rest length > 0 for a link without compliance");
   }
 
   void operator()(const Bending& effect) const {

@@ -26,7 +26,7 @@ Course course(const Scene& scene, const State& start, double h, const Points& re
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
-  method.tolerance = 1e-15;
+  method.tolerance = 1e-12;
   method.max_outer = iterations;
   Workspace workspace(scene, method);
   State state = start;

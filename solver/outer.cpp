@@ -9,6 +9,7 @@ void plain(OuterIteration& iteration) {
 }
 
 void incremental(OuterIteration& iteration) {
+  if (iteration.first()) iteration.v() = iteration.rebuilt();
   iteration.relax();
 }
 

@@ -66,8 +66,9 @@ struct Search {
   }
   void show(const Vector& unknowns) {
     if (!settings.observer) return;
+    const double seconds = clock.seconds();
     clock.pause();
-    settings.observer(clock.seconds(), objective.positions(unknowns));
+    settings.observer(seconds, objective.positions(unknowns));
     clock.resume();
   }
 };

@@ -131,3 +131,26 @@ TEST_CASE("a stretched spring's fixed point has the rate of its geometric stiffn
   CHECK(rate.smallest == Approx(-h * h * tension / length / 2).epsilon(1e-12));
   CHECK(rate.largest == Approx(0).margin(1e-12));
 }
+
+TEST_CASE("a spring across the motion slows the error by its material stiffness") {
+  // Node held by a taut spring above (tension T, length x) and a relaxed one beside it (stiffness k): along
+  // the second, rate -h^2 (T/x)/(m + h^2 k).
+  Scene scene = vertical_chain(1, 2, false);
+  auto& springs = std::get<Distance>(scene.effects[1]);
+  add_node(scene, Vec3(1, 0, -1.3), infinity);
+  springs.node.push_back({1, 2});
+  springs.rest_length.push_back(1);
+  springs.compliance = {1e-2, 1e-3};
+  scene.initial.x(2, 1) = -1.3;
+  const double h = 0.1, stiffness = 0.3 / 1e-2 / 1.3, along = -h * h * stiffness / (2 + h * h * 1e3);
+  const double aside = -h * h * stiffness / 2;  // the third direction has no material stiffness
+  const Contraction rate = plain_contraction(scene, scene.initial.x, {}, h);
+  CHECK(rate.smallest == Approx(aside).epsilon(1e-12));
+  // With the third direction held as well by a relaxed spring, only the damped rates are left.
+  add_node(scene, Vec3(0, 1, -1.3), infinity);
+  auto& held = std::get<Distance>(scene.effects[1]);
+  held.node.push_back({1, 3});
+  held.rest_length.push_back(1);
+  held.compliance.push_back(1e-3);
+  CHECK(plain_contraction(scene, scene.initial.x, {}, h).smallest == Approx(along).epsilon(1e-12));
+}

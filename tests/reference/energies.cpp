@@ -132,13 +132,16 @@ TEST_CASE("nodes of infinite mass have no unknowns") {
 
 TEST_CASE("the bending angle is the scene's dihedral angle, taken modulo 2 pi") {
   Scene scene = scene_with(Bending{{{0, 1, 2, 3}}, {0}, {1}});
-  const double angle = dihedral_angle(scene.initial.x);
-  for (const double rest : {0.0, 2.0, -2.0, 3.1, -3.1}) {
-    std::get<Bending>(scene.effects[0]).rest_angle[0] = rest;
-    const double c = constraint_value(make_model(scene).elements[0], scene.initial.x)(0);
-    CHECK(std::abs(c) <= 3.14159265358979324);
-    CHECK(std::cos(c) == Approx(std::cos(angle - rest)).epsilon(1e-13));
-    CHECK(std::sin(c) == Approx(std::sin(angle - rest)).epsilon(1e-13));
+  for (const double mirror : {1.0, -1.0}) {
+    scene.initial.x.row(2) *= mirror;
+    const double angle = dihedral_angle(scene.initial.x);
+    for (const double rest : {0.0, 2.0, -2.0, 3.1, -3.1}) {
+      std::get<Bending>(scene.effects[0]).rest_angle[0] = rest;
+      const double c = constraint_value(make_model(scene).elements[0], scene.initial.x)(0);
+      CHECK(std::abs(c) <= 3.14159265358979324);
+      CHECK(std::cos(c) == Approx(std::cos(angle - rest)).epsilon(1e-13));
+      CHECK(std::sin(c) == Approx(std::sin(angle - rest)).epsilon(1e-13));
+    }
   }
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("an experiment that throws or is stopped says so and leaves no partial
   CHECK_FALSE(std::filesystem::exists(folder.path / "bad"));
 }
 
-TEST_CASE("--resume skips what is complete with the same tier, and repeats the rest") {
+TEST_CASE("run --resume skips what is complete with the same tier, and repeats the rest") {
   const TemporaryFolder folder;
   RunOptions options{.experiments = {"counted"}, .resume = true, .directory = folder.path};
   times_counted = 0;

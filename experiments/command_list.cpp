@@ -51,7 +51,7 @@ std::vector<Item> reference_items() {
 std::vector<Item> case_items() {
   std::vector<Item> items;
   for (const auto& known : pbd::reference::known_answers())
-    items.push_back({known.id, fmt::format("{}: {:.10g} {}", known.statement, known.value, known.unit)});
+    items.push_back({known.family, fmt::format("{}: {:.10g} {}", known.statement, known.value, known.unit)});
   return items;
 }
 

@@ -1,4 +1,7 @@
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <limits>
 
@@ -34,10 +37,10 @@ void add_trace(Table& table, const std::string& scene, double h, const pbd::Meth
                point.error, status, std::string(trace.report.reason)});
 }
 
-/// The reference's own row: its name stands where a method names its outer iteration.
+/// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
 void add_judge(Table& table, const std::string& scene, double h, const std::string& name,
                const Judged& judged) {
-  table.row({scene, h, std::string("implicit_euler"), name, std::string("none"), std::string("none"),
+  table.row({scene, h, std::string("implicit_euler"), std::string("judge"), name, std::string("none"),
              std::int64_t{judged.iterations}, std::int64_t{0}, std::int64_t{0}, judged.seconds, 0.0,
              judged.status, judged.reason});
 }
@@ -52,6 +55,18 @@ std::vector<pbd::Method> parsed_methods(const CompareOptions& options, const pbd
       throw pbd::SetupError("--method integrator", "`" + method.integrator + "`",
                             "implicit_euler, the step the references solve");
   return methods;
+}
+
+/// Draws `compare.csv` of a folder by the project's plotting script; a warning if that fails.
+void draw(const std::filesystem::path& directory) {
+  const std::string script = PBDCHECK_PLOTS "/compare.py", folder = directory.string();
+  const char* const arguments[] = {PBDCHECK_PYTHON, script.c_str(), folder.c_str(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  const bool started =
+      posix_spawn(&child, arguments[0], nullptr, nullptr, const_cast<char* const*>(arguments), environ) == 0;
+  if (!started || waitpid(child, &status, 0) < 0 || status != 0)
+    warn(fmt::format("no figure drawn: {} {} failed", arguments[0], script));
 }
 
 }  // namespace
@@ -82,6 +97,7 @@ int compare(const CompareOptions& options) {
   }
   table.close();
   if (interrupted()) return exit_interrupted;
+  draw(options.directory);
   return all_ok ? exit_done : exit_failed;
 }
 

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "judges.h"
+#include "known_answers.h"
 #include "scene_file.h"
 
 namespace pbdcheck {
@@ -41,6 +42,19 @@ std::vector<Item> scene_items() {
   return items;
 }
 
+std::vector<Item> reference_items() {
+  std::vector<Item> items = named(reference_names());
+  items.push_back({"closed_form", "formulas and their checks, see `list cases`"});
+  return items;
+}
+
+std::vector<Item> case_items() {
+  std::vector<Item> items;
+  for (const auto& known : pbd::reference::known_answers())
+    items.push_back({known.family, fmt::format("{}: {:.10g} {}", known.statement, known.value, known.unit)});
+  return items;
+}
+
 struct Kind {
   std::string name;
   std::vector<Item> (*items)();
@@ -55,8 +69,8 @@ const std::vector<Kind>& kinds() {
       {"outers", [] { return named(outer_choices()); }},
       {"relaxations", [] { return named(relaxation_choices()); }},
       {"frictions", [] { return std::vector<Item>(); }},
-      {"references", [] { return named(reference_names()); }},
-      {"cases", [] { return named(case_names()); }},
+      {"references", reference_items},
+      {"cases", case_items},
   };
   return list;
 }

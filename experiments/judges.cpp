@@ -3,19 +3,12 @@
 #include "choices.h"
 #include "error.h"
 #include "judge.h"
-#include "known_answers.h"
 
 namespace pbdcheck {
 
 std::vector<std::string> reference_names() {
   std::vector<std::string> names;
   for (const auto& judge : pbd::reference::judges()) names.emplace_back(judge.name);
-  return names;
-}
-
-std::vector<std::string> case_names() {
-  std::vector<std::string> names;
-  for (const auto& known : pbd::reference::known_answers()) names.emplace_back(known.id);
   return names;
 }
 

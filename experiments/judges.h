@@ -8,9 +8,8 @@
 
 namespace pbdcheck {
 
-/// Names of all references, and of the cases with known answers they were checked on.
+/// Names of the references that solve a step.
 std::vector<std::string> reference_names();
-std::vector<std::string> case_names();
 
 /// What a reference says about one step.
 struct Judged {

@@ -28,11 +28,15 @@ std::vector<Case> cases(bool full) {
   for (const double h : {0.2, 0.1, 0.05}) all.push_back({"pendulum", pendulum(0.3, 2), h, 0});
   for (const int links : {10, 20, 50, 100})
     all.push_back({"chain" + std::to_string(links), chain(links), 1.0 / 60, 10});
-  for (const double ratio : {10.0, 100.0, 1000.0})
+  for (const double ratio : {1.0, 10.0, 100.0, 1000.0})
     for (const double h : {1.0 / 30, 1.0 / 240})
       all.push_back({"chain20 tip x" + std::to_string(static_cast<int>(ratio)), chain(20, ratio), h, 10});
-  all.push_back({"cloth10", cloth(10), 1.0 / 120, 5});
-  all.push_back({"cloth20", cloth(20), 1.0 / 120, 5});
+  for (const int cells : {10, 20})
+    for (const double h : {1.0 / 60, 1.0 / 120, 1.0 / 240})
+      all.push_back({"cloth" + std::to_string(cells), cloth(cells), h, 5});
+  for (const double young : {1e5, 1e6})
+    all.push_back({"cantilever8 green E=" + std::to_string(static_cast<int>(young)) + " nu=0.30",
+                   cantilever(8, {young, 0.3}, Strain::green), 1.0 / 240, 5});
   for (const Strain strain : {Strain::green, Strain::corotational, Strain::linear})
     for (const double young : {1e5, 1e6, 1e7})
       for (const double poisson : {0.3, 0.45}) {

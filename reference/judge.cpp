@@ -1,5 +1,9 @@
 #include "judge.h"
 
+#include <IpoptConfig.h>
+#include <SuiteSparse_config.h>
+#include <gsl/gsl_version.h>
+
 #include <array>
 
 #include "error.h"
@@ -20,6 +24,16 @@ Judge find_judge(std::string_view name) {
     allowed += (allowed.empty() ? "" : ", ") + std::string(known.name);
   }
   throw SetupError("reference", name, allowed);
+}
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  const auto dotted = [](int major, int minor, int patch) {
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+  };
+  return {
+      {"suitesparse", dotted(SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION)},
+      {"ipopt", IPOPT_VERSION},
+      {"gsl", gsl_version}};
 }
 
 }  // namespace pbd::reference

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scene.h"
 
@@ -50,5 +52,8 @@ std::span<const NamedJudge> judges();
 
 /// Throws SetupError naming the allowed ones.
 Judge find_judge(std::string_view name);
+
+/// Names and versions of the libraries the judges are built on.
+std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace pbd::reference

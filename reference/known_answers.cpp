@@ -71,19 +71,19 @@ void oscillator(Rows& rows) {
     const double wh = 2 * pi * c.h;
     const std::string at = " of x'' = -(2 pi)^2 x, h = " + number(c.h) + " s";
     const Discrete euler = implicit_euler_oscillator(wh), bdf2 = bdf2_oscillator(wh);
-    rows.push_back({"2.1", "implicit Euler: amplitude after 1 s" + at, "1", std::pow(euler.growth, 1 / c.h),
-                    c.euler, stepped_implicit_euler(c.h)});
-    rows.push_back({"2.1", "implicit Euler: frequency ratio" + at, "1", euler.phase / wh, c.euler_frequency,
-                    std::arg(1.0 / std::complex<double>(1, -wh)) / wh});
+    rows.push_back({"oscillator", "implicit Euler: amplitude after 1 s" + at, "1",
+                    std::pow(euler.growth, 1 / c.h), c.euler, stepped_implicit_euler(c.h)});
+    rows.push_back({"oscillator", "implicit Euler: frequency ratio" + at, "1", euler.phase / wh,
+                    c.euler_frequency, std::arg(1.0 / std::complex<double>(1, -wh)) / wh});
     // Newmark's (Cayley's) map z -> (1 + i wh/2)/(1 - i wh/2) z; symplectic Euler: trace 2 - (wh)^2 = 2
     // cos(phase).
-    rows.push_back({"2.1", "Newmark (1/4, 1/2): frequency ratio" + at, "1", newmark_oscillator(wh).phase / wh,
-                    c.newmark,
+    rows.push_back({"oscillator", "Newmark (1/4, 1/2): frequency ratio" + at, "1",
+                    newmark_oscillator(wh).phase / wh, c.newmark,
                     std::arg(std::complex<double>(1, wh / 2) / std::complex<double>(1, -wh / 2)) / wh});
-    rows.push_back({"2.1", "BDF2: amplitude after 1 s" + at, "1", std::pow(bdf2.growth, 1 / c.h), c.bdf2,
-                    stepped_bdf2(c.h)});
-    rows.push_back({"2.1", "BDF2: frequency ratio" + at, "1", bdf2.phase / wh, c.bdf2_frequency, {}});
-    rows.push_back({"2.1", "symplectic Euler: frequency ratio" + at, "1",
+    rows.push_back({"oscillator", "BDF2: amplitude after 1 s" + at, "1", std::pow(bdf2.growth, 1 / c.h),
+                    c.bdf2, stepped_bdf2(c.h)});
+    rows.push_back({"oscillator", "BDF2: frequency ratio" + at, "1", bdf2.phase / wh, c.bdf2_frequency, {}});
+    rows.push_back({"oscillator", "symplectic Euler: frequency ratio" + at, "1",
                     symplectic_euler_oscillator(wh).phase / wh, c.symplectic,
                     std::acos(1 - wh * wh / 2) / wh});
   }
@@ -98,16 +98,28 @@ double damped_ratio_by_ode(double stiffness, double damping, double period) {
 }
 
 void particles(Rows& rows) {
-  rows.push_back(
-      {"1", "free fall, h = 0.01 s, 1 s: lag of implicit Euler g h t/2", "m", g * 0.01 / 2, "0.04905", {}});
+  rows.push_back({"free_fall",
+                  "free fall, h = 0.01 s, 1 s: lag of implicit Euler g h t/2",
+                  "m",
+                  g * 0.01 / 2,
+                  "0.04905",
+                  {}});
   const double wd = std::sqrt(100 - 0.25);
-  rows.push_back(
-      {"2", "damped spring k = 100 N/m, m = 1 kg, c = 1 Ns/m: frequency", "rad/s", wd, "9.987492178", {}});
-  rows.push_back({"2", "its logarithmic decrement", "1", pi / wd, "0.314552702", {}});
-  rows.push_back({"2", "its amplitude ratio per period", "1", std::exp(-pi / wd), "0.730115380",
+  rows.push_back({"damped_spring",
+                  "damped spring k = 100 N/m, m = 1 kg, c = 1 Ns/m: frequency",
+                  "rad/s",
+                  wd,
+                  "9.987492178",
+                  {}});
+  rows.push_back({"damped_spring", "its logarithmic decrement", "1", pi / wd, "0.314552702", {}});
+  rows.push_back({"damped_spring", "its amplitude ratio per period", "1", std::exp(-pi / wd), "0.730115380",
                   damped_ratio_by_ode(100, 1, 2 * pi / wd)});
-  rows.push_back(
-      {"3", "constraint of compliance 1e-4 m/N under 1 kg: stretch", "m", g * 1e-4, "9.81e-4", {}});
+  rows.push_back({"compliant_link",
+                  "constraint of compliance 1e-4 m/N under 1 kg: stretch",
+                  "m",
+                  g * 1e-4,
+                  "9.81e-4",
+                  {}});
 
   Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(20, 20);  // stiffness over mass of 20 springs in series
   for (int i = 0; i < 20; ++i) {
@@ -116,10 +128,10 @@ void particles(Rows& rows) {
   }
   const Eigen::VectorXd hung = chain.ldlt().solve(Eigen::VectorXd::Constant(20, g));
   const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(chain).eigenvalues()(0);
-  rows.push_back({"4", "20 springs of 1e4 N/m with 1 kg each, hung: stretch", "m",
+  rows.push_back({"spring_chain", "20 springs of 1e4 N/m with 1 kg each, hung: stretch", "m",
                   spring_chain_stretch(20, 1e4, 1, g), "0.206010", hung(19)});
-  rows.push_back({"4", "their lowest frequency", "Hz", spring_chain_frequency(20, 1e4, 1), "1.219213880",
-                  std::sqrt(lowest) / (2 * pi)});
+  rows.push_back({"spring_chain", "their lowest frequency", "Hz", spring_chain_frequency(20, 1e4, 1),
+                  "1.219213880", std::sqrt(lowest) / (2 * pi)});
   for (const auto& [degrees, stated] : {std::pair{5.0, "2.00702191"},
                                         {30.0, "2.04098989"},
                                         {60.0, "2.15287467"},
@@ -130,11 +142,11 @@ void particles(Rows& rows) {
                                         {179.0, "7.82579684"}}) {
     const double k = std::sin(radians(degrees) / 2);
     const auto integrand = [k](double s) { return 1 / std::sqrt(1 - std::pow(k * std::sin(s), 2)); };
-    rows.push_back({"7", "pendulum of 1 m from " + number(degrees) + " deg: period", "s",
+    rows.push_back({"pendulum", "pendulum of 1 m from " + number(degrees) + " deg: period", "s",
                     pendulum_period(1, g, radians(degrees)), stated,
                     4 / std::sqrt(g) * integrate(integrand, 0, pi / 2)});
   }
-  rows.push_back({"8",
+  rows.push_back({"rod_pendulum",
                   "uniform rod of 1 m about its end from 90 deg: period",
                   "s",
                   pendulum_period(2.0 / 3, g, pi / 2),
@@ -143,34 +155,38 @@ void particles(Rows& rows) {
   for (const auto& [rate, stated] : {std::pair{60.0, "0.0377995"}, {600.0, "0.7203721"}}) {
     const double steps = 10 * 2 * pi / std::sqrt(g) * rate;
     rows.push_back(
-        {"9",
+        {"small_pendulum",
          "small pendulum, ten periods of implicit Euler, h = 1/" + number(rate) + " s: energy left",
          "1",
          std::pow(implicit_euler_oscillator(std::sqrt(g) / rate).growth, 2 * steps),
          stated,
          {}});
   }
-  rows.push_back({"10",
+  rows.push_back({"conical_pendulum",
                   "conical pendulum of 1 m at 30 deg: period",
                   "s",
                   2 * pi * std::sqrt(std::cos(pi / 6) / g),
                   "1.86685540",
                   {}});
-  rows.push_back({"11",
+  rows.push_back({"double_pendulum",
                   "small double pendulum, equal masses, 1 m: slow frequency",
                   "Hz",
                   std::sqrt((2 - std::sqrt(2)) * g) / (2 * pi),
                   "0.381526134",
                   {}});
+  rows.push_back({"double_pendulum",
+                  "its fast frequency",
+                  "Hz",
+                  std::sqrt((2 + std::sqrt(2)) * g) / (2 * pi),
+                  "0.921085566",
+                  {}});
   rows.push_back(
-      {"11", "its fast frequency", "Hz", std::sqrt((2 + std::sqrt(2)) * g) / (2 * pi), "0.921085566", {}});
-  rows.push_back(
-      {"12", "bead on a cycloid of radius 1 m: period", "s", 4 * pi / std::sqrt(g), "4.01213336", {}});
+      {"cycloid", "bead on a cycloid of radius 1 m: period", "s", 4 * pi / std::sqrt(g), "4.01213336", {}});
 }
 
 void chains(Rows& rows) {
   for (const auto& [mode, stated] : {std::pair{1, "0.599388241"}, {2, "1.37584612"}, {3, "2.15688940"}})
-    rows.push_back({"13", "hanging chain of 1 m: mode " + number(mode), "Hz",
+    rows.push_back({"hanging_chain", "hanging chain of 1 m: mode " + number(mode), "Hz",
                     hanging_chain_frequency(mode, 1, g), stated, std::nullopt});
   struct Case {
     double length;
@@ -183,11 +199,11 @@ void chains(Rows& rows) {
     const std::string name = "catenary, span 1 m, length " + number(c.length) + " m: ";
     const double a = found.parameter;
     const double length = integrate([a](double x) { return std::cosh(x / a); }, -0.5, 0.5);
-    rows.push_back({"16", name + "parameter", "m", a, c.parameter, a * length / c.length});
-    rows.push_back({"16", name + "sag", "m", found.sag, c.sag,
+    rows.push_back({"catenary", name + "parameter", "m", a, c.parameter, a * length / c.length});
+    rows.push_back({"catenary", name + "sag", "m", found.sag, c.sag,
                     integrate([a](double x) { return std::sinh(x / a); }, 0, 0.5)});
-    rows.push_back({"16", name + "end tension over weight per length", "m", found.end_tension, c.tension,
-                    std::hypot(a, c.length / 2)});
+    rows.push_back({"catenary", name + "end tension over weight per length", "m", found.end_tension,
+                    c.tension, std::hypot(a, c.length / 2)});
   }
   struct Discrete {
     int links;
@@ -198,8 +214,13 @@ void chains(Rows& rows) {
         Discrete{40, "0.502835773", "0.205466695"}, Discrete{80, "0.502683839", "0.205484907"}}) {
     const DiscreteCatenary found = discrete_catenary(1, 1.5, c.links);
     const std::string name = "catenary of " + number(c.links) + " links, span 1 m, length 1.5 m: ";
-    rows.push_back({"17", name + "sag", "m", found.sag, c.sag, {}});
-    rows.push_back({"17", name + "horizontal tension over weight", "1", found.horizontal_share, c.share, {}});
+    rows.push_back({"discrete_catenary", name + "sag", "m", found.sag, c.sag, {}});
+    rows.push_back({"discrete_catenary",
+                    name + "horizontal tension over weight",
+                    "1",
+                    found.horizontal_share,
+                    c.share,
+                    {}});
   }
 }
 
@@ -211,34 +232,44 @@ double timoshenko_by_transfer(const Beam& beam, double guess) {
 void solids(Rows& rows) {
   const Beam beam{1, 0.1, 0.1, 1e7, 0.3, 1000};
   const auto euler = BeamTheory::euler_bernoulli, timoshenko = BeamTheory::timoshenko;
-  rows.push_back({"63",
+  rows.push_back({"cantilever",
                   "cantilever 1 x .1 x .1 m, 1e7 Pa, nu .3, tip force 1 N: Euler-Bernoulli",
                   "m",
                   tip_deflection(beam, 1, euler),
                   "0.004",
                   {}});
-  rows.push_back({"63", "the same: Timoshenko", "m", tip_deflection(beam, 1, timoshenko), "0.00403060", {}});
   rows.push_back(
-      {"63", "under its weight: Euler-Bernoulli", "m", weight_deflection(beam, g, euler), "0.14715", {}});
-  rows.push_back(
-      {"63", "under its weight: Timoshenko", "m", weight_deflection(beam, g, timoshenko), "0.14865093", {}});
+      {"cantilever", "the same: Timoshenko", "m", tip_deflection(beam, 1, timoshenko), "0.00403060", {}});
+  rows.push_back({"cantilever",
+                  "under its weight: Euler-Bernoulli",
+                  "m",
+                  weight_deflection(beam, g, euler),
+                  "0.14715",
+                  {}});
+  rows.push_back({"cantilever",
+                  "under its weight: Timoshenko",
+                  "m",
+                  weight_deflection(beam, g, timoshenko),
+                  "0.14865093",
+                  {}});
   for (const auto& [mode, stated] : {std::pair{1, "1.615400679"}, {2, "10.12354325"}, {3, "28.34621423"}})
-    rows.push_back({"64", "its mode " + number(mode) + ": Euler-Bernoulli", "Hz",
+    rows.push_back({"beam_modes", "its mode " + number(mode) + ": Euler-Bernoulli", "Hz",
                     cantilever_frequency(beam, mode), stated, std::nullopt});
   for (const auto& [mode, stated] : {std::pair{1, "1.602875337"}, {2, "9.612479584"}}) {
     const double value = timoshenko_cantilever_frequency(beam, mode);
-    rows.push_back({"64", "its mode " + number(mode) + ": Timoshenko", "Hz", value, stated,
+    rows.push_back({"beam_modes", "its mode " + number(mode) + ": Timoshenko", "Hz", value, stated,
                     timoshenko_by_transfer(beam, value)});
   }
   for (const auto& [mode, stated] : {std::pair{1, "10.27919896"}, {2, "28.33500776"}})
-    rows.push_back({"64", "the beam free at both ends, mode " + number(mode), "Hz",
+    rows.push_back({"beam_modes", "the beam free at both ends, mode " + number(mode), "Hz",
                     free_beam_frequency(beam, mode), stated, std::nullopt});
 
   for (const auto& [stretch, stated] :
        {std::pair{0.5, "-187500"}, {0.8, "-144000"}, {1.2, "264000"}, {1.5, "937500"}})
-    rows.push_back({"58", "St Venant-Kirchhoff bar, 1e6 Pa, stretch " + number(stretch) + ": nominal stress",
-                    "Pa", kirchhoff_uniaxial_stress(1e6, stretch), stated, std::nullopt});
-  rows.push_back({"58",
+    rows.push_back({"kirchhoff_bar",
+                    "St Venant-Kirchhoff bar, 1e6 Pa, stretch " + number(stretch) + ": nominal stress", "Pa",
+                    kirchhoff_uniaxial_stress(1e6, stretch), stated, std::nullopt});
+  rows.push_back({"kirchhoff_bar",
                   "nu .3, stretch 0.5: lateral stretch",
                   "1",
                   kirchhoff_lateral_stretch(0.3, 0.5),
@@ -248,10 +279,12 @@ void solids(Rows& rows) {
                                         {0.5, "276442.308", "168269.231"},
                                         {1.0, "1057692.31", "673076.923"}}) {
     const ShearStress stress = kirchhoff_shear(1e6, 0.3, shear);
-    rows.push_back({"60", "simple shear " + number(shear) + ": P12", "Pa", stress.p12, p12, std::nullopt});
-    rows.push_back({"60", "simple shear " + number(shear) + ": P22", "Pa", stress.p22, p22, std::nullopt});
+    rows.push_back(
+        {"kirchhoff_shear", "simple shear " + number(shear) + ": P12", "Pa", stress.p12, p12, std::nullopt});
+    rows.push_back(
+        {"kirchhoff_shear", "simple shear " + number(shear) + ": P22", "Pa", stress.p22, p22, std::nullopt});
   }
-  rows.push_back({"61",
+  rows.push_back({"hanging_bar",
                   "bar of 1 m, 1000 kg/m^3, 1e5 Pa, hung: linear",
                   "m",
                   hanging_bar(1, 1e3, g, 1e5),
@@ -264,11 +297,15 @@ void solids(Rows& rows) {
                        3) -
              1;
     };
-    rows.push_back({"61", "the same, St Venant-Kirchhoff, nu 0, " + number(young) + " Pa", "m",
+    rows.push_back({"hanging_bar", "the same, St Venant-Kirchhoff, nu 0, " + number(young) + " Pa", "m",
                     hanging_bar_kirchhoff(1, 1e3, g, young), stated, integrate(stretch, 0, 1)});
   }
-  rows.push_back(
-      {"66", "manufactured cube: energy", "J", manufactured_energy({1e6, 0.3}), "39146.26746", {}});
+  rows.push_back({"manufactured_cube",
+                  "manufactured cube: energy",
+                  "J",
+                  manufactured_energy({1e6, 0.3}),
+                  "39146.26746",
+                  {}});
 }
 
 void rates(Rows& rows) {
@@ -286,17 +323,18 @@ void rates(Rows& rows) {
     const double gradients = (std::sqrt(kappa) - 1) / (std::sqrt(kappa) + 1);
     const std::string name = "chain of " + number(c.n) + " equal masses: ";
     const std::string decade = "iterations per decade";
-    rows.push_back({"2.6", name + "condition number", "1", kappa, c.kappa,
+    rows.push_back({"chain_rates", name + "condition number", "1", kappa, c.kappa,
                     std::pow(1 / std::tan(pi / (2 * (c.n + 1))), 2)});
-    rows.push_back({"82", name + decade + ", Jacobi", "1", iterations_per_decade(jacobi), c.jacobi, {}});
-    rows.push_back({"83",
+    rows.push_back(
+        {"chain_rates", name + decade + ", Jacobi", "1", iterations_per_decade(jacobi), c.jacobi, {}});
+    rows.push_back({"chain_rates",
                     name + decade + ", Gauss-Seidel",
                     "1",
                     iterations_per_decade(jacobi * jacobi),
                     c.gauss_seidel,
                     {}});
-    rows.push_back({"2.6", name + decade + ", best SOR", "1", iterations_per_decade(sor), c.sor, {}});
-    rows.push_back({"84",
+    rows.push_back({"chain_rates", name + decade + ", best SOR", "1", iterations_per_decade(sor), c.sor, {}});
+    rows.push_back({"chain_rates",
                     name + decade + ", conjugate gradients",
                     "1",
                     iterations_per_decade(gradients),

@@ -10,7 +10,7 @@
 namespace pbd::reference {
 
 struct KnownAnswer {
-  std::string id;
+  std::string family;  // of related rows
   std::string statement;
   std::string unit;
   double value;                 // by the formula (closed_form.h, linear_fem.h)

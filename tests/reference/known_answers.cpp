@@ -10,7 +10,7 @@ using namespace pbd::reference;
 
 TEST_CASE("every known answer follows from its formula to the digits stated") {
   for (const KnownAnswer& row : known_answers()) {
-    INFO(row.id << " " << row.statement << ": " << row.value);
+    INFO(row.family << " " << row.statement << ": " << row.value);
     CHECK(std::abs(row.value - std::stod(row.stated)) <= 1.000001 * half_digit(row));
   }
 }
@@ -19,7 +19,7 @@ TEST_CASE("known answers agree with quadrature, recurrences, ODEs and eigenvalue
   int checked = 0;
   for (const KnownAnswer& row : known_answers()) {
     if (!row.check) continue;
-    INFO(row.id << " " << row.statement);
+    INFO(row.family << " " << row.statement);
     CHECK(row.value == Approx(*row.check).epsilon(1e-10));
     ++checked;
   }

@@ -144,7 +144,8 @@ def failure_section(results, experiments):
     if not rows:
         return Section("What failed", "", ["No row of any table has a status other than `ok`."])
     return Section("What failed", "", ["Every row whose status is not `ok`, counted by table and reason. A failure of a "
-                   "method is a result, and stays in the figures as a crossed marker."], [],
+                   "method is a result, and stays in the figures as a crossed marker. A trace carries the status of its run in "
+                   "every row, so that tables of traces count points, not runs."], [],
                    [Table("Rows that are not ok.", ["table", "status", "reason", "rows"], rows)])
 
 

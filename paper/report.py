@@ -21,6 +21,7 @@ LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\
          "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
          "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$",
          "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
+NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
 MARK = re.compile(r"`([^`]*)`|\[@([a-z0-9]+)\]")
 
 
@@ -51,10 +52,13 @@ def marked(text, escape, code, cite):
 
 def to_latex(text):
     def escape(plain):
-        return "".join(LATEX.get(c, c if c.isascii() else "?") for c in plain)
+        text = "".join(LATEX.get(c, c if c.isascii() else "?") for c in plain)
+        return NEGATIVE_EXPONENT.sub(r"\\mbox{\g<0>}", text)  # else a line may end after its hyphen
 
     def code(escaped):
-        return r"\texttt{" + escaped.replace(r"\_", r"\_\allowbreak{}").replace("/", r"/\allowbreak{}") + "}"
+        for mark in (r"\_", "/", "."):
+            escaped = escaped.replace(mark, mark + r"\allowbreak{}")
+        return r"\texttt{" + escaped + "}"
 
     return marked(text, escape, code, lambda key: rf"\citep{{{key}}}")
 
@@ -111,13 +115,14 @@ def write_html(body, directory):
 
 def column_widths(table):
     """Column specification of a LaTeX table: long texts share the width that the short ones leave."""
+    line, short, longest_counted = 100, 14, 60  # characters
     longest = [max(len(row[i].replace("`", "")) for row in [table.header, *table.rows]) for i in range(len(table.header))]
-    if sum(longest) + 2 * len(longest) <= 95:
+    if sum(longest) + 2 * len(longest) <= line - 5:
         return "l" * len(longest)
-    wide = [max(1, min(length, 60)) for length in longest]
-    room = 1 - 0.024 * len(wide)
-    total = sum(wide)
-    return "".join(rf">{{\raggedright\arraybackslash}}p{{{room * max(width, 7) / total:.3f}\linewidth}}" for width in wide)
+    room = line - sum(length + 2 for length in longest if length <= short)
+    wanted = sum(min(length, longest_counted) + 2 for length in longest if length > short)
+    shares = [length if length <= short else room * (min(length, longest_counted) + 2) / wanted - 2 for length in longest]
+    return "".join(rf">{{\raggedright\arraybackslash}}p{{{share / line:.3f}\linewidth}}" for share in shares)
 
 
 def write_pdf(body, directory):

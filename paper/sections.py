@@ -222,18 +222,18 @@ def work_precision(results):
         tried = frame[frame["status"] != "skipped"]
         section.paragraphs.append(f"{len(frame) - len(bad)} of {counted(len(tried), 'run')} are ok; {len(frame) - len(tried)} "
                                   "more were skipped because the method had missed a looser tolerance. The table gives the quickest "
-                                  "method of each scene at three levels of error.")
+                                  "method of each scene and step at three levels of error.")
     return section
 
 
 def fastest_table(frame, levels=(1e-3, 1e-6, 1e-9)):
     rows = []
-    for scene, group in good(frame, "error", "wall_s").groupby("scene", sort=False):
+    for (scene, step), group in good(frame, "error", "wall_s").groupby(["scene", "step_s"], sort=False):
         for level in levels:
             reached = group[group["error"] <= level].sort_values("wall_s")
             first = f"`{reached['outer'].iloc[0]}`, `{reached['relaxation'].iloc[0]}`" if len(reached) else "none"
-            rows.append([f"`{scene}`", number(level), first, number(reached["wall_s"].iloc[0]) if len(reached) else ""])
-    return Table("Quickest run with at most the given error.", ["scene", "error", "method", "wall time (s)"], rows)
+            rows.append([f"`{scene}`", step_text(step), number(level), first, number(reached["wall_s"].iloc[0]) if len(reached) else ""])
+    return Table("Quickest run with at most the given error.", ["scene", "step", "error", "method", "wall time (s)"], rows)
 
 
 def effects_cost(results):

@@ -62,7 +62,7 @@ std::string solver_name(const Solver& solver) {
   return solver.outer + "." + solver.relaxation;
 }
 
-/// Worst error of a solver over problems of stiffness up to `young`, and whether each claimed to be solved.
+/// Largest error of many; NaN once one of them is.
 struct Worst {
   double error = 0;
   void add(double e) { error = std::isnan(e) || std::isnan(error) ? std::nan("") : std::max(error, e); }

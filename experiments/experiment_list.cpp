@@ -5,7 +5,7 @@ namespace pbdcheck {
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list{
-      {"judges", "Do two independent reference solvers agree on every scene used below?", judges},
+      {"judges", "Do the two reference solvers agree on every scene used below?", judges},
       {"outer_convergence",
        "How fast do the outer iterations approach the implicit Euler step, and when do they fail?",
        outer_convergence},

@@ -1,4 +1,4 @@
-// Do the two independent judges agree on every scene the experiments use?
+// Do the two judges agree on every scene the experiments use? They share the energies and differ in method.
 #include "judge.h"
 
 #include <cmath>

@@ -2,12 +2,15 @@
 //
 // Every constraint depends on its K nodes through a matrix F with Q columns,
 //   F = sum_a x_a w_a^T  (3 x Q),  w constant (K x Q):
-//   anchor    F = x                               c = F - target                                      (3
-//   rows, m) distance  F = x1 - x0                         c = |F| - rest length (1 row, m) bending   F =
-//   [x1-x0, x2-x0, x3-x0]           c = theta(F) - rest angle, in (-pi, pi]             (1 row, rad) triangle
-//   F = deformation gradient (3 x 2)    c = (E11, E22, 2 E12),  E = (F^T F - I)/2           (3 rows) green F
-//   = deformation gradient (3 x 3)    c = (E11, E22, E33, 2 E12, 2 E23, 2 E31)            (6 rows) linear
-//   likewise with (F + F^T)/2 - I; corotational with S - I is in polar.h, being no formula in F.
+//
+//   anchor    F = x, c = F - target (3 rows, m)
+//   distance  F = x1 - x0, c = |F| - rest length (1 row, m)
+//   bending   F = [x1-x0, x2-x0, x3-x0], c = theta(F) - rest angle in (-pi, pi] (1 row, rad)
+//   triangle  F = deformation gradient (3 x 2), c = (E11, E22, 2 E12), E = (F^T F - I)/2 (3 rows)
+//   green     F = deformation gradient (3 x 3), c = (E11, E22, E33, 2 E12, 2 E23, 2 E31) (6 rows)
+//   linear    likewise with (F + F^T)/2 - I
+//
+// Corotational strain, with S - I, is in polar.h, being no formula in F.
 #pragma once
 
 #include "jet.h"

@@ -1,8 +1,11 @@
 // The energy of a scene and its hard constraints, from the value of every effect alone; derivatives are
 // automatic.
 //
-//   U(x)  = sum over compliant constraints of 1/2 c^T A^-1 c,   f = gravity and external forces,   hard: c(x)
-//   = 0 L(x, gamma, rho) = U(x) - gamma^T c_hard(x) + sum_i rho_i/2 c_hard,i^2
+//   U(x)             = sum over compliant constraints of 1/2 c^T A^-1 c
+//   L(x, gamma, rho) = U(x) - gamma^T c_hard(x) + sum_i rho_i/2 c_hard,i^2
+//
+// The hard constraints are c_hard(x) = 0; the forces f, gravity and external ones, are kept beside L.
+//
 // gamma (N for lengths) is the force of a hard constraint along its direction, J^T gamma the force on the
 // nodes. For a compliant one the force is -A^-1 c. Every constraint is a function of a small matrix F = sum_a
 // x_a w_a^T (see constraint_values.h), so derivatives are taken by F and chained with the constant w.

@@ -14,7 +14,8 @@
 namespace pbd::reference {
 
 enum class Outcome { ok, not_converged, infeasible };
-inline constexpr std::array<std::string_view, 3> outcome_names{"ok", "not_converged", "infeasible"};
+/// As result tables write them, where `status` knows no `infeasible`: the reason tells it apart.
+inline constexpr std::array<std::string_view, 3> outcome_names{"ok", "not_converged", "not_converged"};
 
 /// The implicit Euler step of length h from (x_l, v_l): M (v - v_l)/h = f - dU/dx(x) + J(x)^T gamma, x = x_l
 /// + h v, hard c(x) = 0.

@@ -24,7 +24,7 @@ double trace_of_delassus(const Block& block, const std::vector<double>& inverse_
 }
 
 template <class Block>
-Eigen::LLT<typename Block::Square> stiffness_factor(const Block& block, std::size_t i) {
+Eigen::LLT<typename Block::Square> compliance_factor(const Block& block, std::size_t i) {
   return Eigen::LLT<typename Block::Square>(block.compliance[i]);
 }
 
@@ -50,7 +50,7 @@ void Direct::assemble(const Rows& rows, Put&& put) const {
               }
             if (impulse < 0) {
               const Eigen::Matrix<double, 3 * Block::nodes, 3 * Block::nodes> stiffness =
-                  jacobian.transpose() * stiffness_factor(block, i).solve(jacobian);
+                  jacobian.transpose() * compliance_factor(block, i).solve(jacobian);
               for (std::size_t r = 0; r < column.size(); ++r)
                 for (std::size_t c = 0; c < column.size(); ++c)
                   if (column[c] >= 0 && column[r] >= column[c])
@@ -125,7 +125,7 @@ double Direct::right_hand_side(const Rows& rows, const Points& v) {
               continue;
             }
             const typename Block::Velocities push =
-                block.jacobian[i].transpose() * stiffness_factor(block, i).solve(r);
+                block.jacobian[i].transpose() * compliance_factor(block, i).solve(r);
             for (std::size_t a = 0; a < Block::nodes; ++a) {
               const int column = velocity_column_[static_cast<std::size_t>(block.node[i][a])];
               if (column >= 0)
@@ -152,8 +152,8 @@ void Direct::correct(Rows& rows, const Points& v) {
                 if (column >= 0)
                   dv.template segment<3>(3 * static_cast<int>(a)) = solution_.template segment<3>(column);
               }
-              change = stiffness_factor(block, i).solve(-block.residual(v, i, block.impulse[i]) -
-                                                        block.jacobian[i] * dv);
+              change = compliance_factor(block, i).solve(-block.residual(v, i, block.impulse[i]) -
+                                                         block.jacobian[i] * dv);
             }
             block.impulse[i] += change;
             block.apply(rows.inverse_mass, i, change, changed_);

@@ -1,13 +1,14 @@
 // An outer iteration turns the linearisation at one iterate into the next iterate. All end where they stop
 // moving; only some of them end at the solution of the step.
-//   plain        v <- v_free + W J_k^T p, then relax: the whole multiplier acts along the current directions
-//   (the
-//                fixed point of Francu & Moldoveanu 2017); its fixed points are the solutions of the step
-//   incremental  relax from v as it is: earlier impulses keep the directions they were found with (position
-//   based
-//                dynamics, XPBD; Jacobians refreshed once an outer iteration). Meets the constraints, not the
-//                equations of motion
-//   frozen       as plain, but always linearised at the step's start x0: velocity time stepping
+//
+//   plain        v <- v_free + W J_k^T p, then relax
+//   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
+//   frozen       as plain, but always linearised at x0
+//
+// In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
+// the solutions of the step. In incremental earlier impulses keep the directions they were found with, as in
+// position based dynamics and XPBD (macklin2016xpbd), with Jacobians refreshed once an outer iteration: it
+// meets the constraints, not the equations of motion. frozen is velocity time stepping.
 #pragma once
 
 #include <string_view>

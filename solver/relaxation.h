@@ -77,11 +77,11 @@ class NesterovJacobi {
 };
 
 /// Sparse factorisation, exact up to rounding; each sweep is one step of iterative refinement. Compliant
-/// constraints are eliminated into the primal normal equations M + J^T Sigma^-1 J, those with (nearly) none
-/// keep their rows:
+/// constraints are eliminated into the primal normal equations M + J^T Sigma^-1 J, those with (nearly) no
+/// compliance keep their rows, unless their block has more rows than there are unknown velocities:
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
-/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
+/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-12 of J W J^T, keeps redundant
 /// rows solvable and is removed by the refinement.
 class Direct {
  public:

@@ -2,9 +2,12 @@
 // spent.
 //
 // With x(v) = x0 + d v and impulse scale s from the integrator, the step's solution (v, p) satisfies
-//   primal   M (v - v_free) = J(x(v))^T p                 (impulses act along the directions at the end of
-//   the step) dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)   (every constraint met, up to its
-//   compliance A)
+//   primal   M (v - v_free) = J(x(v))^T p
+//   dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)
+//
+// that is, impulses act along the directions at the end of the step, and every constraint is met up to its
+// compliance A.
+//
 // Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
 // N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
 // with scale = |v - v_old|_M + |v_free - v_old|_M.
@@ -41,7 +44,8 @@ struct EffectCost {
   std::string_view effect;
   std::int64_t rows = 0;
   std::int64_t bytes = 0;  // of its rows
-  double seconds = 0;      // linearising and relaxing
+  double seconds = 0;      // linearising, and relaxing as the first of each outer iteration's sweeps took;
+                           // what `direct` spends in its common factorisation is in no effect's share
 };
 
 /// What a step reached. Residuals are absolute, in sqrt(J).

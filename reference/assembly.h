@@ -1,8 +1,9 @@
 // Sums over the elements of a model: gradient, sparse Hessian and Jacobian of L, and dense rows for small
 // scenes.
 //
-//   d2L/dx2 = sum over elements of  W (J_F^T A^-1 J_F + sum_k (dL/dc)_k d2c_k/dF2) W^T,   F = sum_a x_a
-//   w_a^T, W made of w
+//   d2L/dx2 = sum over elements of  W (J_F^T A^-1 J_F + sum_k (dL/dc)_k d2c_k/dF2) W^T
+//
+// where F = sum_a x_a w_a^T and W is made of w.
 #pragma once
 
 #include "energies.h"

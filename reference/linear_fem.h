@@ -1,10 +1,13 @@
 // Linear elasticity on linear tetrahedra: statics, vibrations and a manufactured solution.
 //
 //   statics     K u = F,    K the Hessian of the energies of `linear` strain at rest (energies.h)
-//   vibrations  K u = (2 pi f)^2 M u,   M consistent: rho V/20 (1 + delta_ab) per node pair, or lumped: rho
-//   V/4 per node manufactured: u_i = a sin(pi x) sin(pi y) sin(pi z) on the unit cube, body force b = -div
-//   sigma(u),
-//     b_i = -(lambda + mu) d_i(div u) + 3 pi^2 mu u_i,   u = 0 on the boundary
+//   vibrations  K u = (2 pi f)^2 M u
+//
+// M is consistent, rho V/20 (1 + delta_ab) per node pair, or lumped, rho V/4 per node.
+//
+//   manufactured  u_i = a sin(pi x) sin(pi y) sin(pi z) on the unit cube, u = 0 on the boundary
+//                 body force b_i = -div sigma(u)_i = -(lambda + mu) d_i(div u) + 3 pi^2 mu u_i
+//
 // Hughes 2000, ch. 3, 7; subspace iteration: Bathe 2014, ch. 11.
 #pragma once
 

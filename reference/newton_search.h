@@ -1,7 +1,8 @@
 // Newton's method with line search for an objective and fixed multipliers.
 //
-//   dx = -(diag(inertia) + d2L/dx2)^-1 g,  x <- x + t dx,  t = 1, 1/2, ... until the objective decreases
-//   sufficiently
+//   dx = -(diag(inertia) + d2L/dx2)^-1 g,   x <- x + t dx
+//
+// with t = 1, 1/2, ... until the objective decreases sufficiently.
 // An indefinite Hessian is replaced by the sum of the elements' positive semidefinite parts, and shifted by a
 // multiple of the masses if that is singular. Nocedal, Wright 2006, sections 3.1, 3.4.
 #pragma once

@@ -1,9 +1,13 @@
 // The symmetric factor S of F = R S, R the nearest proper rotation, with first and second derivatives.
 //
-//   F = U diag(s) V^T with U, V rotations and |s3| the smallest (s3 < 0 for an inverted F);  S = V diag(s)
-//   V^T,  S S = F^T F differentiating S S = F^T F once and twice gives Sylvester equations, diagonal in the
-//   basis V: (s_i + s_j) dS_ij       = (dF^T F + F^T dF)_ij (s_i + s_j) d2S[a,b]_ij = (dF_a^T dF_b + dF_b^T
-//   dF_a - dS_a dS_b - dS_b dS_a)_ij
+//   F = U diag(s) V^T,  S = V diag(s) V^T,  S S = F^T F
+//
+// with U, V rotations and |s3| the smallest (s3 < 0 for an inverted F). Differentiating S S = F^T F once and
+// twice gives Sylvester equations, diagonal in the basis V:
+//
+//   (s_i + s_j) dS_ij       = (dF^T F + F^T dF)_ij
+//   (s_i + s_j) d2S[a,b]_ij = (dF_a^T dF_b + dF_b^T dF_a - dS_a dS_b - dS_b dS_a)_ij
+//
 // S is not differentiable where s_2 + s_3 = 0; there the sums are bounded from below by `smallest_sum`. The
 // Hessian of tr S has the twist modes of Smith, de Goes, Kim 2019 as eigenvectors, which a test checks.
 #pragma once

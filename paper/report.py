@@ -19,7 +19,7 @@ from reading import InputError, fail
 HERE = Path(__file__).resolve().parent
 LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
          "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
-         "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$",
+         "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$",
          "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
 MARK = re.compile(r"`([^`]*)`|\[@([a-z0-9]+)\]")
 

@@ -61,6 +61,7 @@ class Report(unittest.TestCase):
             text = self.html()
         self.assertNotIn(sections.NOT_RUN, text)
         self.assertIn("7 of 14 verdicts hold", text)
+        self.assertIn("theory predicts contraction in 4; 4 of these converge", text)
         self.assertNotIn("http://", text)
 
     @unittest.skipUnless(shutil.which("latexmk"), "latexmk is not installed")

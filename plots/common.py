@@ -27,7 +27,7 @@ STYLES = {
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
     "judge": (BLACK, "*", ":"),
     "pendulum": (BLUE, "o", "-"), "chain20": (RED, "s", "--"), "cantilever": (GREEN, "^", "-."),
-    "tet_p1": (BLUE, "o", "-"), "springs": (RED, "s", "--"),
+    "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }
 FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),
             (SKY, "P", "--"), (BLACK, "X", "-.")]
@@ -35,8 +35,8 @@ FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v"
 plt.rcParams.update({
     "font.size": 8, "axes.titlesize": 8, "axes.titlepad": 9, "axes.labelsize": 8,
     "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
-    "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd",
-    "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 3.5,
+    "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 3.5,
     "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "path", "pdf.fonttype": 42,
     "savefig.dpi": 200,
 })
@@ -66,19 +66,24 @@ def on_log(values):
     return np.maximum(values, ZERO_DRAWN_AT)
 
 
-def draw_failed(ax, rows, x, y, color=BLACK):
-    """Hollow crossed markers: at the value where there is one, above the axes where there is none."""
-    for _, row in rows.iterrows():
-        at_value = np.isfinite(row[y]) and row[y] >= 0
-        place = on_log(row[x]) if np.isfinite(row[x]) and row[x] >= 0 else None
-        height = on_log(row[y]) if at_value else 1.03
-        transform = ax.transData if at_value and place is not None else (
-            ax.get_xaxis_transform() if place is not None else ax.transAxes)
-        if place is None:
-            place, height = 0.98, 1.03
-        for marker, size in (("o", 6), ("x", 4)):
-            ax.plot([place], [height], marker, color=color, markersize=size, markerfacecolor="none",
-                    markeredgewidth=0.8, transform=transform, clip_on=False, zorder=5)
+def draw_failed(ax, rows, x, y, color=BLACK, marker="o"):
+    """Hollow crossed markers: at the value where there is one, under the upper edge where only x is known. All rows
+    that have no place at all are one marker in a column beside the right edge."""
+    known = drawable(rows, [x]) & (rows[x] > 0)
+    valued = drawable(rows, [x, y])
+    for _, row in rows[valued].iterrows():
+        crossed(ax, row[x], on_log(row[y]), color, marker, ax.transData)
+    for _, row in rows[known & ~valued].iterrows():
+        crossed(ax, row[x], 0.97, color, marker, ax.get_xaxis_transform())
+    if (~known & ~valued).any():
+        above = sum(artist.get_gid() == "no place" for artist in ax.lines)
+        crossed(ax, 1.03, 0.97 - 0.08 * above, color, marker, ax.transAxes, gid="no place")
+
+
+def crossed(ax, x, y, color, marker, transform, gid=None):
+    look = {"color": color, "markeredgewidth": 0.8, "transform": transform, "clip_on": False, "zorder": 5}
+    ax.plot([x], [y], marker, markersize=6, markerfacecolor="none", gid=gid, **look)
+    ax.plot([x], [y], "x", markersize=3.5, **look)
 
 
 def style(name):
@@ -101,7 +106,7 @@ def curve_points(ax, points, x, y, label, look):
     """A line through the good points in the order of x; all others crossed."""
     rows = good(points, x, y).sort_values(x)
     ax.plot(on_log(rows[x]), on_log(rows[y]), label=label, markerfacecolor="white", **look)
-    draw_failed(ax, failed(points, x, y), x, y, look["color"])
+    draw_failed(ax, failed(points, x, y), x, y, look["color"], look["marker"])
 
 
 def panels(count, columns=3, width=6.5, height=2.1, **keywords):

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import curve, figure, footnote, on_log, panels, shared_legend, style
+from common import PURPLE, SKY, curve, figure, footnote, on_log, panels, shared_legend, style
 from reading import failed, reasons_note, text_number
 
 METHOD = ["outer", "relaxation"]
@@ -11,8 +11,10 @@ MATERIAL = ["scene", "strain", "young_pa", "poisson"]
 
 
 def look(outer, relaxation):
-    """Relaxation decides the style; the incremental update has its own."""
-    return style("incremental" if outer == "incremental" else relaxation)
+    """The relaxation decides marker and line, the outer iteration the colour where it is incremental."""
+    if outer != "incremental":
+        return style(relaxation)
+    return style(relaxation) | {"color": {"direct": PURPLE}.get(relaxation, SKY)}
 
 
 @figure("dual_vs_primal", "errors", table="errors")
@@ -25,7 +27,7 @@ def errors(frame):
     for ax, ((scene, strain, young), rows) in zip(axes, groups):
         for (outer, relaxation), trace in rows.groupby(METHOD, sort=False):
             curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
-            if outer == "incremental":
+            if outer == "incremental" and (trace["status"] != "ok").all():
                 draw_floor(ax, trace)
         ax.set(yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")
         ax.title.set_fontsize(7)
@@ -49,10 +51,10 @@ def draw_floor(ax, trace):
 
 @figure("dual_vs_primal", "final", table="final")
 def final(frame):
-    """Final error of every method and material as a table of colours; crossed cells are not ok."""
+    """Final error of every method and material as a table of colours; the cells with a cross are not ok."""
     frame = frame.assign(row=frame.apply(material, axis=1), column=frame["outer"] + "\n" + frame["relaxation"])
     rows, columns = list(frame["row"].unique()), list(frame["column"].unique())
-    fig, (ax,) = panels(1, height=0.17 * len(rows) + 1.0)
+    fig, (ax,) = panels(1, height=0.2 * len(rows) + 0.8)
     fig.set_figwidth(6.5)
     values = np.full((len(rows), len(columns)), np.nan)
     for _, cell in frame.iterrows():
@@ -60,11 +62,11 @@ def final(frame):
         values[i, j] = on_log(cell["error"]) if np.isfinite(cell["error"]) else np.nan
         label = text_number(cell["error"]) if np.isfinite(cell["error"]) else "none"
         dark = np.isfinite(values[i, j]) and values[i, j] < 1e-8
-        ax.text(j, i, label + ("" if cell["status"] == "ok" else f" × {cell['status']}"), ha="center", va="center",
-                fontsize=6, color="white" if dark else "black")
+        ax.text(j, i, label + ("" if cell["status"] == "ok" else " ×"), ha="center", va="center", fontsize=6,
+                color="white" if dark else "black")
     image = ax.imshow(values, norm=LogNorm(1e-12, 1), cmap="cividis", aspect="auto")
     ax.set_facecolor("#dddddd")
-    ax.set_xticks(range(len(columns)), columns, fontsize=6)
+    ax.set_xticks(range(len(columns)), [name.replace("_", "_\n") for name in columns], fontsize=6)
     ax.set_yticks(range(len(rows)), rows, fontsize=6)
     ax.grid(False)
     fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import BLACK, BLUE, curve_points, figure, footnote, on_log, panels, shared_legend, style
+from common import BLACK, BLUE, curve_points, figure, footnote, on_log, panels, style
 from reading import failed, good, reasons_note, text_number
 
 
@@ -19,7 +19,7 @@ def scaling(frame):
             curve_points(ax, points, "rows", "wall_s_per_sweep", label, style(relaxation))
         slope_one(ax, good(here, "rows", "wall_s_per_sweep"))
         ax.set(xscale="log", yscale="log", title=scene, xlabel="rows", ylabel="wall time per sweep (s)")
-    shared_legend(fig, axes, columns=2)
+        ax.legend(loc="upper left")
     footnote(fig, reasons_note(failed(frame, "rows", "wall_s_per_sweep")))
     return fig
 
@@ -39,11 +39,12 @@ def bytes_per_row(frame):
 
 @figure("effects_cost", "seconds", table="costs")
 def seconds_per_row(frame):
-    """Time an effect's rows took in the whole run."""
-    return bars(frame.assign(value=frame["wall_s"] / frame["rows"] * 1e9), "wall time per row, whole run (ns)")
+    """Time an effect's rows took in one step of the run."""
+    return bars(frame.assign(value=frame["wall_s_per_step"] / frame["rows"] * 1e6), "wall time per row and step (µs)")
 
 
 def bars(frame, label):
+    frame = frame[frame["rows"] > 0]  # what is outside the effects has no rows
     rows = good(frame, "value").assign(name=lambda rows: rows["effect"] + ", " + rows["scene"])
     bad = failed(frame, "value")
     fig, (ax,) = panels(1, height=0.2 * max(len(rows), 2) + 0.6)

@@ -1,29 +1,40 @@
-"""Do independent references agree on the same step?"""
+"""Do the references agree on the same step?"""
 
-from common import BLUE, GREEN, RED, figure, footnote, on_log, panels, shared_legend
-from reading import failed, good, reasons_note
+import re
+
+from common import ZERO_DRAWN_AT, BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
+from reading import failed, good, reasons_note, text_number
 
 SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
           ("residual_b", "residual of the second", GREEN, "^"))
 
 
+def family(scene):
+    """The scene's name without sizes and parameters: `cantilever green` of `cantilever8 green E=1e5 nu=0.3`."""
+    words = [word for word in scene.split() if "=" not in word and word != "tip" and not re.fullmatch(r"x\d+", word)]
+    return " ".join([words[0].rstrip("0123456789"), *words[1:]]) if words else scene
+
+
 @figure("judges", "agreement", table="agreement")
 def agreement(frame):
-    """Difference and residuals of each pair, one line a scene."""
-    frame = frame.reset_index(drop=True)
-    frame["place"] = frame.index.astype(float)
-    fig, (ax,) = panels(1, height=0.24 * max(len(frame), 3) + 0.7)
-    for column, label, color, marker in SERIES:
+    """Difference and residuals of each pair, one row a family of scenes, the three kinds of marker below each other."""
+    pairs = frame["reference_a"] + " / " + frame["reference_b"]
+    names = frame["scene"].map(family) + (": " + pairs if pairs.nunique() > 1 else "")
+    places = {name: float(i) for i, name in enumerate(names.unique())}
+    frame = frame.assign(place=names.map(places))
+    fig, (ax,) = panels(1, height=0.3 * len(places) + 0.5)
+    fig.set_figwidth(6.5)
+    for shift, (column, label, color, marker) in zip((-0.25, 0, 0.25), SERIES):
         rows = good(frame, column)
-        ax.plot(on_log(rows[column]), rows["place"], marker, color=color, label=label, markerfacecolor="white",
-                markersize=5)
-    for _, row in failed(frame, "difference").iterrows():
-        ax.plot([0.98], [row["place"]], "X", color=BLUE, markersize=6, markerfacecolor="none",
-                transform=ax.get_yaxis_transform(), clip_on=False)
-    names = frame["scene"] + ": " + frame["reference_a"] + " / " + frame["reference_b"]
-    ax.set_yticks(frame["place"], names)
-    ax.invert_yaxis()
-    ax.set(xscale="log", xlabel="relative difference, relative residual")
+        ax.plot(on_log(rows[column]), rows["place"] + shift, marker, color=color, label=label, markerfacecolor="none",
+                markersize=4, markeredgewidth=0.8)
+    draw_failed(ax, failed(frame, "difference"), "difference", "place", BLUE)
+    counts = names.value_counts()
+    ax.set_yticks(list(places.values()), [f"{name} ({counts[name]})" for name in places])
+    ax.set_ylim(len(places) - 0.5, -0.5)
+    ax.set(xscale="log", xlabel="relative difference, relative residual", title=" and ".join(pairs.unique()))
     shared_legend(fig, [ax], columns=3)
-    footnote(fig, reasons_note(failed(frame, "difference")))
+    zeros = int((good(frame, "difference")["difference"] == 0).sum())
+    drawn_at = f" Differences that are exactly 0: {zeros}, drawn at {text_number(ZERO_DRAWN_AT)}." if zeros else ""
+    footnote(fig, f"In brackets the number of steps.{drawn_at} " + reasons_note(failed(frame, "difference")))
     return fig

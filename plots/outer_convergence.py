@@ -4,8 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import BLACK, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import failed, good, reasons_note, step_text, text_number
+from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from reading import CONTRACTING, failed, good, reasons_note, step_text, text_number
 
 
 def cases(frame):
@@ -18,6 +18,14 @@ def last_rows(frame, keys):
     return frame.sort_values(keys[-1]).groupby(keys[:-1], sort=False).tail(1)
 
 
+def look(outer, relaxation):
+    """Colour tells the outer iteration; where it runs with Gauss-Seidel, marker and line are those of Gauss-Seidel."""
+    chosen = style(outer)
+    if relaxation == "gauss_seidel":
+        chosen |= {"marker": "v", "linestyle": (0, (1, 1)), "color": BLUE if outer == "incremental" else chosen["color"]}
+    return chosen
+
+
 def error_curves(frame, names):
     """Error against outer iteration for some outer iterations, one panel a case."""
     frame = frame[frame["outer"].isin(names)]
@@ -25,7 +33,7 @@ def error_curves(frame, names):
     fig, axes = panels(len(chosen), columns=3, height=1.7, sharex=False)
     for ax, (title, rows) in zip(axes, chosen):
         for (outer, relaxation), trace in rows.groupby(["outer", "relaxation"], sort=False):
-            curve(ax, trace, "iteration", "error", f"{outer}, {relaxation}", style(outer))
+            curve(ax, trace, "iteration", "error", f"{outer}, {relaxation}", look(outer, relaxation))
         ax.set(yscale="log", title=title)
         ax.title.set_fontsize(7)
     fig.supxlabel("outer iteration", fontsize=8)
@@ -38,13 +46,13 @@ def error_curves(frame, names):
 
 @figure("outer_convergence", "errors", table="errors")
 def errors(frame):
-    return error_curves(frame, ["plain", "incremental"])
+    return error_curves(frame, ["plain", "incremental", "frozen"])
 
 
 @figure("outer_convergence", "proximal", table="errors")
 def proximal(frame):
-    others = [name for name in frame["outer"].unique() if name != "incremental"]
-    return error_curves(frame, others) if len(others) > 1 else None
+    keeping = [name for name in frame["outer"].unique() if name not in ("incremental", "frozen")]
+    return error_curves(frame, keeping) if len(keeping) > 1 else None
 
 
 @figure("outer_convergence", "map", table="map")
@@ -62,7 +70,7 @@ def rate_map(frame):
     fig.colorbar(mesh, ax=axes, label="measured rate, error per iteration", extend="both")
     handles = [plt.Line2D([], [], color=BLACK, linestyle="--"),
                plt.Line2D([], [], color=BLACK, marker="x", linestyle="", markerfacecolor="none")]
-    fig.legend(handles, ["predicted rate = 1", "does not converge (grey: no rate)"], loc="upper center", bbox_to_anchor=(0.5, 0),
+    fig.legend(handles, ["predicted rate = 1", "error does not fall steadily; grey: no rate to measure"], loc="upper center", bbox_to_anchor=(0.5, 0),
                ncol=2)
     footnote(fig, reasons_note(failed(frame, "measured_rate")))
     return fig
@@ -72,7 +80,7 @@ def map_panel(ax, rows):
     measured = rows.pivot_table("measured_rate", "mass_ratio", "step_s", dropna=False)
     predicted = rows.pivot_table("predicted_rate", "mass_ratio", "step_s", dropna=False).reindex_like(measured)
     x, y = measured.columns.to_numpy(), measured.index.to_numpy()
-    mesh = ax.pcolormesh(edges(x), edges(y), on_log(measured.to_numpy()), norm=LogNorm(0.01, 100), cmap="PuOr_r")
+    mesh = ax.pcolormesh(edges(x), edges(y), on_log(measured.to_numpy()), norm=LogNorm(0.05, 1), cmap="cividis")
     ax.set(xscale="log", yscale="log", facecolor="#bbbbbb")
     ax.set_xticks(x, [step_text(step) for step in x])
     ax.set_yticks(y, [text_number(ratio) for ratio in y])
@@ -80,7 +88,7 @@ def map_panel(ax, rows):
     ax.grid(False)
     if np.nanmin(predicted) < 1 < np.nanmax(predicted):
         ax.contour(x, y, np.log(predicted), levels=[0.0], colors=BLACK, linestyles="--")
-    bad = rows[(rows["status"] != "ok") | (rows["behaviour"] != "converging")]
+    bad = rows[~rows["behaviour"].isin(CONTRACTING)]
     ax.plot(bad["step_s"], bad["mass_ratio"], "x", color=BLACK, markersize=4, markeredgewidth=0.8)
     return mesh
 
@@ -101,13 +109,14 @@ def predicted_rate(frame):
         look = style(scene) | {"linestyle": "none"}
         ax.plot(group["predicted_rate"], on_log(group["measured_rate"]), label=scene, markerfacecolor="white", **look)
     draw_failed(ax, failed(frame, "predicted_rate", "measured_rate"), "predicted_rate", "measured_rate")
-    ends = frame["predicted_rate"].replace([np.inf, 0], np.nan).dropna()
+    ends = rows["predicted_rate"].replace(0, np.nan).dropna()
     line = np.array([ends.min() * 0.7, ends.max() * 1.4]) if len(ends) else np.array([0.1, 10])
+    ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.8, label="predicted rate = 1")
     ax.plot(line, line, color=BLACK, linewidth=0.5, label="measured = predicted")
     ax.fill_between(line, 0.95 * line, 1.05 * line, color="#cccccc", linewidth=0, label="within 5 %")
     ax.set(xscale="log", yscale="log", xlabel="predicted rate, spectral radius", ylabel="measured rate",
            title="Plain iteration, error against Newton")
-    shared_legend(fig, [ax])
+    shared_legend(fig, [ax], columns=3)
     footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
     return fig
 

@@ -13,6 +13,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+CONTRACTING = ("converged", "converging")  # the error falls steadily
+BEHAVIOURS = (*CONTRACTING, "oscillating", "diverging")
 STATUSES = ("ok", "not_converged", "diverged", "skipped")
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
@@ -39,7 +41,8 @@ def read_table(path, columns=()):
     cells = {name: [row[i] for row in rows] for i, name in enumerate(header)}
     frame = pd.DataFrame({name: _column(path, name, values, name in columns) for name, values in cells.items()},
                          columns=header)
-    _check_status(path, frame)
+    _check_words(path, frame, "status", STATUSES)
+    _check_words(path, frame, "behaviour", BEHAVIOURS)
     return frame
 
 
@@ -83,10 +86,10 @@ def _numbers(path, name, values):
     return numbers
 
 
-def _check_status(path, frame):
-    for i, status in enumerate(frame.get("status", ())):
-        if status not in STATUSES:
-            raise InputError(f"{path}: line {i + 2}: column 'status': got '{status}'; allowed: {', '.join(STATUSES)}")
+def _check_words(path, frame, column, allowed):
+    for i, word in enumerate(frame.get(column, ())):
+        if word not in allowed:
+            raise InputError(f"{path}: line {i + 2}: column '{column}': got '{word}'; allowed: {', '.join(allowed)}")
 
 
 def read_run(directory):

@@ -16,7 +16,7 @@ TABLES = {
                                  "error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
     ("work_precision", "points"): METHOD + " tolerance",
-    ("effects_cost", "costs"): "scene effect rows bytes wall_s",
+    ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",

@@ -60,6 +60,9 @@ class Reading(unittest.TestCase):
     def test_unknown_status(self):
         self.assert_refused("error,status\n1,fine\n", "line 2", "'fine'", "not_converged")
 
+    def test_unknown_behaviour(self):
+        self.assert_refused("behaviour\nfalling\n", "line 2", "'falling'", "converged")
+
     def test_too_few_and_too_many_cells(self):
         self.assert_refused("scene,error\nchain\n", "line 2", "got 1 cells")
         self.assert_refused("scene,error\nchain,1,2\n", "line 2", "got 3 cells")

@@ -13,7 +13,7 @@ void implicit_euler(const State& state, const Points& acceleration, double h, St
 }  // namespace
 
 const std::vector<Integrator>& integrators() {
-  static const std::vector<Integrator> list{{"implicit_euler", implicit_euler}};
+  static const std::vector<Integrator> list{{"implicit_euler", 1, implicit_euler}};
   return list;
 }
 

@@ -23,6 +23,7 @@ using IntegratorFunction = void (*)(const State& state, const Points& accelerati
 
 struct Integrator {
   std::string_view name;
+  int order;  // of accuracy in h
   IntegratorFunction map;
 };
 

@@ -22,7 +22,8 @@ void frozen(OuterIteration& iteration) {
 }  // namespace
 
 const std::vector<Outer>& outers() {
-  static const std::vector<Outer> list{{"plain", plain}, {"incremental", incremental}, {"frozen", frozen}};
+  static const std::vector<Outer> list{
+      {"plain", true, plain}, {"incremental", false, incremental}, {"frozen", false, frozen}};
   return list;
 }
 

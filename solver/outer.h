@@ -33,6 +33,7 @@ class OuterIteration {
 
 struct Outer {
   std::string_view name;
+  bool solves_step;  // its fixed points are the solutions of the step
   void (*iterate)(OuterIteration& iteration);
 };
 

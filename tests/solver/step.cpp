@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "integrators.h"
+#include "outer.h"
 #include "scenes.h"
 
 using namespace pbd;
@@ -58,6 +60,26 @@ TEST_CASE("a compliant link is a spring: implicit Euler's amplitude is 1/sqrt(1 
   CHECK(amplitude == Approx(std::pow(1 + w * w * h * h, -50)).epsilon(1e-10));
 }
 
+TEST_CASE("every integrator has its declared order on a spring") {
+  const double w = 2 * std::numbers::pi;
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1.1, 0, 0), 1);
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1 / (w * w)}});
+  for (const auto& integrator : integrators()) {
+    const auto error = [&](int steps) {
+      Method method = direct_method(1e-12);
+      method.integrator = integrator.name;
+      Workspace workspace(scene, method);
+      State state = scene.initial;
+      for (int k = 0; k < steps; ++k) step(scene, method, 0.7 / steps, state, workspace);
+      return std::abs(state.x(0, 1) - 1 - 0.1 * std::cos(w * 0.7));
+    };
+    INFO(integrator.name);
+    CHECK(std::log2(error(2000) / error(4000)) == Approx(integrator.order).margin(0.05));
+  }
+}
+
 TEST_CASE("static stretch of a compliant link is m g A whatever the step") {
   const double h = GENERATE(1e-3, 1e-1, 10.0);
   Scene scene;
@@ -89,6 +111,18 @@ TEST_CASE("plain converges to the equations of motion, incremental to another po
   CHECK(other.primal > 1e-4 * other.scale);
   // Both feel gravity: the two differ by less than they move (theory: a few percent).
   CHECK((plain.x - incremental.x).norm() < 0.1 * (plain.x - start.x).norm());
+}
+
+TEST_CASE("every outer iteration solves the step if it says so, and only then") {
+  const Scene scene = chain(2);
+  const State start = advanced(scene, 1.0 / 240, 60);
+  for (const auto& outer : outers()) {
+    Method method = direct_method(1e-12);
+    method.outer = outer.name;
+    State state = start;
+    INFO(outer.name);
+    CHECK((one_step(scene, method, 1.0 / 60, state).status == Status::ok) == outer.solves_step);
+  }
 }
 
 TEST_CASE("with directions that never change, incremental multipliers are as good as whole ones") {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "samples.h"
 
@@ -132,4 +133,33 @@ TEST_CASE("compliances invert the energy of isotropic elasticity") {
   const double squares = c.head<3>().squaredNorm() + c.tail<3>().squaredNorm() / 2;
   const double density = mu * squares + lambda / 2 * std::pow(c.head<3>().sum(), 2);
   CHECK(0.5 * c.dot(stiffness * c) == Approx(density * tet_volume(effect.rest[0])).epsilon(1e-12));
+}
+
+TEST_CASE("a triangle's compliance inverts the energy of plane stress") {
+  // Energy per rest area t Y/(2 (1-nu^2)) (uu^2 + vv^2 + 2 nu uu vv + (1-nu)/2 (2 uv)^2), t the thickness.
+  const TriangleStrain effect = sample<TriangleStrain>();
+  const auto [young, nu] = effect.material;
+  const Eigen::Matrix3d stiffness = Constraint<TriangleStrain>::compliance(effect, 0).inverse();
+  const Vec3 c(0.01, -0.02, 0.05);
+  const double squares = c[0] * c[0] + c[1] * c[1] + 2 * nu * c[0] * c[1] + (1 - nu) / 2 * c[2] * c[2];
+  const double density = effect.thickness * young / (2 * (1 - nu * nu)) * squares;
+  const double area = (effect.rest[0].col(1) - effect.rest[0].col(0))
+                          .cross(effect.rest[0].col(2) - effect.rest[0].col(0))
+                          .norm() /
+                      2;
+  CHECK(0.5 * c.dot(stiffness * c) == Approx(density * area).epsilon(1e-12));
+}
+
+TEST_CASE("bending past the folded state takes the short way round") {
+  // The second wing turns about the edge from -3 to 3 rad: through the fold at pi that is -(2 pi - 6) rad.
+  const auto hinge = [](double turn) {
+    Eigen::Matrix<double, 3, 4> x;
+    x << 0, 0, -1, std::cos(turn), 0, 1, 0.5, 0.5, 0, 0, 0, std::sin(turn);
+    return x;
+  };
+  Bending effect = sample<Bending>();
+  effect.rest_angle[0] = dihedral_angle(hinge(-3));
+  const double orientation = dihedral_angle(hinge(1)) > 0 ? 1 : -1;
+  const double expected = -orientation * (2 * std::numbers::pi - 6);
+  CHECK(value_at(effect, hinge(3))[0] == Approx(expected).epsilon(1e-13));
 }

@@ -131,3 +131,64 @@ TEST_CASE("direct solves doubled constraints and gives equal motion") {
 TEST_CASE("an unknown relaxation is refused with the list") {
   CHECK_THROWS_WITH(make_relaxation("sor"), Catch::Contains("sor") && Catch::Contains("gauss_seidel"));
 }
+
+TEST_CASE("the spectral bound is at most 1.05 times the largest eigenvalue, and bounds it on a chain") {
+  const auto largest = [](const Rows& rows, int nodes) {
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(row_count(rows), 3 * nodes);
+    Eigen::MatrixXd n = Eigen::MatrixXd::Zero(row_count(rows), row_count(rows)), diagonal = n;
+    const auto each = [&](auto&& use) {
+      int row = 0;
+      for_each_block(rows.blocks, [&](const auto& block) {
+        for (std::size_t i = 0; i < block.size(); ++i, row += block.rows) use(block, i, row);
+      });
+    };
+    each([&](const auto& block, std::size_t i, int row) {
+      for (int a = 0; a < block.nodes; ++a)
+        jacobian.block(row, 3 * block.node[i][static_cast<std::size_t>(a)], block.rows, 3) =
+            block.jacobian[i].middleCols(3 * a, 3);
+      n.block(row, row, block.rows, block.rows) = block.compliance[i];
+    });
+    Eigen::VectorXd weights(3 * nodes);
+    for (int k = 0; k < weights.size(); ++k) weights[k] = rows.inverse_mass[static_cast<std::size_t>(k / 3)];
+    n += jacobian * weights.asDiagonal() * jacobian.transpose();
+    each([&](const auto& block, std::size_t, int row) {
+      diagonal.block(row, row, block.rows, block.rows) = n.block(row, row, block.rows, block.rows);
+    });
+    return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(n, diagonal, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+  };
+  SECTION("solid: far below the number of elements at a node; a Rayleigh quotient is never too large") {
+    const Scene scene = cantilever(4, {1e5, 0.3}, Strain::green);
+    const Planted problem(scene);
+    SpectralBound bound;
+    const double exact = largest(problem.rows, scene.nodes());
+    CHECK(bound.update(problem.rows, problem.v_free) <= 1.05 * exact * (1 + 1e-12));
+  }
+  SECTION("chain: two links at a node, whatever the power iteration says") {
+    const Scene scene = chain(50, 1, true);
+    const Planted problem(scene);
+    SpectralBound bound;
+    const double found = bound.update(problem.rows, problem.v_free);
+    CHECK(found >= largest(problem.rows, scene.nodes()));
+    CHECK(found <= 2);
+  }
+}
+
+TEST_CASE("Nesterov's momentum survives a linearisation that changes nothing") {
+  const Planted problem(chain(50, 1, true));  // two links at a node: the bound, so the step, is 2 throughout
+  constexpr int sweeps = 100;
+  const auto run = [&](bool again) {
+    Rows rows = problem.rows;
+    Points v = problem.v_free;
+    NesterovJacobi relaxation;
+    relaxation.begin(rows, v, true);
+    for (int k = 0; k < sweeps; ++k) {
+      relaxation.sweep(rows, v, nullptr);
+      if (again) relaxation.begin(rows, v, false);
+    }
+    return v;
+  };
+  const Points once = run(false);
+  CHECK((run(true) - once).norm() < 1e-12 * once.norm());
+}

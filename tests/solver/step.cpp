@@ -152,6 +152,7 @@ TEST_CASE("the plain iteration contracts a pendulum's error by h^2 T/(m l)") {
   std::vector<double> error;
   for (const auto& x : iterates)
     if (const double e = (x - solved.x).norm(); e > 1e-12) error.push_back(e);
+  REQUIRE(error.size() >= 2);
   const double measured = error.back() / error[error.size() - 2];
   CHECK(measured == Approx(predicted).epsilon(0.01));
 }
@@ -280,4 +281,52 @@ TEST_CASE("unknown names are refused before anything is computed") {
   method = {};
   method.integrator = "rk4";
   CHECK_THROWS_WITH(Workspace(pendulum(), method), Catch::Contains("integrator"));
+}
+
+TEST_CASE("a step begins with the last impulses if warm, with none if cold") {
+  // A weight at rest on a hard link: the impulse of one step, h m g, is that of the next.
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(0, 0, -1), 1);
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
+  const double h = 0.01;
+  Method method = direct_method(1e-12);
+  method.warm_start = GENERATE(true, false);
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  step(scene, method, h, state, workspace);
+  double first = -1;
+  step(scene, method, h, state, workspace, [&](const Iterate& iterate) {
+    if (iterate.outer_iteration == 0) first = iterate.primal;
+  });
+  // |v - v_free - W J^T p|_M of the old velocity, 0: nothing is left if p = h m g, h g sqrt(m) if p = 0.
+  CHECK(first == Approx(method.warm_start ? 0 : 9.81 * h).margin(1e-12));
+}
+
+TEST_CASE("a diverged step leaves nothing behind in the workspace") {
+  const Scene scene = chain(4);
+  const Method method;
+  Workspace used(scene, method), fresh(scene, method);
+  State broken = scene.initial;
+  step(scene, method, 0.01, broken, used);
+  broken.v(2, 1) = 1e300;
+  CHECK(step(scene, method, 0.01, broken, used).status == Status::diverged);
+  State after = scene.initial, expected = scene.initial;
+  step(scene, method, 0.01, after, used);
+  step(scene, method, 0.01, expected, fresh);
+  CHECK(after.x == expected.x);
+  CHECK(after.v == expected.v);
+}
+
+TEST_CASE("a scene that makes no sense is refused before anything is computed") {
+  Scene scene = pendulum();
+  SECTION("a mass of zero") {
+    scene.mass[1] = 0;
+    CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("mass[1]"));
+  }
+  SECTION("a link to a node that is not there") {
+    scene.effects.emplace_back(Distance{.node = {{0, 2}}, .rest_length = {1}, .compliance = {0}});
+    CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("effects[2] distance node[0]"));
+  }
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -33,7 +35,7 @@ struct Totals {
     outer_iterations += report.outer_iterations;
     sweeps += report.sweeps;
     row_updates += report.row_updates;
-    if (!(report.residual() <= worst_residual)) {
+    if (!std::isnan(worst_residual) && !(report.residual() <= worst_residual)) {
       worst_residual = report.residual();
       worst_step = steps;
     }

@@ -1,8 +1,10 @@
 #include "judges.h"
 
+#include <stdexcept>
+
 #include "choices.h"
 #include "error.h"
-#include "judge.h"
+#include "primal_newton.h"
 
 namespace pbdcheck {
 
@@ -25,6 +27,22 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
               judged.residual};
     }
   throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
+}
+
+pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h) {
+  auto judged = pbd::reference::primal_newton(scene, state, h);
+  if (judged.outcome != pbd::reference::Outcome::ok)
+    throw std::runtime_error("primal_newton found no step to compare with: " + judged.reason);
+  return judged;
+}
+
+pbd::State led_by_truth(const pbd::Scene& scene, double h, int steps) {
+  pbd::State state = scene.initial;
+  for (int k = 0; k < steps; ++k) {
+    const auto judged = truth(scene, state, h);
+    state = {state.time + h, judged.x, judged.v};
+  }
+  return state;
 }
 
 }  // namespace pbdcheck

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "judge.h"
 #include "scene.h"
 
 namespace pbdcheck {
@@ -24,5 +25,12 @@ struct Judged {
 /// The implicit Euler step of h seconds from `state` by a reference; an empty name takes the first one.
 /// Throws SetupError for a name that is not one of `reference_names()`.
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h);
+
+/// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
+/// reason unless it was solved.
+pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h);
+
+/// The scene's state after `steps` steps of h seconds by `truth`.
+pbd::State led_by_truth(const pbd::Scene& scene, double h, int steps);
 
 }  // namespace pbdcheck

@@ -1,6 +1,7 @@
 // One step by one method, watched: how the error falls with iterations, sweeps, row updates and time.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,6 +29,22 @@ struct Trace {
 
 /// How often a step is timed, after a first run that is thrown away (it warms caches and the allocator).
 inline constexpr int timed_repeats = 3;
+
+/// Largest of the values added: NaN once one of them was NaN, and NaN if there was none, so that no verdict
+/// holds on nothing.
+class Worst {
+ public:
+  void add(double value) {
+    largest_ = any_ && !(value > largest_) && !std::isnan(value) ? largest_ : value;
+    any_ = true;
+    spoilt_ = spoilt_ || std::isnan(value);
+  }
+  double value() const { return any_ && !spoilt_ ? largest_ : std::nan(""); }
+
+ private:
+  double largest_ = 0;
+  bool any_ = false, spoilt_ = false;
+};
 
 /// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);

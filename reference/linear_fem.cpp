@@ -37,11 +37,18 @@ Points corners(const TetMesh& mesh, const std::array<int, 4>& tet) {
   return x;
 }
 
+/// Volume of a tetrahedron, m^3, as a sixth of the determinant of its homogeneous corners.
+double volume_of(const Points& x) {
+  Eigen::Matrix4d homogeneous;
+  homogeneous << x, Eigen::RowVector4d::Ones();
+  return std::abs(homogeneous.determinant()) / 6;
+}
+
 SparseMatrix mass_matrix(const System& s, const LinearSolid& solid, MassMatrix kind) {
   SparseMatrix mass(s.model.unknowns, s.model.unknowns);
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& tet : solid.mesh.tets) {
-    const double weight = solid.density * tet_volume(corners(solid.mesh, tet));
+    const double weight = solid.density * volume_of(corners(solid.mesh, tet));
     for (const int a : tet)
       for (const int b : tet) {
         const int i = s.model.first[static_cast<std::size_t>(a)],
@@ -111,7 +118,7 @@ void integrate(const TetMesh& mesh, const Use& use) {
   const Quadrature q = collapsed_gauss(6);
   for (const auto& tet : mesh.tets) {
     const Points x = corners(mesh, tet);
-    const double volume = tet_volume(x);
+    const double volume = volume_of(x);
     for (std::size_t p = 0; p < q.point.size(); ++p)
       use(tet, x, q.point[p], Vec3(x * q.point[p]), q.weight[p] * volume);
   }

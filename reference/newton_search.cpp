@@ -59,7 +59,11 @@ bool descend(Search& s, double tolerance) {
     const Vector dx = -s.factor.solve(slope.gradient);
     const double t = line_search(s, slope, dx);
     s.correction = dx.cwiseAbs().maxCoeff() / s.displacement();
-    if (!std::isfinite(s.correction) || t == 0) return s.correction < rounding;
+    if (!std::isfinite(s.correction)) return false;
+    if (t == 0) {  // the objective no longer tells better from worse; the last correction does
+      if (s.correction < rounding) s.u += dx;
+      return s.correction < rounding;
+    }
     s.u += t * dx;
     s.show(s.u);
     const bool stalled = s.correction < rounding && s.correction > 0.25 * previous;

@@ -9,10 +9,12 @@ namespace pbd {
 namespace {
 
 /// A constraint keeps its rows where its compliance is below this part of J W J^T: eliminating it would
-/// square the stiffness ratio into the conditioning.
+/// square the stiffness ratio into the conditioning. Not so in a block with more rows than there are
+/// velocities: but for their compliance its rows are redundant.
 constexpr double eliminated_above = 1e-10;
-/// Shift of kept rows' diagonal, as part of N_ii.
-constexpr double relative_shift = 1e-12;
+/// Shift of kept rows' diagonal, as part of J W J^T. Rounding errors grow by its inverse, and a refinement
+/// reduces the error by shift/(shift + smallest eigenvalue of D^-1 N): a value between the two.
+constexpr double relative_shift = 1e-10;
 
 template <class Block>
 double trace_of_delassus(const Block& block, const std::vector<double>& inverse_mass, std::size_t i) {

@@ -81,7 +81,7 @@ class NesterovJacobi {
 /// compliance keep their rows, unless their block has more rows than there are unknown velocities:
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
-/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-12 of J W J^T, keeps redundant
+/// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
 /// rows solvable and is removed by the refinement.
 class Direct {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "names.h"
 
@@ -107,6 +108,7 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
 
 void Jacobi::begin(Rows& rows, const Points& v, bool) {
   omega_ = std::min(1.0, 2 / bound_.update(rows, v));
+  last_residual_ = std::numeric_limits<double>::infinity();
 }
 
 double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
@@ -122,7 +124,11 @@ double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
     }
   });
   v.swap(next_);
-  return std::sqrt(squared);
+  const double residual = std::sqrt(squared);
+  constexpr double rounding = 1e-9;
+  if (residual > (1 + rounding) * last_residual_) omega_ *= 0.9;
+  last_residual_ = residual;
+  return residual;
 }
 
 void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {

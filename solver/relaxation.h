@@ -42,7 +42,8 @@ class SpectralBound {
   std::int64_t sweeps_ = 0;
 };
 
-/// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound).
+/// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound). The residual cannot grow while
+/// omega <= 2/(largest eigenvalue): where it does, the bound was too low and omega is reduced by a tenth.
 class Jacobi {
  public:
   static constexpr std::string_view name = "jacobi";
@@ -54,6 +55,7 @@ class Jacobi {
  private:
   SpectralBound bound_;
   double omega_ = 1;
+  double last_residual_ = 0;
   Points next_;
 };
 

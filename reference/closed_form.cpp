@@ -137,13 +137,15 @@ double timoshenko_cantilever_frequency(const Beam& beam, int mode) {
 }
 
 double timoshenko_determinant(const Beam& beam, double frequency) {
-  const double w2 = std::pow(2 * pi * frequency, 2);
+  // Unknowns w/L, phi, M L/(E I), Q L^2/(E I) over x/L, so that the exponential's entries are of like size.
+  const double w2 = std::pow(2 * pi * frequency, 2), square = beam.length * beam.length;
+  const double bending = beam.young * beam.second_moment();
   Eigen::Matrix4d a;
-  a << 0, 1, 0, 1 / beam.shear_stiffness(),                 // w' = phi + Q/(kappa G A)
-      0, 0, 1 / (beam.young * beam.second_moment()), 0,     // phi' = M/(E I)
-      0, -beam.density * beam.second_moment() * w2, 0, -1,  // M' = -Q - rho I w^2 phi
-      -beam.density * beam.area() * w2, 0, 0, 0;            // Q' = -rho A w^2 w
-  const Eigen::Matrix4d transfer = (a * beam.length).exp();
+  a << 0, 1, 0, bending / (beam.shear_stiffness() * square),                  // w' = phi + Q/(kappa G A)
+      0, 0, 1, 0,                                                             // phi' = M/(E I)
+      0, -beam.density * w2 * square / beam.young, 0, -1,                     // M' = -Q - rho I w^2 phi
+      -beam.density * beam.area() * w2 * square * square / bending, 0, 0, 0;  // Q' = -rho A w^2 w
+  const Eigen::Matrix4d transfer = a.exp();
   return transfer.bottomRightCorner<2, 2>().determinant();
 }
 

@@ -42,8 +42,9 @@ class SpectralBound {
   std::int64_t sweeps_ = 0;
 };
 
-/// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound). The residual cannot grow while
-/// omega <= 2/(largest eigenvalue): where it does, the bound was too low and omega is reduced by a tenth.
+/// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound). The residual cannot grow
+/// while omega <= 2/(largest eigenvalue): where it does, the bound was too low and omega is reduced by a
+/// tenth.
 class Jacobi {
  public:
   static constexpr std::string_view name = "jacobi";

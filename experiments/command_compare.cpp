@@ -17,14 +17,13 @@
 namespace pbdcheck {
 namespace {
 
-/// The state after `steps` steps of the scene's own method, with a warning if one of them missed its
+/// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
 /// tolerance.
-pbd::State advanced(const SceneFile& file, int steps) {
+pbd::State advanced(const SceneFile& file, int steps, int& missed) {
   pbd::State state = file.scene.initial;
   pbd::Workspace workspace(file.scene, file.method);
   for (int i = 0; i < steps && !interrupted(); ++i)
-    if (pbd::step(file.scene, file.method, file.step_s, state, workspace).status != pbd::Status::ok)
-      warn(fmt::format("step {} on the way to the compared one missed its tolerance", i + 1));
+    if (pbd::step(file.scene, file.method, file.step_s, state, workspace).status != pbd::Status::ok) ++missed;
   return state;
 }
 
@@ -76,7 +75,12 @@ int compare(const CompareOptions& options) {
   const auto methods = parsed_methods(options, file.method);
   const auto names = reference_names();
   const std::string name = options.reference.empty() && !names.empty() ? names[0] : options.reference;
-  const pbd::State state = advanced(file, options.at_step);
+  int missed = 0;
+  const pbd::State state = advanced(file, options.at_step, missed);
+  if (interrupted()) return exit_interrupted;
+  if (missed > 0)
+    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
+                     options.at_step));
   const Judged judged = judge_step(name, file.scene, state, file.step_s);
   if (judged.status != "ok") warn(fmt::format("reference {} {}: {}", name, judged.status, judged.reason));
 
@@ -86,11 +90,14 @@ int compare(const CompareOptions& options) {
               {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
                "sweeps", "row_updates", "wall_s", "error", "status", "reason"});
   add_judge(table, scene, file.step_s, name, judged);
-  bool all_ok = judged.status == "ok";
+  bool all_ok = judged.status == "ok" && missed == 0;
   Progress progress("compare", static_cast<std::int64_t>(methods.size()));
   for (const auto& method : methods) {
     if (interrupted()) break;
     const Trace trace = measure(file.scene, state, file.step_s, method, judged.x);
+    if (trace.report.status != pbd::Status::ok)
+      warn(fmt::format("{} {} missed its tolerance: {}", method.outer, method.relaxation,
+                       trace.report.reason));
     all_ok = all_ok && trace.report.status == pbd::Status::ok;
     add_trace(table, scene, file.step_s, method, trace);
     progress.advance(method.outer + " " + method.relaxation);

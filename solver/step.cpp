@@ -40,6 +40,7 @@ struct StepData {
         seconds(rows.blocks.size(), 0.0) {
     for (const double mass : scene.mass)
       if (std::isfinite(mass)) finite_mass += mass;
+    if (finite_mass == 0) finite_mass = 1;  // nothing moves, and an unmet constraint still weighs
     for (std::size_t b = 0; b < rows.blocks.size(); ++b)
       costs.push_back(
           {std::visit([](const auto& effect) { return effect.name; }, scene.effects[effect_of_block[b]]),

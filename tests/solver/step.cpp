@@ -178,6 +178,12 @@ TEST_CASE("a step that is not solvable says so") {
     State state = scene.initial;
     CHECK(one_step(scene, {}, 0.01, state).status == Status::not_converged);
   }
+  SECTION("a stretched link and nothing that moves") {
+    scene.mass[1] = infinity;
+    scene.initial.x(0, 1) = 2;
+    State state = scene.initial;
+    CHECK(one_step(scene, {}, 0.01, state).status == Status::not_converged);
+  }
   SECTION("a budget too small") {
     Method method;
     method.max_outer = 1;

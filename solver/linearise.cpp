@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 #include "effects/effects.h"
 
@@ -50,21 +51,27 @@ typename Block::Positions positions(const Block& block, const Points& x, std::si
 }
 
 template <class E, class Block>
-double linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
-                       const std::vector<double>& inverse_mass, double unreachable_mass, Block& block) {
-  double squared = 0;
+BlockResidual linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
+                              const std::vector<double>& inverse_mass, double unreachable_mass,
+                              Block& block) {
+  constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
+  BlockResidual sums;
   typename Block::Value value;
   for (std::size_t i = 0; i < block.size(); ++i) {
-    Constraint<E>::evaluate(effect, i, positions(block, x, i), value, block.jacobian[i]);
+    const typename Block::Positions local = positions(block, x, i);
+    Constraint<E>::evaluate(effect, i, local, value, block.jacobian[i]);
     block.bias[i] = value / map.d - block.jacobian[i] * block.gather(v, i);
     block.compliance[i] = Constraint<E>::compliance(effect, i) / (map.s * map.d);
     bool singular = false;
     block.inverse_diagonal[i] = invert(diagonal_block(block, inverse_mass, i), singular);
 
     const typename Block::Value r = value / map.d + block.compliance[i] * block.impulse[i];
-    squared += singular ? unreachable_mass * r.squaredNorm() : r.dot(block.inverse_diagonal[i] * r);
+    sums.squared += singular ? unreachable_mass * r.squaredNorm() : r.dot(block.inverse_diagonal[i] * r);
+    const double size = roundoff * local.cwiseAbs().maxCoeff() / map.d;
+    sums.rounding_squared +=
+        size * size * block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
   }
-  return squared;
+  return sums;
 }
 
 template <class E>
@@ -91,15 +98,15 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
   return rows;
 }
 
-double linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
-                 const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block) {
+BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
+                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block) {
   return std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>)
           return linearise_block(stated, map, x, v, inverse_mass, unreachable_mass,
                                  std::get<BlockOf<E>>(block));
         else
-          return 0.0;
+          return BlockResidual{};
       },
       effect);
 }

@@ -10,12 +10,19 @@ namespace pbd {
 /// index in `scene.effects` of each block.
 Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block);
 
-/// Refreshes one block of rows from its effect at positions x and velocities v, and returns its share
-/// sum_i r_i^T N_ii^-1 r_i of the squared dual residual (J), r = c(x)/d + Sigma p. Where N_ii is singular and
-/// r is not zero, nothing can meet the constraint: its share is then r^2 weighted with `unreachable_mass`
-/// (kg).
-double linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
-                 const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
+/// Squared dual residual of a block, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
+/// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J. Both
+/// in J.
+struct BlockResidual {
+  double squared = 0;
+  double rounding_squared = 0;
+};
+
+/// Refreshes one block of rows from its effect at positions x and velocities v. Where N_ii is singular and r
+/// is not zero, nothing can meet the constraint: its share of the residual is then r^2 weighted with
+/// `unreachable_mass` (kg).
+BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
+                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
 
 /// Sum of the given forces' accelerations, m/s^2.
 void accelerations(const Scene& scene, Points& acceleration);

@@ -61,19 +61,21 @@ struct StepData {
   }
 
   /// Refreshes all rows at velocity `at` and the velocities that the impulses give along the new directions.
-  /// Returns the dual residual.
-  double linearise_at(const Scene& scene, const Points& at) {
+  /// Returns the squared dual residual and its rounding.
+  BlockResidual linearise_at(const Scene& scene, const Points& at) {
     x = map.x0 + map.d * at;
-    double squared = 0;
+    BlockResidual sums;
     for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
       const auto start = std::chrono::steady_clock::now();
-      squared += linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass, finite_mass,
-                           rows.blocks[b]);
+      const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass,
+                                            finite_mass, rows.blocks[b]);
+      sums.squared += share.squared;
+      sums.rounding_squared += share.rounding_squared;
       costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     rebuilt = map.v_free;
     apply_impulses(rows, rebuilt);
-    return std::sqrt(squared);
+    return sums;
   }
 };
 
@@ -180,12 +182,14 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
 
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
-  const double rounding = 8 * rounding_unit * (w.norm(state.x) / w.map.d + w.norm(w.map.v_free));
+  const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
   double first_residual = 0;
   StepIteration iteration(scene, method, w, report);
 
   for (;; ++report.outer_iterations) {
-    report.dual = w.linearise_at(scene, w.v);
+    const BlockResidual dual = w.linearise_at(scene, w.v);
+    report.dual = std::sqrt(dual.squared);
+    const double rounding = velocity_rounding + std::sqrt(dual.rounding_squared);
     report.primal = w.distance(w.v, w.rebuilt);
     report.scale = w.distance(w.v, state.v) + free_change;
     if (report.outer_iterations == 0) first_residual = std::max(report.primal, report.dual);

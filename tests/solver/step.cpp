@@ -184,6 +184,13 @@ TEST_CASE("a step that is not solvable says so") {
     State state = scene.initial;
     CHECK(one_step(scene, {}, 0.01, state).status == Status::not_converged);
   }
+  SECTION("a far node that no constraint touches does not hide the others' residual") {
+    add_node(scene, Vec3(1e12, 0, 0), 1);
+    Method method;
+    method.max_outer = 1;
+    State state = scene.initial;
+    CHECK(one_step(scene, method, 0.1, state).status == Status::not_converged);
+  }
   SECTION("a budget too small") {
     Method method;
     method.max_outer = 1;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "experiments.h"
 #include "files.h"
 #include "judges.h"
@@ -18,10 +20,10 @@ using namespace pbd;
 
 constexpr double step_s = 1.0 / 60;
 
-struct Problem {
+struct Problem : Case {
   std::string mesh;
-  TetMesh tets;
-  double young, poisson;
+  std::int64_t elements;
+  Material material;
   Strain strain;
 };
 
@@ -38,7 +40,15 @@ std::vector<Problem> problems(bool full) {
         for (const Strain strain : {Strain::green, Strain::corotational, Strain::linear}) {
           const bool small = name == "grid n=8" && (poisson == 0.3 || strain == Strain::green);
           const bool sample = young == 1e6 && poisson == 0.3 && strain == Strain::green;
-          if (full || small || sample) all.push_back({name, mesh, young, poisson, strain});
+          const Material material{young, poisson};
+          if (full || small || sample)
+            all.push_back({{fmt::format("cantilever {} {} E={:g} nu={:g}", name,
+                                        strain_names[static_cast<std::size_t>(strain)], young, poisson),
+                            clamped_solid(mesh, material, strain), step_s, step_s, 10},
+                           name,
+                           std::ssize(mesh.tets),
+                           material,
+                           strain});
         }
   return all;
 }
@@ -64,6 +74,11 @@ std::string solver_name(const Solver& solver) {
 
 }  // namespace
 
+std::vector<Case> dual_vs_primal_cases(bool full) {
+  const auto all = problems(full);
+  return {all.begin(), all.end()};
+}
+
 void dual_vs_primal(Context& context) {
   const auto all = problems(context.full());
   const auto methods = solvers(context.full());
@@ -75,9 +90,8 @@ void dual_vs_primal(Context& context) {
   Worst direct, soft_gauss_seidel, soft_nesterov, false_claims;
 
   for (const auto& problem : all) {
-    const Scene scene = clamped_solid(problem.tets, {problem.young, problem.poisson}, problem.strain);
-    const State start = led_by_truth(scene, step_s, 10);
-    const auto exact = truth(scene, start, step_s);
+    const State start = start_of(problem);
+    const auto exact = truth(problem.scene, start, problem.h);
     for (const auto& solver : methods) {
       Method method;
       method.outer = solver.outer;
@@ -85,10 +99,10 @@ void dual_vs_primal(Context& context) {
       method.tolerance = 1e-12;
       method.max_outer = solver.max_outer;
       method.max_sweeps = solver.max_sweeps;
-      const Trace trace = measure_once(scene, start, step_s, method, exact.x);
+      const Trace trace = measure_once(problem.scene, start, problem.h, method, exact.x);
       const auto status = std::string(status_names[static_cast<std::size_t>(trace.report.status)]);
       const auto write = [&](Table& table, const TracePoint& point) {
-        table.row({problem.mesh, std::ssize(problem.tets.tets), problem.young, problem.poisson,
+        table.row({problem.mesh, problem.elements, problem.material.young, problem.material.poisson,
                    std::string(strain_names[static_cast<std::size_t>(problem.strain)]), solver.outer,
                    solver.relaxation, point.sweeps, point.error, point.wall_s, status,
                    std::string(trace.report.reason)});
@@ -99,8 +113,8 @@ void dual_vs_primal(Context& context) {
 
       const auto name = solver_name(solver);
       if (name == "plain.direct") direct.add(last.error);
-      if (name == "plain.gauss_seidel" && problem.young < 5e6) soft_gauss_seidel.add(last.error);
-      if (name == "plain.nesterov_jacobi" && problem.young < 5e6) soft_nesterov.add(last.error);
+      if (name == "plain.gauss_seidel" && problem.material.young < 5e6) soft_gauss_seidel.add(last.error);
+      if (name == "plain.nesterov_jacobi" && problem.material.young < 5e6) soft_nesterov.add(last.error);
       if (trace.report.status == Status::ok) false_claims.add(last.error);
     }
     context.advance(problem.mesh);

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "cases.h"
+
 namespace pbdcheck {
 
 /// One cell of a table. Doubles are written with 17 significant digits, NaN and infinities as `nan`, `inf`,
@@ -91,6 +93,7 @@ struct Experiment {
   std::string_view name;
   std::string_view question;  // one sentence, shown by `list` and in the report
   void (*run)(Context&);
+  std::vector<Case> (*cases)(bool full) = nullptr;  // the steps it compares with a judge
 };
 
 /// All experiments, in the order of the report.

@@ -13,4 +13,9 @@ void mesh_refinement(Context& context);
 void work_precision(Context& context);
 void effects_cost(Context& context);
 
+std::vector<Case> outer_convergence_cases(bool full);
+std::vector<Case> inner_convergence_cases(bool full);
+std::vector<Case> dual_vs_primal_cases(bool full);
+std::vector<Case> work_precision_cases(bool full);
+
 }  // namespace pbdcheck

@@ -17,11 +17,7 @@ namespace {
 
 using namespace pbd;
 
-struct Case {
-  std::string name;
-  Scene scene;
-  State state;
-  double h;
+struct Problem : Case {
   int sweeps;       // most of them
   int chain_links;  // of a free chain, whose rates are known in closed form; 0 otherwise
 };
@@ -33,12 +29,11 @@ void stir(Scene& scene) {
       scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
 }
 
-std::vector<Case> cases(bool full) {
-  std::vector<Case> all;
+std::vector<Problem> problems(bool full) {
+  std::vector<Problem> all;
   const auto add = [&](std::string name, Scene scene, double h, int sweeps, int links = 0) {
     stir(scene);
-    State state = scene.initial;
-    all.push_back({std::move(name), std::move(scene), std::move(state), h, sweeps, links});
+    all.push_back({{std::move(name), std::move(scene), h}, sweeps, links});
   };
   for (const int links : {10, 20, 50, 100})
     add("chain" + std::to_string(links), chain(links, 1, true), 1.0 / 60, 10 * links * links, links);
@@ -58,7 +53,7 @@ struct Run {
 constexpr double rounding_floor = 1e-13;
 
 /// Sweeps until the error is at rounding or the case's number is spent. The error is taken outside the clock.
-Run run_once(const Case& each, const LinearStep& step, const Points& solved, std::string_view name) {
+Run run_once(const Problem& each, const LinearStep& step, const Points& solved, std::string_view name) {
   Relaxation any = make_relaxation(name);
   Rows rows = step.rows;
   Points v = step.v_free;
@@ -86,7 +81,7 @@ Run run_once(const Case& each, const LinearStep& step, const Points& solved, std
 }
 
 /// Two runs after one that is thrown away, the smaller times kept.
-Run timed(const Case& each, const LinearStep& step, const Points& solved, std::string_view name) {
+Run timed(const Problem& each, const LinearStep& step, const Points& solved, std::string_view name) {
   run_once(each, step, solved, name);
   Run best = run_once(each, step, solved, name);
   const Run other = run_once(each, step, solved, name);
@@ -109,7 +104,8 @@ struct Prediction {
   std::string theory;
 };
 
-Prediction predict(const Case& each, std::string_view relaxation, const reference::RelaxationRates& dense) {
+Prediction predict(const Problem& each, std::string_view relaxation,
+                   const reference::RelaxationRates& dense) {
   if (relaxation == Direct::name) return {0, "exact"};
   if (relaxation == NesterovJacobi::name)
     return {1 - 1 / std::sqrt(dense.condition), "1 - 1/sqrt(kappa), Nesterov's bound"};
@@ -127,8 +123,8 @@ bool worth_drawing(std::size_t k, std::size_t count) {
   return k < 100 || k + 1 == count || k % std::max<std::size_t>(1, k / 100) == 0;
 }
 
-void run_case(Context& context, const Case& each, Table& errors, Table& rates) {
-  const LinearStep step = linear_step(each.scene, each.state, each.h);
+void run_case(Context& context, const Problem& each, Table& errors, Table& rates) {
+  const LinearStep step = linear_step(each.scene, each.scene.initial, each.h);
   const Points solved = dense_solution(step);
   const auto names = relaxation_names();
   std::vector<Run> runs;
@@ -137,7 +133,7 @@ void run_case(Context& context, const Case& each, Table& errors, Table& rates) {
     runs.push_back(timed(each, step, solved, name));
     if (name == Jacobi::name) jacobi_factor = runs.back().factor;
   }
-  const auto dense = reference::relaxation_rates(each.scene, each.state.x, each.h, jacobi_factor);
+  const auto dense = reference::relaxation_rates(each.scene, each.scene.initial.x, each.h, jacobi_factor);
   for (std::size_t n = 0; n < names.size(); ++n) {
     const auto name = names[n];
     const Run& found = runs[n];
@@ -160,8 +156,13 @@ void run_case(Context& context, const Case& each, Table& errors, Table& rates) {
 
 }  // namespace
 
+std::vector<Case> inner_convergence_cases(bool full) {
+  const auto all = problems(full);
+  return {all.begin(), all.end()};
+}
+
 void inner_convergence(Context& context) {
-  const auto all = cases(context.full());
+  const auto all = problems(context.full());
   context.begin(std::ssize(all));
   Table errors =
       context.table("errors", {"scene", "relaxation", "sweep", "wall_s", "error", "status", "reason"});

@@ -36,11 +36,11 @@ pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state
   return judged;
 }
 
-pbd::State led_by_truth(const pbd::Scene& scene, double h, int steps) {
-  pbd::State state = scene.initial;
-  for (int k = 0; k < steps; ++k) {
-    const auto judged = truth(scene, state, h);
-    state = {state.time + h, judged.x, judged.v};
+pbd::State start_of(const Case& each) {
+  pbd::State state = each.scene.initial;
+  for (int k = 0; k < each.lead_steps; ++k) {
+    const auto judged = truth(each.scene, state, each.lead_step);
+    state = {state.time + each.lead_step, judged.x, judged.v};
   }
   return state;
 }

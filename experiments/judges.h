@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cases.h"
 #include "judge.h"
 #include "scene.h"
 
@@ -30,7 +31,7 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
 /// reason unless it was solved.
 pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h);
 
-/// The scene's state after `steps` steps of h seconds by `truth`.
-pbd::State led_by_truth(const pbd::Scene& scene, double h, int steps);
+/// The state before a case's step. Throws as `truth` does.
+pbd::State start_of(const Case& each);
 
 }  // namespace pbdcheck

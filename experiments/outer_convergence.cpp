@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "contraction.h"
 #include "experiments.h"
 #include "judges.h"
@@ -102,10 +104,33 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
   return std::nan("");
 }
 
-/// Straight chain released horizontally, swung for 0.3 s by the reference, so that every mass ratio has a
-/// state.
-State mid_swing(const Scene& scene) {
-  return led_by_truth(scene, 1.0 / 100, 30);
+constexpr double lead_step = 1.0 / 100;  // s
+constexpr int lead_steps = 30;           // to the middle of the swing
+
+std::vector<Case> pendulums() {
+  std::vector<Case> all;
+  for (const double h : {0.2, 0.1, 0.05}) all.push_back({"pendulum", pendulum(0.3, 2), h});
+  return all;
+}
+
+Case chain_case(double ratio, double h) {
+  return {fmt::format("chain20 tip x{:g}", ratio), chain(20, ratio), h, lead_step, lead_steps};
+}
+
+Case cantilever_case(double young) {
+  return {fmt::format("cantilever E={:g} Pa", young), cantilever(8, {young, 0.3}, Strain::green), 1.0 / 60,
+          lead_step, lead_steps};
+}
+
+std::vector<double> map_ratios(bool full) {
+  if (full) return {1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000};
+  return {1, 3, 10, 30, 100, 300, 1000};
+}
+
+std::vector<double> map_steps(bool full) {
+  if (full)
+    return {1.0 / 30, 1.0 / 42, 1.0 / 60, 1.0 / 85, 1.0 / 120, 1.0 / 170, 1.0 / 240, 1.0 / 340, 1.0 / 480};
+  return {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480};
 }
 
 void write_course(Table& table, const std::string& scene, double h, double ratio, std::string_view outer,
@@ -117,8 +142,7 @@ void write_course(Table& table, const std::string& scene, double h, double ratio
 }
 
 void pendulum_rates(Context& context, Table& errors, Table& map) {
-  for (const double h : {0.2, 0.1, 0.05}) {
-    const Scene scene = pendulum(0.3, 2);
+  for (const auto& [name, scene, h, lead, steps] : pendulums()) {
     const auto judged = truth(scene, scene.initial, h);
     const double predicted = reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius();
     const Course found = course(scene, scene.initial, h, judged.x, "plain", "direct", 60);
@@ -135,35 +159,28 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
 }
 
 void error_curves(Context& context, Table& errors) {
-  struct Case {
+  struct Curve {
     std::string name;
-    Scene scene;
-    State start;
-    double h;
     double ratio;
+    Case step;
   };
-  std::vector<Case> cases;
-  for (const auto& [ratio, h] :
-       {std::pair{1.0, 1.0 / 240}, {1.0, 1.0 / 60}, {100.0, 1.0 / 240}, {100.0, 1.0 / 60}}) {
-    Scene scene = chain(20, ratio);
-    State start = mid_swing(scene);
-    cases.push_back({"chain20", std::move(scene), std::move(start), h, ratio});
-  }
+  std::vector<Curve> curves;
+  for (const double ratio : {1.0, 100.0})
+    for (const double h : {1.0 / 240, 1.0 / 60}) curves.push_back({"chain20", ratio, chain_case(ratio, h)});
   for (const double young : {1e5, 1e6}) {
-    Scene scene = cantilever(8, {young, 0.3}, Strain::green);
-    State start = mid_swing(scene);
-    cases.push_back({young < 5e5 ? "cantilever E=1e5 Pa" : "cantilever E=1e6 Pa", std::move(scene),
-                     std::move(start), 1.0 / 60, 1});
+    Case step = cantilever_case(young);
+    curves.push_back({step.name, 1, std::move(step)});
   }
-  for (const auto& each : cases) {
-    const auto judged = truth(each.scene, each.start, each.h);
+  for (const auto& [name, ratio, each] : curves) {
+    const State start = start_of(each);
+    const auto judged = truth(each.scene, start, each.h);
     for (const auto& [outer, relaxation, iterations] : {std::tuple{"plain", "direct", 60},
                                                         {"incremental", "direct", 60},
                                                         {"incremental", "gauss_seidel", 200},
                                                         {"frozen", "direct", 3}})
-      write_course(errors, each.name, each.h, each.ratio, outer, relaxation,
-                   course(each.scene, each.start, each.h, judged.x, outer, relaxation, iterations));
-    context.advance(each.name);
+      write_course(errors, name, each.h, ratio, outer, relaxation,
+                   course(each.scene, start, each.h, judged.x, outer, relaxation, iterations));
+    context.advance(name);
   }
 }
 
@@ -174,21 +191,16 @@ struct Cell {
 };
 
 void chain_map(Context& context, Table& map) {
-  const std::vector<double> ratios =
-      context.full() ? std::vector<double>{1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000}
-                     : std::vector<double>{1, 3, 10, 30, 100, 300, 1000};
-  const std::vector<double> rates_hz = context.full()
-                                           ? std::vector<double>{30, 42, 60, 85, 120, 170, 240, 340, 480}
-                                           : std::vector<double>{30, 60, 120, 240, 480};
-  std::vector<Cell> cells(ratios.size() * rates_hz.size());
+  const auto ratios = map_ratios(context.full());
+  const auto steps = map_steps(context.full());
+  std::vector<Cell> cells(ratios.size() * steps.size());
   context.parallel(std::ssize(ratios), [&](std::int64_t r) {
     const double ratio = ratios[static_cast<std::size_t>(r)];
-    const Scene scene = chain(20, ratio);
-    const State start = mid_swing(scene);
-    for (std::size_t s = 0; s < rates_hz.size(); ++s) {
-      const double h = 1 / rates_hz[s];
+    const State start = start_of(chain_case(ratio, 0));
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const auto [name, scene, h, lead, lead_count] = chain_case(ratio, steps[s]);
       const auto judged = truth(scene, start, h);
-      Cell& cell = cells[static_cast<std::size_t>(r) * rates_hz.size() + s];
+      Cell& cell = cells[static_cast<std::size_t>(r) * steps.size() + s];
       cell = {h, ratio, reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius(),
               0, "",    course(scene, start, h, judged.x, "plain", "direct", 1000)};
       cell.measured = measured_rate(scene, start, h, judged);
@@ -215,6 +227,14 @@ void chain_map(Context& context, Table& map) {
 }
 
 }  // namespace
+
+std::vector<Case> outer_convergence_cases(bool full) {
+  std::vector<Case> all = pendulums();
+  for (const double ratio : map_ratios(full))
+    for (const double h : map_steps(full)) all.push_back(chain_case(ratio, h));
+  for (const double young : {1e5, 1e6}) all.push_back(cantilever_case(young));
+  return all;
+}
 
 void outer_convergence(Context& context) {
   context.begin(3 + 6 + 1);

@@ -17,25 +17,6 @@ namespace {
 
 using namespace pbd;
 
-struct Case {
-  std::string name;
-  Scene scene;
-  double h;
-  int approach_steps;  // of 1/100 s by the reference before the measured step
-};
-
-std::vector<Case> cases(bool full) {
-  std::vector<Case> all;
-  for (const double h : {1.0 / 240, 1.0 / 60}) {
-    all.push_back({"chain20", chain(20), h, 25});
-    all.push_back({"chain20 tip x100", chain(20, 100), h, 25});
-    all.push_back({full ? "cloth20" : "cloth10", cloth(full ? 20 : 10), h, 25});
-    all.push_back({"cantilever E=1e5 Pa", cantilever(8, {1e5, 0.3}, Strain::green), h, 10});
-    all.push_back({"cantilever E=1e6 Pa", cantilever(8, {1e6, 0.3}, Strain::green), h, 10});
-  }
-  return all;
-}
-
 void add_point(Table& table, const Case& each, std::string_view outer, std::string_view relaxation,
                double tolerance, const TracePoint& point, std::string_view status, std::string_view reason) {
   table.row({each.name, each.h, "implicit_euler", std::string(outer), std::string(relaxation), "", tolerance,
@@ -84,15 +65,27 @@ void method_points(const Case& each, const State& start, const Points& exact, st
 
 }  // namespace
 
+std::vector<Case> work_precision_cases(bool full) {
+  constexpr double lead = 1.0 / 100;
+  std::vector<Case> all;
+  for (const double h : {1.0 / 240, 1.0 / 60}) {
+    all.push_back({"chain20", chain(20), h, lead, 25});
+    all.push_back({"chain20 tip x100", chain(20, 100), h, lead, 25});
+    all.push_back({full ? "cloth20" : "cloth10", cloth(full ? 20 : 10), h, lead, 25});
+    all.push_back({"cantilever E=1e5 Pa", cantilever(8, {1e5, 0.3}, Strain::green), h, lead, 10});
+    all.push_back({"cantilever E=1e6 Pa", cantilever(8, {1e6, 0.3}, Strain::green), h, lead, 10});
+  }
+  return all;
+}
+
 void work_precision(Context& context) {
-  const auto all = cases(context.full());
+  const auto all = work_precision_cases(context.full());
   context.begin(std::ssize(all));
   Table table = context.table(
       "points", {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "tolerance",
                  "outer_iterations", "sweeps", "row_updates", "wall_s", "error", "status", "reason"});
   for (const auto& each : all) {
-    constexpr double approach_step = 1.0 / 100;
-    const State start = led_by_truth(each.scene, approach_step, each.approach_steps);
+    const State start = start_of(each);
     const Points exact = truth(each.scene, start, each.h).x;
     for (const auto& outer : names(outers()))
       for (const auto& relaxation : relaxation_names())

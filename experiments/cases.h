@@ -1,0 +1,21 @@
+// The steps that experiments do: a scene, its state before the step, the step's length.
+#pragma once
+
+#include <string>
+
+#include "scene.h"
+
+namespace pbdcheck {
+
+struct Case {
+  std::string name;
+  pbd::Scene scene;
+  double h;              // s, of the step in question
+  double lead_step = 0;  // s
+  int lead_steps = 0;    // steps of `lead_step` by `truth` from the scene's initial state to the step's start
+};
+
+/// State before the step. Throws std::runtime_error where the reference finds no way there.
+pbd::State start_of(const Case& each);
+
+}  // namespace pbdcheck

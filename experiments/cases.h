@@ -15,7 +15,4 @@ struct Case {
   int lead_steps = 0;    // steps of `lead_step` by `truth` from the scene's initial state to the step's start
 };
 
-/// State before the step. Throws std::runtime_error where the reference finds no way there.
-pbd::State start_of(const Case& each);
-
 }  // namespace pbdcheck

@@ -12,7 +12,7 @@ SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "re
 def family(scene):
     """The scene's name without sizes and parameters: `cantilever green` of `cantilever8 green E=1e5 nu=0.3`."""
     words = [word for word in scene.split() if "=" not in word and word != "tip" and not re.fullmatch(r"x\d+", word)]
-    return " ".join([words[0].rstrip("0123456789"), *words[1:]]) if words else scene
+    return " ".join(word.rstrip("0123456789") for word in words) if words else scene
 
 
 @figure("judges", "agreement", table="agreement")

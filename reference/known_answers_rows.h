@@ -1,0 +1,24 @@
+// The families of known answers, one source each, and what they share.
+#pragma once
+
+#include <numbers>
+#include <string>
+
+#include "known_answers.h"
+
+namespace pbd::reference::known {
+
+using Rows = std::vector<KnownAnswer>;
+
+inline constexpr double pi = std::numbers::pi;
+inline constexpr double g = 9.81;  // m/s^2
+
+/// Decimal without trailing zeros, for statements.
+std::string number(double value);
+
+void oscillators(Rows& rows);
+void particles(Rows& rows);
+void chains(Rows& rows);
+void solids(Rows& rows);
+
+}  // namespace pbd::reference::known

@@ -1,0 +1,96 @@
+#include <cmath>
+
+#include "closed_form.h"
+#include "known_answers_rows.h"
+#include "linear_fem.h"
+
+namespace pbd::reference::known {
+namespace {
+
+/// Frequency near a guess where the transfer matrix of Timoshenko's beam has a mode.
+double timoshenko_by_transfer(const Beam& beam, double guess) {
+  return find_root([&](double f) { return timoshenko_determinant(beam, f); }, 0.99 * guess, 1.01 * guess);
+}
+
+}  // namespace
+
+void solids(Rows& rows) {
+  const Beam beam{1, 0.1, 0.1, 1e7, 0.3, 1000};
+  const auto euler = BeamTheory::euler_bernoulli, timoshenko = BeamTheory::timoshenko;
+  rows.push_back({"cantilever",
+                  "cantilever 1 x .1 x .1 m, 1e7 Pa, nu .3, tip force 1 N: Euler-Bernoulli",
+                  "m",
+                  tip_deflection(beam, 1, euler),
+                  "0.004",
+                  {}});
+  rows.push_back(
+      {"cantilever", "the same: Timoshenko", "m", tip_deflection(beam, 1, timoshenko), "0.00403060", {}});
+  rows.push_back({"cantilever",
+                  "under its weight: Euler-Bernoulli",
+                  "m",
+                  weight_deflection(beam, g, euler),
+                  "0.14715",
+                  {}});
+  rows.push_back({"cantilever",
+                  "under its weight: Timoshenko",
+                  "m",
+                  weight_deflection(beam, g, timoshenko),
+                  "0.14865093",
+                  {}});
+  for (const auto& [mode, stated] : {std::pair{1, "1.615400679"}, {2, "10.12354325"}, {3, "28.34621423"}})
+    rows.push_back({"beam_modes", "its mode " + number(mode) + ": Euler-Bernoulli", "Hz",
+                    cantilever_frequency(beam, mode), stated, std::nullopt});
+  for (const auto& [mode, stated] : {std::pair{1, "1.602875337"}, {2, "9.612479584"}}) {
+    const double value = timoshenko_cantilever_frequency(beam, mode);
+    rows.push_back({"beam_modes", "its mode " + number(mode) + ": Timoshenko", "Hz", value, stated,
+                    timoshenko_by_transfer(beam, value)});
+  }
+  for (const auto& [mode, stated] : {std::pair{1, "10.27919896"}, {2, "28.33500776"}})
+    rows.push_back({"beam_modes", "the beam free at both ends, mode " + number(mode), "Hz",
+                    free_beam_frequency(beam, mode), stated, std::nullopt});
+
+  for (const auto& [stretch, stated] :
+       {std::pair{0.5, "-187500"}, {0.8, "-144000"}, {1.2, "264000"}, {1.5, "937500"}})
+    rows.push_back({"kirchhoff_bar",
+                    "St Venant-Kirchhoff bar, 1e6 Pa, stretch " + number(stretch) + ": nominal stress", "Pa",
+                    kirchhoff_uniaxial_stress(1e6, stretch), stated, std::nullopt});
+  rows.push_back({"kirchhoff_bar",
+                  "nu .3, stretch 0.5: lateral stretch",
+                  "1",
+                  kirchhoff_lateral_stretch(0.3, 0.5),
+                  "1.10679718",
+                  {}});
+  for (const auto& [shear, p12, p22] : {std::tuple{0.1, "39134.6154", "6730.76923"},
+                                        {0.5, "276442.308", "168269.231"},
+                                        {1.0, "1057692.31", "673076.923"}}) {
+    const ShearStress stress = kirchhoff_shear(1e6, 0.3, shear);
+    rows.push_back(
+        {"kirchhoff_shear", "simple shear " + number(shear) + ": P12", "Pa", stress.p12, p12, std::nullopt});
+    rows.push_back(
+        {"kirchhoff_shear", "simple shear " + number(shear) + ": P22", "Pa", stress.p22, p22, std::nullopt});
+  }
+  rows.push_back({"hanging_bar",
+                  "bar of 1 m, 1000 kg/m^3, 1e5 Pa, hung: linear",
+                  "m",
+                  hanging_bar(1, 1e3, g, 1e5),
+                  "0.04905",
+                  {}});
+  for (const auto& [young, stated] :
+       {std::pair{1e5, "0.044994096"}, {5e4, "0.083934939"}, {2e4, "0.179541984"}}) {
+    const auto stretch = [young = young](double x) {
+      return find_root([&](double l) { return kirchhoff_uniaxial_stress(young, l) - 1e3 * g * (1 - x); }, 0.9,
+                       3) -
+             1;
+    };
+    rows.push_back({"hanging_bar", "the same, St Venant-Kirchhoff, nu 0, " + number(young) + " Pa", "m",
+                    hanging_bar_kirchhoff(1, 1e3, g, young), stated, integrate(stretch, 0, 1)});
+  }
+  rows.push_back({"manufactured_cube",
+                  "manufactured cube: energy",
+                  "J",
+                  manufactured_energy({1e6, 0.3}),
+                  "39146.26746",
+                  {}});
+}
+
+}  // namespace pbd::reference::known

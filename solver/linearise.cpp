@@ -111,6 +111,32 @@ BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& 
       effect);
 }
 
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, const AnyBlock& any,
+                           std::vector<double>& inertia) {
+  std::visit(
+      [&]<class E>(const E& stated) {
+        if constexpr (RowEffect<E>) {
+          const auto& block = std::get<BlockOf<E>>(any);
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            const auto bound =
+                Constraint<E>::geometric_bound(stated, i, positions(block, x, i), block.impulse[i]);
+            for (int a = 0; a < block.nodes; ++a)
+              inertia[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] +=
+                  map.d / 2 * bound[a];
+          }
+        }
+      },
+      effect);
+}
+
+void refresh_inverse_diagonal(Rows& rows) {
+  for_each_block(rows.blocks, [&](auto& block) {
+    bool singular = false;
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block.inverse_diagonal[i] = invert(diagonal_block(block, rows.inverse_mass, i), singular);
+  });
+}
+
 void accelerations(const Scene& scene, Points& acceleration) {
   acceleration.setZero(3, scene.nodes());
   for (const auto& any : scene.effects)

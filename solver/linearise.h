@@ -24,6 +24,14 @@ struct BlockResidual {
 BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
                         const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
 
+/// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
+/// D that the proximal outer iteration adds, and half a bound of the geometric stiffness.
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, const AnyBlock& block,
+                           std::vector<double>& inertia);
+
+/// Refreshes N_ii^-1 for other inverse masses than `linearise` was given.
+void refresh_inverse_diagonal(Rows& rows);
+
 /// Sum of the given forces' accelerations, m/s^2.
 void accelerations(const Scene& scene, Points& acceleration);
 

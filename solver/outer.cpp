@@ -19,11 +19,20 @@ void frozen(OuterIteration& iteration) {
   iteration.relax();
 }
 
+void proximal(OuterIteration& iteration) {
+  iteration.add_inertia();
+  iteration.v() = iteration.rebuilt();
+  iteration.relax();
+  iteration.accelerate();
+}
+
 }  // namespace
 
 const std::vector<Outer>& outers() {
-  static const std::vector<Outer> list{
-      {"plain", true, plain}, {"incremental", false, incremental}, {"frozen", false, frozen}};
+  static const std::vector<Outer> list{{"plain", true, plain},
+                                       {"proximal", true, proximal},
+                                       {"incremental", false, incremental},
+                                       {"frozen", false, frozen}};
   return list;
 }
 

@@ -4,11 +4,18 @@
 //   plain        v <- v_free + W J_k^T p, then relax
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
+//   proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free; accelerated
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
 // the solutions of the step. In incremental earlier impulses keep the directions they were found with, as in
 // position based dynamics and XPBD (macklin2016xpbd), with Jacobians refreshed once an outer iteration: it
 // meets the constraints, not the equations of motion. frozen is velocity time stepping.
+//
+// Plain leaves out the geometric stiffness K = -d sum_i p_i d2c_i: its error is multiplied by -K/(M +
+// material stiffness) on the motions that the hard rows allow. Proximal has the same fixed points and
+// multiplies by (D - K)/(M + D + material stiffness), which is below 1 where D >= K/2 and the step's
+// potential is convex. D is half the effects' own bounds of the stiffening part of K, a number a node, zero
+// where no impulse pulls.
 #pragma once
 
 #include <string_view>
@@ -26,6 +33,8 @@ class OuterIteration {
   virtual bool first() = 0;               // of the step
   virtual void linearise_at_start() = 0;  // refreshes rows and `rebuilt` at x0
   virtual void relax() = 0;               // improves impulses and v by the linear rows
+  virtual void add_inertia() = 0;         // the proximal term: changes W and `rebuilt` until the next iterate
+  virtual void accelerate() = 0;          // by the iterates so far
 
  protected:
   ~OuterIteration() = default;

@@ -1,8 +1,10 @@
 #include "step.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "acceleration.h"
 #include "linearise.h"
 #include "names.h"
 #include "outer.h"
@@ -28,6 +30,8 @@ struct StepData {
 
   StepMap map;
   Points acceleration, zero, v, x, rebuilt, previous;
+  std::vector<double> inverse_mass, inertia;  // 1/kg of the nodes; kg of the proximal term
+  Anderson anderson;
   std::vector<double> seconds;  // per block, of the current outer iteration's first sweep
   std::vector<EffectCost> costs;
 
@@ -37,6 +41,9 @@ struct StepData {
         relaxation(make_relaxation(method.relaxation)),
         rows(allocate_rows(scene, effect_of_block)),
         zero(Points::Zero(3, scene.nodes())),
+        inverse_mass(rows.inverse_mass),
+        inertia(rows.inverse_mass.size(), 0.0),
+        anderson(method.memory),
         seconds(rows.blocks.size(), 0.0) {
     for (const double mass : scene.mass)
       if (std::isfinite(mass)) finite_mass += mass;
@@ -53,10 +60,10 @@ struct StepData {
 
   double distance(const Points& a, const Points& b) const {
     double squared = 0;
-    for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
-      if (rows.inverse_mass[node] > 0)
+    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+      if (inverse_mass[node] > 0)
         squared += (a.col(static_cast<int>(node)) - b.col(static_cast<int>(node))).squaredNorm() /
-                   rows.inverse_mass[node];
+                   inverse_mass[node];
     return std::sqrt(squared);
   }
 
@@ -64,6 +71,7 @@ struct StepData {
   /// Returns the squared dual residual and its rounding.
   BlockResidual linearise_at(const Scene& scene, const Points& at) {
     x = map.x0 + map.d * at;
+    rows.inverse_mass = inverse_mass;
     BlockResidual sums;
     for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
       const auto start = std::chrono::steady_clock::now();
@@ -76,6 +84,23 @@ struct StepData {
     rebuilt = map.v_free;
     apply_impulses(rows, rebuilt);
     return sums;
+  }
+
+  /// Replaces M by M + D and v_free by (M + D)^-1 (M v_free + D v).
+  void add_inertia(const Scene& scene) {
+    std::fill(inertia.begin(), inertia.end(), 0.0);
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, rows.blocks[b], inertia);
+    if (std::all_of(inertia.begin(), inertia.end(), [](double kg) { return kg == 0; })) return;
+    rebuilt = map.v_free;
+    for (std::size_t node = 0; node < inertia.size(); ++node) {
+      const double share = inertia[node] * inverse_mass[node];  // D / M
+      const auto column = static_cast<Eigen::Index>(node);
+      rows.inverse_mass[node] = inverse_mass[node] / (1 + share);
+      rebuilt.col(column) = (map.v_free.col(column) + share * v.col(column)) / (1 + share);
+    }
+    refresh_inverse_diagonal(rows);
+    apply_impulses(rows, rebuilt);
   }
 };
 
@@ -114,13 +139,15 @@ namespace {
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 
 /// Residual, scale and rounding level of an iterate; true if the outer iteration is to end.
-bool finished(const Method& method, double rounding, double first_residual, Report& report) {
+bool finished(const Method& method, double primal_rounding, double dual_rounding, double first_residual,
+              Report& report) {
   const double residual = std::max(report.primal, report.dual);
   constexpr double blown_up = 1e8;  // growth beyond any transient
   if (!std::isfinite(report.primal) || !std::isfinite(report.dual)) {
     report.status = Status::diverged;
     report.reason = "not finite";
-  } else if (residual <= std::max(method.tolerance * report.scale, rounding)) {
+  } else if (report.primal <= std::max(method.tolerance * report.scale, primal_rounding) &&
+             report.dual <= std::max(method.tolerance * report.scale, dual_rounding)) {
     report.status = Status::ok;
     report.reason = "";
   } else if (residual > blown_up * std::max(first_residual, report.scale)) {
@@ -144,6 +171,11 @@ class StepIteration final : public OuterIteration {
   const Points& rebuilt() override { return data_.rebuilt; }
   bool first() override { return report_.outer_iterations == 0; }
   void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
+  void add_inertia() override {
+    data_.anderson.begin(data_.rows, data_.v);
+    data_.add_inertia(scene_);
+  }
+  void accelerate() override { data_.anderson.accelerate(data_.inverse_mass, data_.rows, data_.v); }
 
   void relax() override {
     constexpr double inner_share = 0.1;  // of the step's tolerance, left to the linear problem
@@ -179,6 +211,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     });
   w.v = state.v;
   w.previous = w.v;
+  w.anderson.forget();
 
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
@@ -189,14 +222,15 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   for (;; ++report.outer_iterations) {
     const BlockResidual dual = w.linearise_at(scene, w.v);
     report.dual = std::sqrt(dual.squared);
-    const double rounding = velocity_rounding + std::sqrt(dual.rounding_squared);
     report.primal = w.distance(w.v, w.rebuilt);
     report.scale = w.distance(w.v, state.v) + free_change;
     if (report.outer_iterations == 0) first_residual = std::max(report.primal, report.dual);
     if (observer)
       observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,
                 report.scale, w.x, w.v});
-    if (finished(method, rounding, first_residual, report)) break;
+    if (finished(method, velocity_rounding, velocity_rounding + std::sqrt(dual.rounding_squared),
+                 first_residual, report))
+      break;
     if (report.outer_iterations > 0 && w.distance(w.v, w.previous) <= rounding_unit * w.norm(w.v)) {
       report.reason = "stalled away from the solution";
       break;

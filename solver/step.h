@@ -35,6 +35,7 @@ struct Method {
   int max_sweeps = 20;         // sweeps of the relaxation an outer iteration
   double inner_tolerance = 0;  // end an outer iteration's sweeps when the linear residual fell by this factor
   bool warm_start = true;      // begin with the previous step's impulses
+  int memory = 20;             // iterates that `proximal` is accelerated by; 0 leaves it as it is
 };
 
 enum class Status { ok, not_converged, diverged };

@@ -18,6 +18,10 @@ struct Constraint<Anchor> : ConstraintShape<3, 1> {
     value = x - effect.target[i];
     jacobian.setIdentity();
   }
+
+  static NodeBounds geometric_bound(const Anchor&, std::size_t, const Positions&, const Value&) {
+    return NodeBounds::Zero();
+  }
 };
 
 }  // namespace pbd

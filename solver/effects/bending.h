@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -41,6 +42,25 @@ struct Constraint<Bending> : ConstraintShape<1, 4> {
     const double t_b = wing_b.dot(edge) * inverse_square;
     jacobian << (-(1 - t_a) * gradient_a - (1 - t_b) * gradient_b).transpose(),
         (-t_a * gradient_a - t_b * gradient_b).transpose(), gradient_a.transpose(), gradient_b.transpose();
+  }
+
+  /// |e^T (d2theta/dx2) e| <= sum_ab s_a s_b |e_a| |e_b| with s the inverse heights of the wings and, for the
+  /// edge's ends, what the heights' foot points leave them plus 1/L.
+  static NodeBounds geometric_bound(const Bending&, std::size_t, const Positions& x, const Value& impulse) {
+    const Vec3 edge = x.col(1) - x.col(0);
+    const double length = edge.norm();
+    if (!(length > 0)) return NodeBounds::Zero();
+    const auto wing = [&](int column) {
+      const Vec3 to_wing = x.col(column) - x.col(0);
+      const double doubled_area = edge.cross(to_wing).norm();
+      return std::pair{to_wing.dot(edge) / (length * length), doubled_area > 0 ? length / doubled_area : 0.0};
+    };
+    const auto [t_a, inverse_a] = wing(2);
+    const auto [t_b, inverse_b] = wing(3);
+    NodeBounds s;
+    s << std::abs(1 - t_a) * inverse_a + std::abs(1 - t_b) * inverse_b + 1 / length,
+        std::abs(t_a) * inverse_a + std::abs(t_b) * inverse_b + 1 / length, inverse_a, inverse_b;
+    return std::abs(impulse[0]) * s.sum() * s;
   }
 
  private:

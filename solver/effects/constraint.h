@@ -1,8 +1,12 @@
 // What every effect with rows states: Constraint<Effect> gives the value c(x) of constraint i, its Jacobian J
-// = dc/dx and its compliance A, at the positions of the constraint's K nodes.
+// = dc/dx and its compliance A, at the positions of the constraint's K nodes, and a bound B (N s/m, one a
+// node) of the geometric stiffness of its impulses p:
+//   -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
+// Only the stiffening part counts (tension, not compression): B = 0 where p = 0.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -20,7 +24,19 @@ struct ConstraintShape {
   using Jacobian = Eigen::Matrix<double, R, 3 * K>;  // three columns a node
   using Square = Eigen::Matrix<double, R, R>;
   using Nodes = std::array<int, static_cast<std::size_t>(K)>;
+  using NodeBounds = Eigen::Matrix<double, 1, K>;  // of the geometric stiffness, one a node
 };
+
+/// Row sums of |Y P Y^T|, P the positive part of the symmetric matrix `stress`: where a constraint's value is
+/// F^T F contracted with -stress, F = X Y, this is its geometric bound.
+template <class Gradients, class Square>
+Eigen::Matrix<double, 1, Gradients::RowsAtCompileTime> stress_bound(const Gradients& y,
+                                                                    const Square& stress) {
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(stress);
+  const Gradients directions = y * eigen.eigenvectors();
+  const auto tension = eigen.eigenvalues().cwiseMax(0.0).eval();
+  return (directions * tension.asDiagonal() * directions.transpose()).cwiseAbs().rowwise().sum().transpose();
+}
 
 /// Specialised by each effect with rows, derived from its ConstraintShape.
 template <class Effect>
@@ -31,6 +47,9 @@ concept RowEffect = requires(const Effect& effect, std::size_t i,
                              const typename Constraint<Effect>::Positions& x,
                              typename Constraint<Effect>::Value& value,
                              typename Constraint<Effect>::Jacobian& jacobian) {
+  {
+    Constraint<Effect>::geometric_bound(effect, i, x, value)
+    } -> std::same_as<typename Constraint<Effect>::NodeBounds>;
   { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
   { Constraint<Effect>::compliance(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   Constraint<Effect>::evaluate(effect, i, x, value, jacobian);

@@ -2,6 +2,8 @@
 // Coinciding ends have no direction; they are parted along x.
 #pragma once
 
+#include <algorithm>
+
 #include "effects/constraint.h"
 
 namespace pbd {
@@ -19,6 +21,12 @@ struct Constraint<Distance> : ConstraintShape<1, 2> {
     const Vec3 direction = length > 0 ? Vec3(link / length) : Vec3::UnitX();
     value[0] = length - effect.rest_length[i];
     jacobian << -direction.transpose(), direction.transpose();
+  }
+
+  /// d2c/dx2 = (I - u u^T)/length [1 -1; -1 1], of norm 2/length.
+  static NodeBounds geometric_bound(const Distance&, std::size_t, const Positions& x, const Value& impulse) {
+    const double length = (x.col(1) - x.col(0)).norm();
+    return NodeBounds::Constant(length > 0 ? std::max(0.0, -impulse[0]) * 2 / length : 0.0);
   }
 };
 

@@ -32,8 +32,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
 
   static void evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {
-    const auto& rest = effect.rest[i];
-    const Eigen::Matrix3d inverse = Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
+    const Eigen::Matrix3d inverse = inverse_rest(effect, i);
     const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
     const Eigen::Matrix3d t = directions(effect.strain, f);
     const Eigen::Matrix3d stretch = t.transpose() * f;
@@ -42,8 +41,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
     if (effect.strain == Strain::green) value /= 2;
     value.head<3>().array() -= effect.strain == Strain::green ? 0.5 : 1.0;
 
-    Eigen::Matrix<double, 4, 3> y;
-    y << -inverse.colwise().sum(), inverse;
+    const Eigen::Matrix<double, 4, 3> y = gradients(inverse);
     for (int node_index = 0; node_index < 4; ++node_index)
       for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3;
@@ -53,7 +51,41 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
       }
   }
 
+  /// green: Y (-P) Y^T with P the impulses as a symmetric matrix. corotational: R turns by no more than
+  /// |dF| 2/(s_i + s_j), s the stretches, and turns -P with it; s_i + s_j counts as 0.1 at least.
+  static NodeBounds geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
+                                    const Value& impulse) {
+    if (effect.strain == Strain::linear) return NodeBounds::Zero();
+    Eigen::Matrix3d stress;
+    stress << impulse[0], impulse[3], impulse[5], impulse[3], impulse[1], impulse[4], impulse[5], impulse[4],
+        impulse[2];
+    const Eigen::Matrix3d inverse = inverse_rest(effect, i);
+    if (effect.strain == Strain::green) return stress_bound(gradients(inverse), Eigen::Matrix3d(-stress));
+    const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
+    const Eigen::Matrix3d stretch = polar_rotation(f).transpose() * f;
+    using Eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+    const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
+    const double pair =
+        symmetric.trace() - Eigenvalues(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    constexpr double least_pair = 0.1;
+    const double tension = Eigenvalues(-stress, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    if (!(tension > 0)) return NodeBounds::Zero();
+    return stress_bound(gradients(inverse), Eigen::Matrix3d(2 * tension / std::max(pair, least_pair) *
+                                                            Eigen::Matrix3d::Identity()));
+  }
+
  private:
+  static Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
+    const auto& rest = effect.rest[i];
+    return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
+  }
+
+  static Eigen::Matrix<double, 4, 3> gradients(const Eigen::Matrix3d& inverse) {
+    Eigen::Matrix<double, 4, 3> y;
+    y << -inverse.colwise().sum(), inverse;
+    return y;
+  }
+
   static Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
     switch (strain) {
       case Strain::green:

@@ -31,14 +31,26 @@ struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
     const Eigen::Matrix<double, 3, 2> f = (x.rightCols<2>().colwise() - x.col(0)) * inverse;
     value << (f.col(0).squaredNorm() - 1) / 2, (f.col(1).squaredNorm() - 1) / 2, f.col(0).dot(f.col(1));
 
-    Eigen::Matrix<double, 3, 2> y;
-    y << -inverse.colwise().sum(), inverse;
+    const Eigen::Matrix<double, 3, 2> y = gradients(inverse);
     for (int a = 0; a < 3; ++a)
       jacobian.middleCols<3>(3 * a) << y(a, 0) * f.col(0).transpose(), y(a, 1) * f.col(1).transpose(),
           y(a, 1) * f.col(0).transpose() + y(a, 0) * f.col(1).transpose();
   }
 
+  static NodeBounds geometric_bound(const TriangleStrain& effect, std::size_t i, const Positions&,
+                                    const Value& impulse) {
+    Eigen::Matrix2d stress;
+    stress << impulse[0], impulse[2], impulse[2], impulse[1];
+    return stress_bound(gradients(rest_edges(effect.rest[i]).inverse()), Eigen::Matrix2d(-stress));
+  }
+
  private:
+  static Eigen::Matrix<double, 3, 2> gradients(const Eigen::Matrix2d& inverse) {
+    Eigen::Matrix<double, 3, 2> y;
+    y << -inverse.colwise().sum(), inverse;
+    return y;
+  }
+
   static Eigen::Matrix2d rest_edges(const Eigen::Matrix3d& rest) {
     const Vec3 first = rest.col(1) - rest.col(0);
     const Vec3 second = rest.col(2) - rest.col(0);

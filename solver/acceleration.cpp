@@ -1,0 +1,74 @@
+#include "acceleration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbd {
+
+void Anderson::flatten(const Rows& rows, const Points& v, Eigen::VectorXd& z) const {
+  z.resize(v.size() + row_count(rows));
+  z.head(v.size()) = v.reshaped();
+  Eigen::Index next = v.size();
+  for_each_block(rows.blocks, [&](const auto& block) {
+    for (const auto& impulse : block.impulse) {
+      z.segment(next, impulse.size()) = impulse;
+      next += impulse.size();
+    }
+  });
+}
+
+void Anderson::spread(const Eigen::VectorXd& z, Rows& rows, Points& v) const {
+  v.reshaped() = z.head(v.size());
+  Eigen::Index next = v.size();
+  for_each_block(rows.blocks, [&](auto& block) {
+    for (auto& impulse : block.impulse) {
+      impulse = z.segment(next, impulse.size());
+      next += impulse.size();
+    }
+  });
+}
+
+void Anderson::begin(const Rows& rows, const Points& v) {
+  if (memory_ > 0) flatten(rows, v, start_);
+}
+
+bool Anderson::accelerate(const std::vector<double>& inverse_mass, Rows& rows, Points& v) {
+  if (memory_ == 0) return false;
+  if (root_mass_.size() == 0) {
+    root_mass_.resize(v.size());
+    for (Eigen::Index k = 0; k < v.size(); ++k) {
+      const double inverse = inverse_mass[static_cast<std::size_t>(k / 3)];
+      root_mass_[k] = inverse > 0 ? 1 / std::sqrt(inverse) : 0.0;
+    }
+  }
+  last_image_.swap(image_);
+  last_residual_.swap(residual_);
+  flatten(rows, v, image_);
+  residual_ = root_mass_.cwiseProduct((image_ - start_).head(v.size()));
+  if (count_ > 0) {
+    if (image_change_.cols() == 0) {
+      image_change_.resize(image_.size(), memory_);
+      residual_change_.resize(residual_.size(), memory_);
+    }
+    const int column = (count_ - 1) % memory_;
+    image_change_.col(column) = image_ - last_image_;
+    residual_change_.col(column) = residual_ - last_residual_;
+  }
+  const int columns = std::min(count_++, memory_);
+  if (columns == 0) return false;
+
+  const Eigen::VectorXd gamma = residual_change_.leftCols(columns).colPivHouseholderQr().solve(residual_);
+  start_ = image_ - image_change_.leftCols(columns) * gamma;
+  constexpr double longest = 100;
+  const double length = (start_ - image_).head(v.size()).cwiseProduct(root_mass_).norm();
+  if (!(length <= longest * residual_.norm())) return false;
+  spread(start_, rows, v);
+  return true;
+}
+
+void Anderson::reject(Rows& rows, Points& v) {
+  spread(image_, rows, v);
+  forget();
+}
+
+}  // namespace pbd

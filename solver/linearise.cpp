@@ -111,6 +111,64 @@ BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& 
       effect);
 }
 
+double add_potential(const Effect& effect, const StepMap& map, const Points& x,
+                     const std::vector<double>& inverse_mass, AnyBlock& any, Points& v) {
+  return std::visit(
+      [&]<class E>(const E& stated) {
+        double sum = 0;
+        if constexpr (RowEffect<E>) {
+          auto& block = std::get<BlockOf<E>>(any);
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            typename BlockOf<E>::Value value;
+            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, block.jacobian[i]);
+            value /= map.d;
+            block.impulse[i].noalias() = -block.stiffness[i] * value;
+            sum -= value.dot(block.impulse[i]) / 2;
+            block.apply(inverse_mass, i, block.impulse[i], v);
+          }
+        }
+        return sum;
+      },
+      effect);
+}
+
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBlock& any,
+                std::vector<Eigen::Triplet<double>>& entries) {
+  std::visit(
+      [&]<class E>(const E& stated) {
+        if constexpr (RowEffect<E>) {
+          auto& block = std::get<BlockOf<E>>(any);
+          block.stiffness.resize(block.size());
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            typename BlockOf<E>::Value value;
+            typename BlockOf<E>::Jacobian jacobian;
+            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
+            block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();
+            for (int a = 0; a < block.nodes; ++a)
+              for (int b = 0; b <= a; ++b)
+                entries.emplace_back(block.node[i][static_cast<std::size_t>(a)],
+                                     block.node[i][static_cast<std::size_t>(b)],
+                                     (jacobian.template middleCols<3>(3 * a).transpose() *
+                                      block.stiffness[i] * jacobian.template middleCols<3>(3 * b))
+                                             .trace() /
+                                         3);
+          }
+        }
+      },
+      effect);
+}
+
+bool all_compliant(const Effect& effect) {
+  return std::visit(
+      []<class E>(const E& stated) {
+        if constexpr (RowEffect<E>)
+          for (std::size_t i = 0; i < stated.node.size(); ++i)
+            if (!(Constraint<E>::compliance(stated, i).diagonal().minCoeff() > 0)) return false;
+        return true;
+      },
+      effect);
+}
+
 void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, const AnyBlock& any,
                            std::vector<double>& inertia) {
   std::visit(

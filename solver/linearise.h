@@ -1,6 +1,8 @@
 // From effects to rows: b = c(x_k)/d - J v_k, Sigma = A/(s d), N_ii^-1, at the positions x_k = x0 + d v_k.
 #pragma once
 
+#include <Eigen/SparseCore>
+
 #include "integrators.h"
 #include "rows.h"
 
@@ -23,6 +25,19 @@ struct BlockResidual {
 /// `unreachable_mass` (kg).
 BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
                         const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
+
+/// The step's potential as one block of compliant rows gives it: sets impulses p = -Sigma^-1 c/d at positions
+/// x, adds W J^T p to `v` and returns 1/2 (c/d)^T Sigma^-1 (c/d) in J.
+double add_potential(const Effect& effect, const StepMap& map, const Points& x,
+                     const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
+
+/// Appends the block's share s d L of the quasi-Newton metric, L_ab = 1/3 trace(J_a^T A^-1 J_b) at positions
+/// x: entries (node a, node b, kg), each pair once. Fills the block's `stiffness`.
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBlock& block,
+                std::vector<Eigen::Triplet<double>>& entries);
+
+/// True if every row of the effect gives way: A is positive definite.
+bool all_compliant(const Effect& effect);
 
 /// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
 /// D that the proximal outer iteration adds, and half a bound of the geometric stiffness.

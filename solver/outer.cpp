@@ -26,11 +26,16 @@ void proximal(OuterIteration& iteration) {
   iteration.accelerate();
 }
 
+void quasi_newton(OuterIteration& iteration) {
+  iteration.descend();
+}
+
 }  // namespace
 
 const std::vector<Outer>& outers() {
   static const std::vector<Outer> list{{"plain", true, plain},
                                        {"proximal", true, proximal},
+                                       {"quasi_newton", true, quasi_newton, true},
                                        {"incremental", false, incremental},
                                        {"frozen", false, frozen}};
   return list;

@@ -4,6 +4,7 @@
 //   plain        v <- v_free + W J_k^T p, then relax
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
+//   quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are eliminated
 //   proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free; accelerated
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
@@ -35,6 +36,7 @@ class OuterIteration {
   virtual void relax() = 0;               // improves impulses and v by the linear rows
   virtual void add_inertia() = 0;         // the proximal term: changes W and `rebuilt` until the next iterate
   virtual void accelerate() = 0;          // by the iterates so far
+  virtual void descend() = 0;             // one step down the potential of compliant rows
 
  protected:
   ~OuterIteration() = default;
@@ -44,6 +46,7 @@ struct Outer {
   std::string_view name;
   bool solves_step;  // its fixed points are the solutions of the step
   void (*iterate)(OuterIteration& iteration);
+  bool on_potential = false;  // impulses are the rows' own, p = -Sigma^-1 c/d; every row must be compliant
 };
 
 /// All outer iterations.

@@ -28,6 +28,7 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<typename Shape::Square> compliance;  // Sigma
   std::vector<typename Shape::Square> inverse_diagonal;
   std::vector<typename Shape::Value> impulse;
+  std::vector<typename Shape::Square> stiffness;  // Sigma^-1, kept for quasi_newton alone
 
   std::size_t size() const { return node.size(); }
 

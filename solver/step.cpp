@@ -8,6 +8,7 @@
 #include "linearise.h"
 #include "names.h"
 #include "outer.h"
+#include "quasi_newton.h"
 #include "relaxation.h"
 #include "validate.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 struct StepData {
   IntegratorFunction integrator;
-  void (*outer)(OuterIteration&);
+  Outer outer;
   Relaxation relaxation;
   std::vector<std::size_t> effect_of_block;
   Rows rows;
@@ -32,18 +33,24 @@ struct StepData {
   Points acceleration, zero, v, x, rebuilt, previous;
   std::vector<double> inverse_mass, inertia;  // 1/kg of the nodes; kg of the proximal term
   Anderson anderson;
+  QuasiNewton quasi_newton;
+  double potential = 0;               // J, at v
+  bool evaluated = false;             // the potential and the impulses are those of v
+  double metric_d = 0, metric_s = 0;  // s, of the metric that is factored
+  Points gradient, last_gradient, direction, search_from;
   std::vector<double> seconds;  // per block, of the current outer iteration's first sweep
   std::vector<EffectCost> costs;
 
   StepData(const Scene& scene, const Method& method)
       : integrator(find_named(integrators(), "integrator", method.integrator).map),
-        outer(find_named(outers(), "outer", method.outer).iterate),
+        outer(find_named(outers(), "outer", method.outer)),
         relaxation(make_relaxation(method.relaxation)),
         rows(allocate_rows(scene, effect_of_block)),
         zero(Points::Zero(3, scene.nodes())),
         inverse_mass(rows.inverse_mass),
         inertia(rows.inverse_mass.size(), 0.0),
         anderson(method.memory),
+        quasi_newton(method.memory),
         seconds(rows.blocks.size(), 0.0) {
     for (const double mass : scene.mass)
       if (std::isfinite(mass)) finite_mass += mass;
@@ -86,6 +93,56 @@ struct StepData {
     return sums;
   }
 
+  /// Sets the rows' own impulses at velocity v, `rebuilt` and the potential. Where every row is compliant,
+  /// the dual residual is zero.
+  BlockResidual evaluate_potential(const Scene& scene) {
+    x = map.x0 + map.d * v;
+    rebuilt = map.v_free;
+    const double kinetic = std::pow(distance(v, map.v_free), 2) / 2;
+    potential = kinetic;
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      potential +=
+          add_potential(scene.effects[effect_of_block[b]], map, x, inverse_mass, rows.blocks[b], rebuilt);
+    gradient = v - rebuilt;
+    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+      gradient.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+    evaluated = true;
+    return {};
+  }
+
+  /// Factors the metric for this step's length unless it is.
+  void factor_metric(const Scene& scene) {
+    if (metric_d == map.d && metric_s == map.s) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      add_metric(scene.effects[effect_of_block[b]], map, scene.initial.x, rows.blocks[b], entries);
+    quasi_newton.factor(inverse_mass, entries);
+    metric_d = map.d;
+    metric_s = map.s;
+  }
+
+  /// One line search along the quasi-Newton direction.
+  void descend(const Scene& scene) {
+    constexpr double sufficient = 1e-4;
+    constexpr double flat = 1e-10, flatter = 0.8;  // where the potential's change is lost in its rounding
+    constexpr int most_halvings = 30;
+    quasi_newton.direction(gradient, direction);
+    const double slope = (gradient.array() * direction.array()).sum();
+    const double before = potential;
+    search_from = v;
+    last_gradient = gradient;
+    double length = 1;
+    for (int k = 0; k < most_halvings; ++k, length /= 2) {
+      v = search_from + length * direction;
+      evaluate_potential(scene);
+      if (potential <= before + sufficient * length * slope) break;
+      if (potential <= (1 + flat) * before &&
+          (gradient.array() * direction.array()).sum() <= flatter * std::abs(slope))
+        break;
+    }
+    quasi_newton.learn(v - search_from, gradient - last_gradient);
+  }
+
   /// Replaces M by M + D and v_free by (M + D)^-1 (M v_free + D v).
   void add_inertia(const Scene& scene) {
     std::fill(inertia.begin(), inertia.end(), 0.0);
@@ -113,6 +170,11 @@ struct Workspace::Data : StepData {
 Workspace::Workspace(const Scene& scene, const Method& method) {
   validate(scene);
   data_ = std::make_unique<Data>(scene, method);
+  if (data_->outer.on_potential)
+    for (std::size_t index = 0; index < scene.effects.size(); ++index)
+      if (!all_compliant(scene.effects[index]))
+        throw SetupError("outer quasi_newton", "effect " + std::to_string(index) + " has hard rows",
+                         "compliant rows only");
 }
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
@@ -175,6 +237,7 @@ class StepIteration final : public OuterIteration {
     data_.anderson.begin(data_.rows, data_.v);
     data_.add_inertia(scene_);
   }
+  void descend() override { data_.descend(scene_); }
   void accelerate() override { data_.anderson.accelerate(data_.inverse_mass, data_.rows, data_.v); }
 
   void relax() override {
@@ -212,6 +275,9 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   w.v = state.v;
   w.previous = w.v;
   w.anderson.forget();
+  w.quasi_newton.forget();
+  w.evaluated = false;
+  if (w.outer.on_potential) w.factor_metric(scene);
 
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
@@ -220,7 +286,9 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   StepIteration iteration(scene, method, w, report);
 
   for (;; ++report.outer_iterations) {
-    const BlockResidual dual = w.linearise_at(scene, w.v);
+    const BlockResidual dual = !w.outer.on_potential ? w.linearise_at(scene, w.v)
+                               : w.evaluated         ? BlockResidual{}
+                                                     : w.evaluate_potential(scene);
     report.dual = std::sqrt(dual.squared);
     report.primal = w.distance(w.v, w.rebuilt);
     report.scale = w.distance(w.v, state.v) + free_change;
@@ -236,7 +304,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
       break;
     }
     w.previous = w.v;
-    w.outer(iteration);
+    w.outer.iterate(iteration);
   }
   if (report.status != Status::diverged) {
     state.x = w.x;

@@ -1,0 +1,57 @@
+// Quasi-Newton iteration on the incremental potential of compliant rows,
+//   phi(v) = 1/2 |v - v_free|_M^2 + 1/2 sum_i (c_i/d)^T Sigma_i^-1 (c_i/d),   c at x0 + d v,
+// whose gradient M (v - v_free) - J^T p with p = -Sigma^-1 c/d is the step's primal residual. The metric
+//   P = M + s d sum_i L_i,   L_ab = 1/3 trace(J_a^T A^-1 J_b) at the scene's initial positions
+// is one number a pair of nodes, shared by x, y and z, so it does not see rotations; it is factored once per
+// step length (Liu, Bouaziz, Kavan 2017). L-BFGS on top (Nocedal 1980), backtracking on phi.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <memory>
+#include <vector>
+
+#include "rows.h"
+
+namespace pbd {
+
+/// phi and its gradient (N s, one column a node; zero for infinite mass) at some velocity.
+struct Potential {
+  double value = 0;  // J
+  Points gradient;
+};
+
+class QuasiNewton {
+ public:
+  explicit QuasiNewton(int memory) : memory_(memory) {}
+
+  /// Factors P from the pairwise stiffnesses, entries (row, column, N s^2/m times s d) of L on and below the
+  /// diagonal.
+  void factor(const std::vector<double>& inverse_mass, const std::vector<Eigen::Triplet<double>>& stiffness);
+
+  bool factored() const { return factor_->info() == Eigen::Success && order_ > 0; }
+
+  /// Forgets the curvature of the last step.
+  void forget() { count_ = 0; }
+
+  /// Notes the change of v and gradient that the last iterate brought.
+  void learn(const Points& step, const Points& change);
+
+  /// Descent direction -H gradient.
+  void direction(const Points& gradient, Points& result);
+
+ private:
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  void solve(const Points& right, Points& result);
+
+  int memory_;
+  int count_ = 0;
+  int order_ = 0;
+  std::vector<int> column_;  // of each node in P, -1 for infinite mass
+  using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+  std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();
+  Columns right_;
+  std::vector<Points> steps_, changes_;
+  std::vector<double> curvature_;  // of each pair, change . step
+};
+
+}  // namespace pbd

@@ -160,7 +160,7 @@ std::string Keys::text(std::string_view key) {
 std::string Keys::choice_or(std::string_view key, std::string_view fallback,
                             const std::vector<std::string>& allowed) {
   if (!has(key)) return std::string(fallback);
-  const std::string name = text(key);
+  std::string name = text(key);
   require_name(where_of(find(key), key), name, allowed);
   return name;
 }

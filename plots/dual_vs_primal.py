@@ -11,10 +11,11 @@ MATERIAL = ["scene", "strain", "young_pa", "poisson"]
 
 
 def look(outer, relaxation):
-    """The relaxation decides marker and line, the outer iteration the colour where it is incremental."""
+    """That of the relaxation; where the outer iteration is incremental, one of its own."""
     if outer != "incremental":
         return style(relaxation)
-    return style(relaxation) | {"color": {"direct": PURPLE}.get(relaxation, SKY)}
+    return {"direct": {"color": PURPLE, "marker": "*", "linestyle": ":"}}.get(
+        relaxation, {"color": SKY, "marker": "v", "linestyle": "--"})
 
 
 @figure("dual_vs_primal", "errors", table="errors")
@@ -40,13 +41,11 @@ def errors(frame):
 
 
 def draw_floor(ax, trace):
-    """Marks where a trace stays: its second half no better than its middle."""
+    """A line where a trace stays: its second half no better than its middle."""
     half = trace["error"].iloc[len(trace) // 2:]
     floor = half.min()
     if np.isfinite(floor) and half.iloc[0] < 1.1 * floor:
-        ax.axhline(on_log(floor), color="#888888", linewidth=0.6)
-        ax.text(0.98, on_log(floor), f"floor {text_number(floor)}", fontsize=6, ha="right", va="bottom",
-                transform=ax.get_yaxis_transform())
+        ax.axhline(on_log(floor), color="#888888", linewidth=0.6, label="where incremental stays")
 
 
 @figure("dual_vs_primal", "final", table="final")
@@ -75,5 +74,5 @@ def final(frame):
 
 
 def material(row):
-    return (f"{row['scene']} {row['elements']:.0f}, {row['strain']}, E {text_number(row['young_pa'])} Pa, "
+    return (f"{row['scene']}, {row['elements']:.0f} elements, {row['strain']}, E {text_number(row['young_pa'])} Pa, "
             f"ν {text_number(row['poisson'])}")

@@ -69,10 +69,10 @@ def final(frame):
     ax.set_yticks(range(len(rows)), rows, fontsize=6)
     ax.grid(False)
     fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")
-    footnote(fig, reasons_note(failed(frame, "error")))
+    footnote(fig, "In brackets the number of elements. " + reasons_note(failed(frame, "error")))
     return fig
 
 
 def material(row):
-    return (f"{row['scene']}, {row['elements']:.0f} elements, {row['strain']}, E {text_number(row['young_pa'])} Pa, "
+    return (f"{row['scene']} ({row['elements']:.0f}), {row['strain']}, E {text_number(row['young_pa'])} Pa, "
             f"ν {text_number(row['poisson'])}")

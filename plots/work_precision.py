@@ -4,7 +4,7 @@ from common import BLACK, ORANGE, SKY, curve_points, figure, footnote, panels, s
 from reading import failed, reasons_note, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "direct": "D"}
-FILLINGS = {"incremental": {"fillstyle": "bottom", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
+FILLINGS = {"incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
             "frozen": {"markerfacecolor": ORANGE}}
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import PURPLE, SKY, curve, figure, footnote, on_log, panels, shared_legend, style
-from reading import failed, reasons_note, text_number
+from reading import LARGEST, failed, reasons_note, text_number
 
 METHOD = ["outer", "relaxation"]
 MATERIAL = ["scene", "strain", "young_pa", "poisson"]
@@ -58,7 +58,7 @@ def final(frame):
     values = np.full((len(rows), len(columns)), np.nan)
     for _, cell in frame.iterrows():
         i, j = rows.index(cell["row"]), columns.index(cell["column"])
-        values[i, j] = on_log(cell["error"]) if np.isfinite(cell["error"]) else np.nan
+        values[i, j] = on_log(cell["error"]) if cell["error"] <= LARGEST else np.nan
         label = text_number(cell["error"]) if np.isfinite(cell["error"]) else "none"
         dark = np.isfinite(values[i, j]) and values[i, j] < 1e-8
         ax.text(j, i, label + ("" if cell["status"] == "ok" else " ×"), ha="center", va="center", fontsize=6,

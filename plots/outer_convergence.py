@@ -78,6 +78,7 @@ def rate_map(frame):
 def map_panel(ax, rows):
     measured = rows.pivot_table("measured_rate", "mass_ratio", "step_s", dropna=False)
     predicted = rows.pivot_table("predicted_rate", "mass_ratio", "step_s", dropna=False).reindex_like(measured)
+    measured = measured.where(measured <= LARGEST)
     x, y = measured.columns.to_numpy(), measured.index.to_numpy()
     mesh = ax.pcolormesh(edges(x), edges(y), on_log(measured.to_numpy()), norm=LogNorm(0.05, 1), cmap="cividis")
     ax.set(xscale="log", yscale="log", facecolor="#bbbbbb")

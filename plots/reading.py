@@ -67,7 +67,9 @@ def _read_cells(path):
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = [row for row in csv.reader(file, strict=True)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as CSV: {error}") from error
     for line, row in enumerate(rows, start=1):
         for cell in row:

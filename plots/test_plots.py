@@ -186,6 +186,15 @@ class Drawing(unittest.TestCase):
         common.plt.close(entry.draw(frame))
         self.assertIsNone(entry.draw(frame[:0]))
 
+    def test_numbers_near_overflow(self):
+        for entry in common.FIGURES:
+            if entry.name in ("map", "final", "rates"):
+                frame = self.table(entry)
+                frame[[c for c in frame if c.startswith(("error", "measured", "predicted"))]] = 1e308
+                figure = entry.draw(frame)
+                figure.draw_without_rendering()
+                common.plt.close(figure)
+
     def test_no_name_is_a_formula(self):
         for entry in common.FIGURES:
             with self.subTest(entry.experiment + "_" + entry.name):

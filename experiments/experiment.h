@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "interrupt.h"
+
 namespace pbdcheck {
 
 /// One cell of a table. Doubles are written with 17 significant digits, NaN and infinities as `nan`, `inf`,
@@ -50,9 +52,6 @@ struct Verdict {
   bool holds() const { return measured <= bound; }  // NaN never holds
 };
 
-/// Thrown by Context::advance when the user asked to stop.
-struct Interrupted {};
-
 /// The surroundings of one running experiment.
 class Context {
  public:
@@ -78,8 +77,8 @@ class Context {
   /// Writes `verdicts.csv`; called once the experiment has ended.
   void write_verdicts();
 
-  /// Runs f(i) for i in [0, count) on `threads()` threads; results must not depend on the order. Do not use
-  /// it for work that is timed.
+  /// Runs f(i) for i in [0, count) on at most `threads()` threads; results must not depend on the order. Do
+  /// not use it for work that is timed.
   void parallel(std::int64_t count, const std::function<void(std::int64_t)>& f) const;
 
  private:

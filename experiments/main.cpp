@@ -159,6 +159,9 @@ int run_command(int argc, char** argv) {
   } catch (const pbd::SetupError& error) {
     error_message(error.what());
     return exit_usage;
+  } catch (const std::system_error& error) {  // of the file system
+    error_message(error.what());
+    return exit_usage;
   } catch (const std::exception& error) {
     error_message(error.what());
     return exit_failed;
@@ -169,7 +172,7 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const int exit_code = run_command(argc, argv);
-  if (std::cout.flush() && std::fflush(stdout) == 0) return exit_code;
+  if (exit_code == exit_usage || (std::cout.flush() && std::fflush(stdout) == 0)) return exit_code;
   error_message("stdout: got a place that cannot be written; allowed: one that takes the whole output");
   return exit_usage;
 }

@@ -232,7 +232,7 @@ TEST_CASE("a signal stops a long step at its next iterate; a second one stops wh
                                        "--set",    "method.max_outer=2000000000",
                                        "-o",       folder.path};
   auto long_step = chain, long_iterate = chain;
-  for (const auto* word : {"--set", "method.max_sweeps=1", "--set", "chain.0.links=20000"})
+  for (const auto* word : {"--set", "method.max_sweeps=1", "--set", "chain.0.links=2000"})
     long_step.emplace_back(word);
   const auto stopped = run_program(long_step, signalled(1));
   CHECK(stopped.exit_code == 3);
@@ -240,7 +240,7 @@ TEST_CASE("a signal stops a long step at its next iterate; a second one stops wh
   CHECK(record_of(folder.path)["report"]["steps"] == 0);
 
   const auto before = read_text(folder.path / "run.json");
-  for (const auto* word : {"--set", "method.max_sweeps=2000000000", "--set", "chain.0.links=20000"})
+  for (const auto* word : {"--set", "method.max_sweeps=2000000000", "--set", "chain.0.links=2000"})
     long_iterate.emplace_back(word);
   const auto killed = run_program(long_iterate, signalled(2));
   CHECK(killed.exit_code == 3);

@@ -208,17 +208,18 @@ TEST_CASE("compare skips its methods with a reason where the reference fails, an
 
 TEST_CASE("no row of compare is ok without a finite error") {
   const TemporaryFolder folder;
-  for (const auto* step : {"1e100", "1e155", "1e300", "1e308"}) {
-    INFO(step);
+  const auto scene = folder.write("fly.toml", flying_particle("1"));
+  for (const auto* speed : {"1e100", "1e155", "1e300", "1.7e308"}) {
+    INFO(speed);
     const auto ran =
-        run_program({"compare", scenes / "pendulum.toml", "--set", std::string("step.step_s=") + step,
-                     "--set", "step.duration_s=1e308", "--set", "method.tolerance=1", "--method",
-                     "relaxation=direct", "-o", folder.path});
-    if (ran.exit_code == 2) continue;  // refused
+        run_program({"compare", scene, "--set", std::string("particle.0.velocity_m_s=[") + speed + ", 0, 0]",
+                     "--set", "step.step_s=2", "--method", "relaxation=direct", "-o", folder.path});
     bool all_ok = true;
-    for (const auto& row : rows_of(folder.path / "compare.csv")) {
-      if (row[11] == "ok") CHECK(std::isfinite(std::stod(row[10])));
-      all_ok = all_ok && (row[11] == "ok" || row[11] == "status");
+    const auto rows = rows_of(folder.path / "compare.csv");
+    REQUIRE(rows.size() >= 3);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (rows[i][11] == "ok") CHECK(std::isfinite(std::stod(rows[i][10])));
+      all_ok = all_ok && rows[i][11] == "ok";
     }
     CHECK(ran.exit_code == (all_ok ? 0 : 1));
   }

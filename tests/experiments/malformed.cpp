@@ -230,7 +230,7 @@ TEST_CASE("mistakes on the command line are refused with what is allowed") {
       {{"run", "no_such_experiment"}, {"run", "`no_such_experiment`"}},
       {{"run"}, {"nothing to run", "--all"}},
       {{"run", "--all", "--tier", "ful"}, {"--tier", "did you mean `full`?"}},
-      {{"run", "--all", "--threads", "0"}, {"--threads", "got 0"}},
+      {{"run", "--all", "--threads", "0"}, {"--threads", "got `0`"}},
       {{"run", "--all", "--threads", "many"}, {"--threads", "many"}},
       {{"compare", scene}, {"--method"}},
       {{"compare", scene, "--method", "relaxation=jacoby"},

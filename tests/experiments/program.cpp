@@ -132,11 +132,10 @@ TEST_CASE("compare writes the reference's row and every iterate of every method,
 
 namespace {
 
-/// A particle that flies with `velocity`, its energy written down.
-std::string flying_particle(const std::string& velocity) {
-  return "[[particle]]\nposition_m = [0, 0, 0]\nvelocity_m_s = [" + velocity +
-         ", 0, 0]\nmass_kg = 1\n[step]\nstep_s = 1\nsteps = 4\n[[probe]]\nkind = \"energy\"\n";
-}
+/// A particle under the largest acceleration a scene may state, its energy written down.
+constexpr const char* falling_particle =
+    "[gravity]\nacceleration_m_s2 = [0, 0, -1e100]\n[[particle]]\nposition_m = [0, 0, 0]\nmass_kg = 1\n"
+    "[step]\nstep_s = 1\nsteps = 4\n[[probe]]\nkind = \"energy\"\n";
 
 std::vector<std::string> partial_files(const std::filesystem::path& folder) {
   std::vector<std::string> found;
@@ -156,11 +155,11 @@ std::string signalled(int signals) {
 
 TEST_CASE("a simulation that loses its state is recorded as failed, and writes no number that is none") {
   const TemporaryFolder folder;
-  const auto scene = folder.write("fly.toml", flying_particle("1e200"));
+  const auto scene = folder.write("fly.toml", falling_particle);
   for (const auto& [setting, reason] : std::vector<std::pair<std::string, std::string>>{
-           {"step.steps=4", "step 0 diverged: kinetic_energy_j is not finite"},
-           {"particle.0.velocity_m_s=[1e153, 0, 0]", ""},
-           {"step.step_s=1e308", "step 0 diverged: kinetic_energy_j is not finite"}}) {
+           {"step.step_s=1e54", "step 2 diverged: gravity_energy_j is not finite"},
+           {"step.step_s=1e53", ""},
+           {"step.step_s=1e100", "step 1 diverged: not finite"}}) {
     INFO(setting);
     const auto ran = run_program({"simulate", scene, "--set", setting, "-o", folder.path});
     const auto record = record_of(folder.path);
@@ -169,11 +168,6 @@ TEST_CASE("a simulation that loses its state is recorded as failed, and writes n
     CHECK(record.value("reason", "") == reason);
     CHECK_THAT(read_text(folder.path / "probes.csv"), !Catch::Contains("inf") && !Catch::Contains("nan"));
   }
-  const auto slow = folder.write("slow.toml", flying_particle("0"));
-  const auto ran = run_program({"simulate", slow, "--set", "step.step_s=1e308", "-o", folder.path});
-  CHECK(ran.exit_code == 1);
-  CHECK(record_of(folder.path)["reason"] == "step 2 diverged: not finite");
-  CHECK(rows_of(folder.path / "probes.csv").size() == 1 + 2);
 }
 
 TEST_CASE("compare skips its methods with a reason where the reference fails, and records what it did") {
@@ -208,12 +202,11 @@ TEST_CASE("compare skips its methods with a reason where the reference fails, an
 
 TEST_CASE("no row of compare is ok without a finite error") {
   const TemporaryFolder folder;
-  const auto scene = folder.write("fly.toml", flying_particle("1"));
-  for (const auto* speed : {"1e100", "1e155", "1e300", "1.7e308"}) {
-    INFO(speed);
-    const auto ran =
-        run_program({"compare", scene, "--set", std::string("particle.0.velocity_m_s=[") + speed + ", 0, 0]",
-                     "--set", "step.step_s=2", "--method", "relaxation=direct", "-o", folder.path});
+  const auto scene = folder.write("fly.toml", falling_particle);
+  for (const auto* step : {"2", "1e27", "1e54", "1e100"}) {
+    INFO(step);
+    const auto ran = run_program({"compare", scene, "--set", std::string("step.step_s=") + step, "--method",
+                                  "relaxation=direct", "-o", folder.path});
     bool all_ok = true;
     const auto rows = rows_of(folder.path / "compare.csv");
     REQUIRE(rows.size() >= 3);

@@ -18,7 +18,7 @@ export OPENBLAS_NUM_THREADS := 1
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 export CTEST_PARALLEL_LEVEL := $(JOBS)
 
-.PHONY: help deps configure build test test-plots reproduce plots report asan debug format format-check tidy bench clean
+.PHONY: help deps configure build test test-plots reproduce plots report first-figure asan debug format format-check tidy bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
@@ -57,6 +57,9 @@ plots: ## draw the figures of RESULTS
 report: plots ## write RESULTS/report.html and RESULTS/report.pdf
 	@$(INSTALL) paper
 	$(PYTHON) paper/report.py $(RESULTS)
+
+first-figure: plots ## refresh the README's figure from RESULTS
+	cp $(RESULTS)/figures/outer_convergence_map.svg paper/first-figure.svg
 
 asan: deps ## run the tests under the address and undefined-behaviour sanitizers
 	cmake --preset asan

@@ -3,7 +3,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <limits>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
 
 #include "commands.h"
 #include "error.h"
@@ -12,48 +17,113 @@
 #include "judges.h"
 #include "measure.h"
 #include "progress.h"
+#include "provenance.h"
 #include "scene_file.h"
 
 namespace pbdcheck {
 namespace {
 
 /// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
-/// tolerance.
+/// tolerance. Throws std::runtime_error if one diverged.
 pbd::State advanced(const SceneFile& file, int steps, int& missed) {
   pbd::State state = file.scene.initial;
   pbd::Workspace workspace(file.scene, file.method);
-  for (int i = 0; i < steps && !interrupted(); ++i)
-    if (pbd::step(file.scene, file.method, file.step_s, state, workspace).status != pbd::Status::ok) ++missed;
+  for (int i = 1; i <= steps; ++i) {
+    throw_if_interrupted();
+    const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace,
+                                  [](const pbd::Iterate&) { throw_if_interrupted(); });
+    if (report.status == pbd::Status::diverged)
+      throw std::runtime_error(
+          fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
+    if (report.status != pbd::Status::ok) ++missed;
+  }
   return state;
 }
 
-void add_trace(Table& table, const std::string& scene, double h, const pbd::Method& method,
-               const Trace& trace) {
-  const std::string status(pbd::status_names[static_cast<std::size_t>(trace.report.status)]);
-  for (const auto& point : trace.points)
-    table.row({scene, h, method.integrator, method.outer, method.relaxation, std::string("none"),
-               std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
-               point.error, status, std::string(trace.report.reason)});
-}
+/// compare.csv as it is written.
+class Comparison {
+ public:
+  Comparison(const CompareOptions& options, const SceneFile& file)
+      : scene_(options.scene.stem().string()),
+        step_s_(file.step_s),
+        table_(options.directory / "compare.csv",
+               {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
+                "sweeps", "row_updates", "wall_s", "error", "status", "reason"}) {}
 
-/// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
-void add_judge(Table& table, const std::string& scene, double h, const std::string& name,
-               const Judged& judged) {
-  table.row({scene, h, std::string("implicit_euler"), std::string("judge"), name, std::string("none"),
-             std::int64_t{judged.iterations}, std::int64_t{0}, std::int64_t{0}, judged.seconds, 0.0,
-             judged.status, judged.reason});
+  /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
+  void add_judge(const std::string& name, const Judged& judged) {
+    pbd::Method method;
+    method.outer = "judge";
+    method.relaxation = name;
+    add(method,
+        {.outer_iterations = judged.iterations,
+         .wall_s = judged.seconds,
+         .error = judged.status == "ok" ? 0 : std::nan("")},
+        judged.status, judged.reason);
+  }
+
+  /// A method's iterates; returns whether it solved the step.
+  bool add_trace(const pbd::Method& method, const Trace& trace) {
+    bool ok = trace.report.status == pbd::Status::ok;
+    for (const auto& point : trace.points) {
+      const bool finite = std::isfinite(point.error);
+      ok = ok && finite;
+      add(method, point,
+          finite ? pbd::status_names[static_cast<std::size_t>(trace.report.status)] : "diverged",
+          finite ? trace.report.reason : "error not finite");
+    }
+    return ok;
+  }
+
+  void skip(const pbd::Method& method, std::string_view reason) {
+    add(method, {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", reason);
+  }
+
+  void close() { table_.close(); }
+
+ private:
+  void add(const pbd::Method& method, const TracePoint& point, std::string_view status,
+           std::string_view reason) {
+    table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation, std::string("none"),
+                std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
+                point.error, std::string(status), std::string(reason)});
+  }
+
+  std::string scene_;
+  double step_s_;
+  Table table_;
+};
+
+/// Refuses a --method without settings, and one that sets a key twice.
+void refuse_repeats(const std::string& text) {
+  std::set<std::string> keys;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string key = word.substr(0, word.find('='));
+    if (!keys.insert(key).second) throw pbd::SetupError("--method " + key, "`" + text + "`", "each key once");
+  }
+  if (keys.empty()) throw pbd::SetupError("--method", "`" + text + "`", "\"KEY=VALUE ...\"");
 }
 
 std::vector<pbd::Method> parsed_methods(const CompareOptions& options, const pbd::Method& base) {
-  if (options.methods.empty())
-    throw pbd::SetupError("compare", "no --method", "one or more --method \"KEY=VALUE ...\"");
   std::vector<pbd::Method> methods;
-  for (const auto& text : options.methods) methods.push_back(parse_method(text, base, "--method"));
+  for (const auto& text : options.methods) {
+    refuse_repeats(text);
+    methods.push_back(parse_method(text, base, "--method"));
+  }
   for (const auto& method : methods)
     if (method.integrator != "implicit_euler")
       throw pbd::SetupError("--method integrator", "`" + method.integrator + "`",
                             "implicit_euler, the step the references solve");
   return methods;
+}
+
+nlohmann::ordered_json settings_json(const CompareOptions& options, const SceneFile& file,
+                                     const std::string& reference) {
+  return {{"scene", options.scene.string()}, {"set", options.settings},
+          {"step_s", file.step_s},           {"at_step", options.at_step},
+          {"nodes", file.scene.nodes()},     {"method", method_text(file.method)},
+          {"compared", options.methods},     {"reference", reference}};
 }
 
 /// Draws `compare.csv` of a folder by the project's plotting script; a warning if that fails.
@@ -71,39 +141,56 @@ void draw(const std::filesystem::path& directory) {
 }  // namespace
 
 int compare(const CompareOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   const SceneFile file = read_scene_file(options.scene, options.settings);
   const auto methods = parsed_methods(options, file.method);
-  const auto names = reference_names();
-  const std::string name = options.reference.empty() && !names.empty() ? names[0] : options.reference;
+  const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
+  require_writable(options.directory);
+  Comparison comparison(options, file);
+  PartialFile record(options.directory / "run.json");
+
   int missed = 0;
   const pbd::State state = advanced(file, options.at_step, missed);
-  if (interrupted()) return exit_interrupted;
   if (missed > 0)
     warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
                      options.at_step));
   const Judged judged = judge_step(name, file.scene, state, file.step_s);
-  if (judged.status != "ok") warn(fmt::format("reference {} {}: {}", name, judged.status, judged.reason));
-
-  require_writable(options.directory);
-  const std::string scene = options.scene.stem().string();
-  Table table(options.directory / "compare.csv",
-              {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
-               "sweeps", "row_updates", "wall_s", "error", "status", "reason"});
-  add_judge(table, scene, file.step_s, name, judged);
-  bool all_ok = judged.status == "ok" && missed == 0;
-  Progress progress("compare", static_cast<std::int64_t>(methods.size()));
-  for (const auto& method : methods) {
-    if (interrupted()) break;
-    const Trace trace = measure(file.scene, state, file.step_s, method, judged.x);
-    if (trace.report.status != pbd::Status::ok)
-      warn(fmt::format("{} {} missed its tolerance: {}", method.outer, method.relaxation,
-                       trace.report.reason));
-    all_ok = all_ok && trace.report.status == pbd::Status::ok;
-    add_trace(table, scene, file.step_s, method, trace);
-    progress.advance(method.outer + " " + method.relaxation);
+  comparison.add_judge(name, judged);
+  Outcome outcome = Outcome::complete;
+  std::string reason;
+  if (judged.status != "ok") {
+    outcome = Outcome::failed;
+    reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
+    error_message(reason);
   }
-  table.close();
-  if (interrupted()) return exit_interrupted;
+  bool all_ok = outcome == Outcome::complete && missed == 0;
+  Progress progress("compare", static_cast<std::int64_t>(methods.size()));
+  try {
+    for (const auto& method : methods) {
+      if (outcome == Outcome::failed) {
+        comparison.skip(method, reason);
+        continue;
+      }
+      throw_if_interrupted();
+      const Trace trace = measure(file.scene, state, file.step_s, method, judged.x);
+      if (!comparison.add_trace(method, trace)) {
+        all_ok = false;
+        warn(fmt::format("{} {} missed its tolerance: {}", method.outer, method.relaxation,
+                         trace.report.reason));
+      }
+      progress.advance(method.outer + " " + method.relaxation);
+    }
+  } catch (const Interrupted&) {
+    outcome = Outcome::interrupted;
+    reason = "stopped by the user";
+  }
+  comparison.close();
+  auto json = run_record(1, outcome, reason);
+  json["settings"] = settings_json(options, file, name);
+  json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.write(json_text(json));
+  record.complete();
+  if (outcome == Outcome::interrupted) return exit_interrupted;
   draw(options.directory);
   return all_ok ? exit_done : exit_failed;
 }

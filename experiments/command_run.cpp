@@ -15,9 +15,6 @@
 namespace pbdcheck {
 namespace {
 
-enum class Outcome { complete, failed, interrupted };
-constexpr std::array<std::string_view, 3> outcome_names{"complete", "failed", "interrupted"};
-
 std::vector<Experiment> chosen(const RunOptions& options, const std::vector<Experiment>& known) {
   if (options.all == !options.experiments.empty())
     throw pbd::SetupError("run", options.all ? "names and --all" : "nothing to run",
@@ -40,25 +37,44 @@ nlohmann::ordered_json settings_json(const RunOptions& options) {
 
 /// Whether `directory` holds a complete run by this very program, with the same tier and settings.
 bool already_complete(const std::filesystem::path& directory, const RunOptions& options) {
-  std::ifstream in(directory / "run.json");
-  if (!in) return false;
+  const auto file = directory / "run.json";
+  if (!std::filesystem::is_regular_file(file)) return false;
+  std::ifstream in(file);
   const auto record = nlohmann::ordered_json::parse(in, nullptr, false);
-  return record.is_object() && from_this_build(record) && record.value("status", "") == outcome_names[0] &&
-         record.value("tier", "") == options.tier &&
-         record.value("settings", nlohmann::ordered_json()) == settings_json(options);
+  try {
+    return record.is_object() && from_this_build(record) && record.value("status", "") == outcome_names[0] &&
+           record.value("tier", "") == options.tier &&
+           record.value("settings", nlohmann::ordered_json()) == settings_json(options);
+  } catch (const nlohmann::ordered_json::type_error& error) {
+    throw pbd::SetupError(file.string(), error.what(),
+                          "a record as `run` writes it; without one the experiment is run again");
+  }
 }
 
-Outcome run_guarded(const Experiment& experiment, Context& context, std::string& reason) {
+/// How an experiment ended; `exit_code` is what that makes of the program's.
+struct Ending {
+  Outcome outcome;
+  int exit_code;
+  std::string reason;
+};
+
+Ending run_guarded(const Experiment& experiment, Context& context) {
   try {
     experiment.run(context);
-    return Outcome::complete;
+    return {Outcome::complete, exit_done, ""};
   } catch (const Interrupted&) {
-    return Outcome::interrupted;
+    return {Outcome::interrupted, exit_interrupted, "stopped by the user"};
+  } catch (const pbd::SetupError& failure) {  // a result that cannot be written
+    return {Outcome::failed, exit_usage, failure.what()};
   } catch (const std::exception& failure) {
-    reason = failure.what();
-    error_message(fmt::format("{}: {}", experiment.name, reason));
-    return Outcome::failed;
+    return {Outcome::failed, exit_failed, failure.what()};
   }
+}
+
+/// Removes the tables of an earlier run, so that the folder never holds those of two runs.
+void remove_tables(const std::filesystem::path& directory) {
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    if (entry.is_regular_file() && entry.path().extension() == ".csv") std::filesystem::remove(entry.path());
 }
 
 void report_failures(const Experiment& experiment, const Context& context) {
@@ -68,47 +84,42 @@ void report_failures(const Experiment& experiment, const Context& context) {
                  verdict.measured, verdict.bound, verdict.statement);
 }
 
-struct Summary {
-  Outcome outcome;
-  std::int64_t failed_verdicts;
-};
-
-Summary run_one(const Experiment& experiment, const RunOptions& options) {
+/// Runs it and records it; returns what that makes of the exit code.
+int run_one(const Experiment& experiment, const RunOptions& options) {
   const auto directory = options.directory / experiment.name;
   require_writable(directory);
-  std::filesystem::remove(directory / "run.json");  // what follows replaces the results it described
   Context context(directory, options.tier == "full" ? Tier::full : Tier::quick, options.threads);
   const auto start = std::chrono::steady_clock::now();
-  std::string reason;
-  const Outcome outcome = run_guarded(experiment, context, reason);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::int64_t holding = 0, failing = 0;
+  const auto record = [&](Outcome outcome, const std::string& reason) {
+    auto json = run_record(options.threads, outcome, reason);
+    json["experiment"] = experiment.name;
+    json["tier"] = options.tier;
+    json["settings"] = settings_json(options);
+    json["wall_s"] = seconds();
+    json["verdicts"] = {{"holds", holding}, {"fails", failing}};
+    write_file(directory / "run.json", json_text(json));
+  };
+  record(Outcome::interrupted, "ended before it was done");  // until it is: the program may be killed
+  remove_tables(directory);
+  const auto [outcome, exit_code, reason] = run_guarded(experiment, context);
   context.write_verdicts();
+  if (outcome == Outcome::failed) error_message(fmt::format("{}: {}", experiment.name, reason));
   report_failures(experiment, context);
-
-  const auto& verdicts = context.verdicts();
-  const auto holding =
-      std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.holds(); });
-  const auto failing = static_cast<std::int64_t>(verdicts.size()) - holding;
-  auto record = provenance(options.threads);
-  record["experiment"] = experiment.name;
-  record["tier"] = options.tier;
-  record["settings"] = settings_json(options);
-  record["wall_s"] = wall.count();
-  record["verdicts"] = {{"holds", holding}, {"fails", failing}};
-  record["status"] = outcome_names[static_cast<std::size_t>(outcome)];
-  if (!reason.empty()) record["reason"] = reason;
-  write_json(directory / "run.json", record);
+  for (const auto& verdict : context.verdicts()) ++(verdict.holds() ? holding : failing);
+  record(outcome, reason);
   fmt::print("{}: {}, {} verdicts hold, {} fail, {:.1f} s\n", experiment.name,
-             record["status"].get<std::string>(), holding, failing, wall.count());
-  return {outcome, failing};
+             outcome_names[static_cast<std::size_t>(outcome)], holding, failing, seconds());
+  return exit_code == exit_done && failing > 0 ? exit_failed : exit_code;
 }
 
 }  // namespace
 
 int run(const RunOptions& options, const std::vector<Experiment>& known) {
   require_name("--tier", options.tier, strings(tier_names));
-  if (options.threads < 1)
-    throw pbd::SetupError("--threads", std::to_string(options.threads), "an integer >= 1");
   const auto list = chosen(options, known);
   require_writable(options.directory);
   int exit_code = exit_done;
@@ -117,9 +128,8 @@ int run(const RunOptions& options, const std::vector<Experiment>& known) {
       fmt::print("{}: complete already, skipped\n", experiment.name);
       continue;
     }
-    const Summary summary = run_one(experiment, options);
-    if (summary.outcome == Outcome::interrupted) return exit_interrupted;
-    if (summary.outcome == Outcome::failed || summary.failed_verdicts > 0) exit_code = exit_failed;
+    exit_code = std::max(exit_code, run_one(experiment, options));
+    if (exit_code == exit_interrupted) return exit_interrupted;
   }
   return exit_code;
 }

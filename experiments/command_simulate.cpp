@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "choices.h"
 #include "commands.h"
 #include "files.h"
 #include "interrupt.h"
@@ -48,19 +47,22 @@ class Output {
   Output(const SimulateOptions& options, const SceneFile& file) : file_(file) {
     require_writable(options.directory);
     if (!file.probes.empty()) {
-      std::vector<std::string> columns{"step", "time_s"};
-      for (auto& column : probe_columns(file.probes, file.scene)) columns.push_back(std::move(column));
-      probes_.emplace(options.directory / "probes.csv", std::move(columns));
+      for (auto& column : probe_columns(file.probes, file.scene)) columns_.push_back(std::move(column));
+      probes_.emplace(options.directory / "probes.csv", columns_);
     }
     if (options.export_format == "vtk") frames_.emplace(options.directory, file.scene);
   }
 
-  void add(std::int64_t step, const pbd::State& state) {
-    if (frames_) frames_->add_frame(state);
-    if (!probes_) return;
+  /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing.
+  std::string add(std::int64_t step, const pbd::State& state) {
     std::vector<Cell> row{step, state.time};
     append_probes(file_.probes, file_.scene, state, row);
-    probes_->row(row);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (const auto* number = std::get_if<double>(&row[i]); number != nullptr && !std::isfinite(*number))
+        return columns_[i];
+    if (probes_) probes_->row(row);
+    if (frames_) frames_->add_frame(state);
+    return "";
   }
 
   void close() {
@@ -70,6 +72,7 @@ class Output {
 
  private:
   const SceneFile& file_;
+  std::vector<std::string> columns_{"step", "time_s"};
   std::optional<Table> probes_;
   std::optional<VtkSeries> frames_;
 };
@@ -99,54 +102,64 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
           {"export", options.export_format}};
 }
 
-/// Steps until the end, Ctrl-C or divergence.
-Totals advance(const SceneFile& file, pbd::Workspace& workspace, Output& output) {
-  Totals totals;
+/// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
+std::string advance(const SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
   pbd::State state = file.scene.initial;
   Progress progress("simulate", file.steps);
-  output.add(0, state);
-  while (totals.steps < file.steps && !interrupted()) {
-    const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace);
+  std::string lost = output.add(0, state);
+  while (totals.steps < file.steps && lost.empty()) {
+    throw_if_interrupted();
+    const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace,
+                                  [](const pbd::Iterate&) { throw_if_interrupted(); });
     totals.add(report);
+    if (report.status == pbd::Status::diverged)
+      return fmt::format("step {} diverged: {}", totals.steps, report.reason);
     if (report.status != pbd::Status::ok && totals.missed() == 1)
       warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
                        totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
                        report.reason, report.residual(), file.method.tolerance));
-    if (report.status == pbd::Status::diverged) break;
-    output.add(totals.steps, state);
+    lost = output.add(totals.steps, state);
     progress.advance(fmt::format("t = {:.4g} s", state.time));
   }
-  return totals;
+  return lost.empty() ? "" : fmt::format("step {} diverged: {} is not finite", totals.steps, lost);
 }
 
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
-  if (!options.export_format.empty())
-    require_name("--export", options.export_format, std::vector<std::string>{"vtk"});
   const SceneFile file = read_scene_file(options.scene, options.settings);
   pbd::Workspace workspace(file.scene, file.method);
   Output output(options, file);
+  PartialFile record(options.directory / "run.json");
 
   const auto start = std::chrono::steady_clock::now();
-  const Totals totals = advance(file, workspace, output);
+  Totals totals;
+  Outcome outcome = Outcome::complete;
+  std::string reason;
+  try {
+    reason = advance(file, workspace, output, totals);
+    if (!reason.empty()) outcome = Outcome::failed;
+  } catch (const Interrupted&) {
+    outcome = Outcome::interrupted;
+    reason = "stopped by the user";
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   output.close();
 
-  const bool stopped = interrupted() && totals.steps < file.steps;
-  auto record = provenance(1);
-  record["settings"] = settings_json(options, file);
-  record["wall_s"] = wall.count();
-  record["status"] = stopped ? "interrupted" : "complete";
-  record["report"] = report_json(totals, workspace);
-  write_json(options.directory / "run.json", record);
+  auto json = run_record(1, outcome, reason);
+  json["settings"] = settings_json(options, file);
+  json["wall_s"] = wall.count();
+  json["report"] = report_json(totals, workspace);
+  record.write(json_text(json));
+  record.complete();
 
   if (totals.missed() > 0)
     warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, the worst with {:.3g} (step {})",
                      totals.missed(), totals.steps, file.method.tolerance, totals.worst_residual,
                      totals.worst_step));
-  if (stopped) return exit_interrupted;
-  return totals.missed() > 0 ? exit_failed : exit_done;
+  if (outcome == Outcome::failed) error_message(reason);
+  if (outcome == Outcome::interrupted) return exit_interrupted;
+  return outcome == Outcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
 }
 
 }  // namespace pbdcheck

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cases.h"
+#include "interrupt.h"
 
 namespace pbdcheck {
 
@@ -52,9 +53,6 @@ struct Verdict {
   bool holds() const { return measured <= bound; }  // NaN never holds
 };
 
-/// Thrown by Context::advance when the user asked to stop.
-struct Interrupted {};
-
 /// The surroundings of one running experiment.
 class Context {
  public:
@@ -80,8 +78,8 @@ class Context {
   /// Writes `verdicts.csv`; called once the experiment has ended.
   void write_verdicts();
 
-  /// Runs f(i) for i in [0, count) on `threads()` threads; results must not depend on the order. Do not use
-  /// it for work that is timed.
+  /// Runs f(i) for i in [0, count) on at most `threads()` threads; results must not depend on the order. Do
+  /// not use it for work that is timed.
   void parallel(std::int64_t count, const std::function<void(std::int64_t)>& f) const;
 
  private:

@@ -1,25 +1,72 @@
 #include "files.h"
 
-#include <fstream>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <system_error>
 
 #include "error.h"
 
 namespace pbdcheck {
+namespace {
 
-std::filesystem::path partial_path(const std::filesystem::path& path) {
-  return path.string() + ".partial";
+// The partial files there are: a signal handler reaches nothing but globals, and may do no more than unlink.
+std::array<std::atomic<const char*>, 64> partial_files;
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+/// A free place of the list, taken by `path`; null if there is none.
+std::atomic<const char*>* listed(const char* path) {
+  for (auto& place : partial_files) {
+    const char* none = nullptr;
+    if (place.compare_exchange_strong(none, path)) return &place;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+PartialFile::PartialFile(std::filesystem::path path)
+    : path_(std::move(path)), partial_(path_.string() + ".partial") {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_, ignored)) refuse(EISDIR);
+  out_.open(partial_, std::ios::binary);
+  if (!out_) refuse(errno);
+  listed_ = listed(partial_.c_str());
+}
+
+PartialFile::~PartialFile() {
+  if (out_.is_open()) ::unlink(partial_.c_str());
+  if (listed_ != nullptr) *listed_ = nullptr;
+}
+
+void PartialFile::write(std::string_view text) {
+  if (!(out_ << text)) refuse(errno);
+}
+
+void PartialFile::complete() {
+  if (!out_.flush()) refuse(errno);
+  std::error_code failure;
+  std::filesystem::rename(partial_, path_, failure);
+  if (failure) refuse(failure.value());
+  out_.close();
+}
+
+void PartialFile::refuse(int error) const {
+  throw pbd::SetupError(path_.string(),
+                        "a file that cannot be written (" + std::generic_category().message(error) + ")",
+                        "a place for a file, with space");
+}
+
+void remove_partial_files() noexcept {
+  for (const auto& place : partial_files)
+    if (const char* path = place) ::unlink(path);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
-  const auto partial = partial_path(path);
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    if (!out.flush())
-      throw pbd::SetupError(path.string(), "a file that cannot be written", "a writable place");
-  }
-  std::filesystem::rename(partial, path);
+  PartialFile file(path);
+  file.write(text);
+  file.complete();
 }
 
 void require_writable(const std::filesystem::path& directory, std::string_view option) {

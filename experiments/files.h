@@ -1,14 +1,39 @@
 // Files that are either complete or not there: written beside their place and renamed.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
 namespace pbdcheck {
 
-/// `<path>.partial`, what a file is called until it is complete.
-std::filesystem::path partial_path(const std::filesystem::path& path);
+/// A file written to `<path>.partial` until complete() puts it in its place; without that nothing is left of
+/// it. Every failure is a SetupError naming the path.
+class PartialFile {
+ public:
+  explicit PartialFile(std::filesystem::path path);
+  ~PartialFile();
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  void write(std::string_view text);
+  void complete();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  [[noreturn]] void refuse(int error) const;
+
+  std::filesystem::path path_;
+  std::string partial_;
+  std::ofstream out_;
+  std::atomic<const char*>* listed_ = nullptr;  // where remove_partial_files finds it
+};
+
+/// Removes what is not complete; a signal handler may call it right before it ends the program.
+void remove_partial_files() noexcept;
 
 /// Writes `text` to the file in one go; throws SetupError if it cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view text);

@@ -1,16 +1,33 @@
 #include "interrupt.h"
 
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
 #include <csignal>
+
+#include "commands.h"
+#include "files.h"
 
 namespace pbdcheck {
 namespace {
 
-// The one piece of state a signal handler can reach is a global.
-volatile std::sig_atomic_t asked_to_stop = 0;
+using Time = std::chrono::steady_clock::time_point;
 
-void on_interrupt(int signal) {
-  asked_to_stop = 1;
-  std::signal(signal, SIG_DFL);
+// The one piece of state a signal handler can reach is a global.
+std::atomic<Time> asked_to_stop = Time::min();
+static_assert(std::atomic<Time>::is_always_lock_free);
+
+/// timeout(1) and some shells signal the program and then its group: what comes this soon is the same
+/// request.
+constexpr auto same_request = std::chrono::milliseconds(100);
+
+void on_interrupt(int) {
+  const Time now = std::chrono::steady_clock::now();
+  Time first = Time::min();
+  if (asked_to_stop.compare_exchange_strong(first, now) || now - first < same_request) return;
+  remove_partial_files();
+  _exit(exit_interrupted);
 }
 
 }  // namespace
@@ -21,7 +38,11 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return asked_to_stop != 0;
+  return asked_to_stop.load() != Time::min();
+}
+
+void throw_if_interrupted() {
+  if (interrupted()) throw Interrupted{};
 }
 
 }  // namespace pbdcheck

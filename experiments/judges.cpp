@@ -1,12 +1,16 @@
 #include "judges.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "choices.h"
 #include "error.h"
+#include "interrupt.h"
 #include "primal_newton.h"
 
 namespace pbdcheck {
+
+using pbd::reference::Outcome;
 
 std::vector<std::string> reference_names() {
   std::vector<std::string> names;
@@ -18,7 +22,11 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
   const auto& all = pbd::reference::judges();
   for (const auto& judge : all)
     if (name.empty() || judge.name == name) {
-      const auto judged = judge.judge(scene, state, h);
+      auto judged = judge.judge(scene, state, h);
+      if (judged.outcome == Outcome::ok && !(judged.x.allFinite() && std::isfinite(judged.residual))) {
+        judged.outcome = Outcome::not_converged;
+        judged.reason = "not finite";
+      }
       return {judged.x,
               std::string(pbd::reference::outcome_names[static_cast<std::size_t>(judged.outcome)]),
               judged.reason,
@@ -30,8 +38,10 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
 }
 
 pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h) {
-  auto judged = pbd::reference::primal_newton(scene, state, h);
-  if (judged.outcome != pbd::reference::Outcome::ok)
+  pbd::reference::NewtonSettings polled;
+  polled.observer = [](double, const pbd::Points&) { throw_if_interrupted(); };
+  auto judged = pbd::reference::primal_newton(scene, state, h, polled);
+  if (judged.outcome != Outcome::ok)
     throw std::runtime_error("primal_newton found no step to compare with: " + judged.reason);
   return judged;
 }

@@ -28,7 +28,7 @@ struct Judged {
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h);
 
 /// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
-/// reason unless it was solved.
+/// reason unless it was solved, Interrupted if the user asked to stop.
 pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h);
 
 /// The state before a case's step. Throws as `truth` does.

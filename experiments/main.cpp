@@ -2,12 +2,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <limits>
+#include <system_error>
 #include <thread>
 
 #include "choices.h"
 #include "commands.h"
 #include "error.h"
 #include "interrupt.h"
+#include "judges.h"
 #include "progress.h"
 #include "provenance.h"
 
@@ -15,10 +21,39 @@ namespace {
 
 using namespace pbdcheck;
 
+constexpr int most_threads = 1024;  // more is a slip of the keyboard
+
+/// Refuses an argument that is not an integer of the range.
+CLI::Validator integer_from(int lowest, int highest) {
+  const auto refusal = [=](const std::string& text) {
+    int value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, failure] = std::from_chars(text.data(), end, value);
+    return failure == std::errc() && stopped == end && value >= lowest && value <= highest
+               ? std::string()
+               : fmt::format("got `{}`; allowed: an integer from {} to {}", text, lowest, highest);
+  };
+  return {refusal, ""};
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  const auto refusal = [=](const std::string& text) {
+    return std::find(names.begin(), names.end(), text) != names.end()
+               ? std::string()
+               : fmt::format("got `{}`; allowed: {}", text, allowed_names(text, names));
+  };
+  return {refusal, ""};
+}
+
+/// A flag takes no value but the one CLI11 gives it.
+CLI::Validator no_value() {
+  return one_of({"true"});
+}
+
 void add_list(CLI::App& app, ListOptions& options) {
   auto* command = app.add_subcommand("list", "Print what there is: " + joined(list_kinds()));
   command->add_option("KIND", options.kind, "One of these; all of them if left out");
-  command->add_flag("--json", options.json, "Print JSON");
+  command->add_flag("--json", options.json, "Print JSON")->check(no_value());
 }
 
 void add_scene_options(CLI::App& command, std::filesystem::path& scene, std::vector<std::string>& settings,
@@ -34,7 +69,8 @@ void add_scene_options(CLI::App& command, std::filesystem::path& scene, std::vec
 void add_simulate(CLI::App& app, SimulateOptions& options) {
   auto* command = app.add_subcommand("simulate", "Simulate a scene; writes DIR/probes.csv and DIR/run.json");
   add_scene_options(*command, options.scene, options.settings, options.directory);
-  command->add_option("--export", options.export_format, "vtk: a frame a step for ParaView");
+  command->add_option("--export", options.export_format, "vtk: a frame a step for ParaView")
+      ->check(one_of({"vtk"}));
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -46,9 +82,10 @@ void add_compare(CLI::App& app, CompareOptions& options) {
                    "KEY=VALUE ... on top of the scene's [method], in quotes; may be repeated")
       ->required()
       ->allow_extra_args(false);
-  command->add_option("--reference", options.reference, "One of `list references`; the first if left out");
+  command->add_option("--reference", options.reference, "One of `list references`; the first if left out")
+      ->check(one_of(reference_names()));
   command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
-      ->check(CLI::NonNegativeNumber)
+      ->check(integer_from(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
 }
 
@@ -56,12 +93,15 @@ void add_run(CLI::App& app, RunOptions& options) {
   auto* command =
       app.add_subcommand("run", "Run experiments; writes DIR/EXPERIMENT/ and exits 1 if a verdict fails");
   command->add_option("EXPERIMENT", options.experiments, "Names as of `list experiments`");
-  command->add_flag("--all", options.all, "All of them");
+  command->add_flag("--all", options.all, "All of them")->check(no_value());
   command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command->add_option("--threads", options.threads, "Threads of untimed work")->capture_default_str();
-  command->add_flag("--resume", options.resume,
-                    "Skip what is complete with the same commit, tier and settings");
+  command->add_option("--threads", options.threads, "Threads of untimed work")
+      ->check(integer_from(1, most_threads))
+      ->capture_default_str();
+  command
+      ->add_flag("--resume", options.resume, "Skip what is complete with the same commit, tier and settings")
+      ->check(no_value());
   command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
 }
 
@@ -79,9 +119,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
   return exit_usage;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// What the arguments ask for; returns the exit code.
+int run_command(int argc, char** argv) {
   CLI::App app("Verification harness for position based dynamics", "pbdcheck");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -115,11 +154,25 @@ int main(int argc, char** argv) {
     if (app.got_subcommand("compare")) return compare(compare_options);
     if (app.got_subcommand("run")) return run(run_options);
     return completion(shell);
+  } catch (const Interrupted&) {
+    return exit_interrupted;
   } catch (const pbd::SetupError& error) {
+    error_message(error.what());
+    return exit_usage;
+  } catch (const std::system_error& error) {  // of the file system
     error_message(error.what());
     return exit_usage;
   } catch (const std::exception& error) {
     error_message(error.what());
     return exit_failed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int exit_code = run_command(argc, argv);
+  if (exit_code == exit_usage || (std::cout.flush() && std::fflush(stdout) == 0)) return exit_code;
+  error_message("stdout: got a place that cannot be written; allowed: one that takes the whole output");
+  return exit_usage;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "interrupt.h"
+
 namespace pbdcheck {
 namespace {
 
@@ -15,8 +17,12 @@ double seconds(Clock::duration duration) {
 }  // namespace
 
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
-  const double displacement = (reference - start).colwise().norm().maxCoeff();
-  const double error = (x - reference).colwise().norm().maxCoeff();
+  const auto farthest = [](const pbd::Points& d) {
+    return d.colwise().stableNorm().maxCoeff<Eigen::PropagateNaN>();
+  };
+  const double displacement = farthest(reference - start);
+  const double error = farthest(x - reference);
+  if (!std::isfinite(displacement)) return std::nan("");
   return displacement > 0 ? error / displacement : error;
 }
 
@@ -29,6 +35,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   const auto start = Clock::now();
   const auto observe = [&](const pbd::Iterate& iterate) {
     const auto entered = Clock::now();
+    throw_if_interrupted();
     const double residual = std::max(iterate.primal, iterate.dual);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
                             seconds(entered - start - watching),

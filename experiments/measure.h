@@ -46,11 +46,12 @@ class Worst {
   bool any_ = false, spoilt_ = false;
 };
 
-/// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres.
+/// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres;
+/// NaN where the displacement is not finite.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 
 /// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the end
-/// positions `reference_x`. Throws SetupError as Workspace does.
+/// positions `reference_x`. Throws SetupError as Workspace does, and Interrupted.
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
                    const pbd::Points& reference_x);
 

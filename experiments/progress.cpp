@@ -13,12 +13,16 @@ namespace {
 constexpr int bar_width = 30;                                     // characters
 constexpr auto redraw_interval = std::chrono::milliseconds(100);  // a bar redrawn more often only flickers
 
+/// What stderr does not take is lost: there is nowhere else to say so.
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 void message(std::string_view kind, std::string_view colour, std::string_view text) {
-  if (on_terminal()) fmt::print(stderr, "\r\033[K");
-  if (in_colour())
-    fmt::print(stderr, "\033[{}m{}:\033[0m {}\n", colour, kind, text);
-  else
-    fmt::print(stderr, "{}: {}\n", kind, text);
+  if (on_terminal()) print("\r\033[K");
+  print(in_colour() ? fmt::format("\033[{}m{}:\033[0m {}\n", colour, kind, text)
+                    : fmt::format("{}: {}\n", kind, text));
 }
 
 }  // namespace
@@ -44,7 +48,7 @@ Progress::Progress(std::string title, std::int64_t units)
     : title_(std::move(title)), units_(std::max<std::int64_t>(units, 1)), terminal_(on_terminal()) {}
 
 Progress::~Progress() {
-  if (drawn_) fmt::print(stderr, "\n");
+  if (drawn_) print("\n");
 }
 
 void Progress::advance(std::string_view label) {
@@ -57,16 +61,15 @@ void Progress::advance(std::string_view label) {
     }
   } else if (done_ * 10 / units_ > tenths_) {
     tenths_ = done_ * 10 / units_;
-    fmt::print(stderr, "{}: {}/{} {}\n", title_, done_, units_, label);
+    print(fmt::format("{}: {}/{} {}\n", title_, done_, units_, label));
   }
 }
 
 void Progress::draw_bar(std::string_view label) {
   const auto filled = static_cast<std::size_t>(std::min(done_, units_) * bar_width / units_);
   const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
-  fmt::print(stderr, "\r\033[K{} {} {}/{} {}", title_,
-             in_colour() ? fmt::format("\033[32m{}\033[0m", bar) : bar, done_, units_, label);
-  std::fflush(stderr);
+  print(fmt::format("\r\033[K{} {} {}/{} {}", title_,
+                    in_colour() ? fmt::format("\033[32m{}\033[0m", bar) : bar, done_, units_, label));
   drawn_ = true;
 }
 

@@ -10,7 +10,6 @@
 
 #include "build_info.h"
 #include "experiment.h"
-#include "files.h"
 #include "judge.h"
 
 namespace pbdcheck {
@@ -50,21 +49,24 @@ std::string version_text() {
   return text;
 }
 
-nlohmann::ordered_json provenance(int threads) {
-  return {{"commit", build_info::commit},
-          {"dirty", build_info::dirty},
-          {"changes", build_info::changes},
-          {"version", build_info::version},
-          {"compiler", build_info::compiler},
-          {"flags", build_info::flags},
-          {"processor", processor()},
-          {"threads", threads},
-          {"seed", seed},
-          {"libraries", libraries()}};
+nlohmann::ordered_json run_record(int threads, Outcome outcome, const std::string& reason) {
+  nlohmann::ordered_json record{{"commit", build_info::commit},
+                                {"dirty", build_info::dirty},
+                                {"changes", build_info::changes},
+                                {"version", build_info::version},
+                                {"compiler", build_info::compiler},
+                                {"flags", build_info::flags},
+                                {"processor", processor()},
+                                {"threads", threads},
+                                {"seed", seed},
+                                {"libraries", libraries()},
+                                {"status", outcome_names[static_cast<std::size_t>(outcome)]}};
+  if (!reason.empty()) record["reason"] = reason;
+  return record;
 }
 
-void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
-  write_file(path, json.dump(2) + "\n");
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2) + "\n";
 }
 
 }  // namespace pbdcheck

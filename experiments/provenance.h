@@ -1,11 +1,16 @@
 // Where results come from: the program, the machine and the settings, as run.json keeps them.
 #pragma once
 
-#include <filesystem>
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 namespace pbdcheck {
+
+/// How a command or an experiment ended, as `status` in run.json.
+enum class Outcome { complete, failed, interrupted };
+inline constexpr std::array<std::string_view, 3> outcome_names{"complete", "failed", "interrupted"};
 
 /// Whether a run.json was written by this very program: the same commit ("unknown" outside a git work tree)
 /// and the same differences from it.
@@ -14,12 +19,11 @@ bool from_this_build(const nlohmann::ordered_json& record);
 /// "pbdcheck VERSION (COMMIT)" and the libraries with their versions, one a line.
 std::string version_text();
 
-/// The fields every run.json begins with: commit, dirty, changes (a hash of the
-/// differences from the commit), version, compiler, flags, processor, threads, seed,
-/// libraries.
-nlohmann::ordered_json provenance(int threads);
+/// The fields every run.json has: commit, dirty, changes (a hash of the differences from the commit),
+/// version, compiler, flags, processor, threads, seed, libraries; status, and reason unless that is empty.
+nlohmann::ordered_json run_record(int threads, Outcome outcome, const std::string& reason);
 
-/// Writes JSON with two spaces of indentation; complete or not at all.
-void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json);
+/// As files keep it: two spaces of indentation.
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace pbdcheck

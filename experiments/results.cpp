@@ -1,19 +1,17 @@
 // Table and Context of experiment.h.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 
-#include "error.h"
 #include "experiment.h"
 #include "files.h"
-#include "interrupt.h"
 #include "progress.h"
 
 namespace pbdcheck {
@@ -36,41 +34,30 @@ std::string cell_text(const Cell& cell) {
 }  // namespace
 
 struct Table::Data {
-  std::filesystem::path path;
+  PartialFile file;
   std::size_t columns;
-  std::ofstream out;
 };
 
-Table::Table(std::filesystem::path path, std::vector<std::string> columns) : data_(std::make_unique<Data>()) {
-  data_->path = std::move(path);
-  data_->columns = columns.size();
-  data_->out.open(partial_path(data_->path), std::ios::binary);
-  if (!data_->out)
-    throw pbd::SetupError(data_->path.string(), "a file that cannot be written", "a writable place");
+Table::Table(std::filesystem::path path, std::vector<std::string> columns)
+    : data_(new Data{PartialFile(std::move(path)), columns.size()}) {
   row({columns.begin(), columns.end()});
 }
 
 Table::Table(Table&&) noexcept = default;
 
-Table::~Table() {
-  if (data_ == nullptr || !data_->out.is_open()) return;
-  data_->out.close();
-  std::error_code ignored;  // a destructor has nobody to tell
-  std::filesystem::remove(partial_path(data_->path), ignored);
-}
+Table::~Table() = default;
 
 void Table::row(const std::vector<Cell>& cells) {
   if (cells.size() != data_->columns)
-    throw std::logic_error(fmt::format("{}: a row of {} cells for {} columns", data_->path.string(),
+    throw std::logic_error(fmt::format("{}: a row of {} cells for {} columns", data_->file.path().string(),
                                        cells.size(), data_->columns));
-  for (std::size_t i = 0; i < cells.size(); ++i) data_->out << (i > 0 ? "," : "") << cell_text(cells[i]);
-  data_->out << '\n';
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + cell_text(cells[i]);
+  data_->file.write(line + '\n');
 }
 
 void Table::close() {
-  data_->out.close();
-  if (!data_->out) throw std::runtime_error(data_->path.string() + ": could not be written to the end");
-  std::filesystem::rename(partial_path(data_->path), data_->path);
+  data_->file.complete();
 }
 
 struct Context::Data {
@@ -105,7 +92,7 @@ void Context::begin(std::int64_t units) {
 
 void Context::advance(std::string_view label) {
   if (data_->progress) data_->progress->advance(label);
-  if (interrupted()) throw Interrupted{};
+  throw_if_interrupted();
 }
 
 void Context::verdict(std::string_view id, std::string_view statement, std::string_view quantity,
@@ -147,11 +134,11 @@ void Context::parallel(std::int64_t count, const std::function<void(std::int64_t
   };
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < threads(); ++i) helpers.emplace_back(work);
+    for (std::int64_t i = 1; i < std::min<std::int64_t>(threads(), count); ++i) helpers.emplace_back(work);
     work();
   }
   if (failure) std::rethrow_exception(failure);  // that of the smallest index, whatever the order was
-  if (interrupted()) throw Interrupted{};
+  throw_if_interrupted();
 }
 
 }  // namespace pbdcheck

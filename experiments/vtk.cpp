@@ -4,8 +4,6 @@
 
 #include <iterator>
 
-#include "files.h"
-
 namespace pbdcheck {
 namespace {
 
@@ -73,8 +71,8 @@ constexpr std::string_view file_tag = "<VTKFile type=\"{}\" version=\"0.1\" byte
 }  // namespace
 
 VtkSeries::VtkSeries(const std::filesystem::path& directory, const pbd::Scene& scene)
-    : directory_(directory) {
-  std::filesystem::create_directories(directory_ / "frames");
+    : directory_(directory), collection_(directory / "simulation.pvd") {
+  require_writable(directory_ / "frames");
   const Cells cells = cells_of(scene);
   cell_count_ = cells.count;
   cells_ = "<Cells>\n" + data_array(R"(type="Int32" Name="connectivity")", cells.connectivity) +
@@ -95,11 +93,12 @@ void VtkSeries::add_frame(const pbd::State& state) {
   times_.push_back(state.time);
 }
 
-void VtkSeries::close() const {
-  std::string text = fmt::format(file_tag, "Collection") + "<Collection>\n";
+void VtkSeries::close() {
+  collection_.write(fmt::format(file_tag, "Collection") + "<Collection>\n");
   for (std::size_t i = 0; i < times_.size(); ++i)
-    text += fmt::format("<DataSet timestep=\"{:.17g}\" file=\"{}\"/>\n", times_[i], frame_name(i));
-  write_file(directory_ / "simulation.pvd", text + "</Collection>\n</VTKFile>\n");
+    collection_.write(fmt::format("<DataSet timestep=\"{:.17g}\" file=\"{}\"/>\n", times_[i], frame_name(i)));
+  collection_.write("</Collection>\n</VTKFile>\n");
+  collection_.complete();
 }
 
 }  // namespace pbdcheck

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "files.h"
 #include "scene.h"
 
 namespace pbdcheck {
@@ -20,10 +21,11 @@ class VtkSeries {
   void add_frame(const pbd::State& state);
 
   /// Writes the collection of the frames so far.
-  void close() const;
+  void close();
 
  private:
   std::filesystem::path directory_;
+  PartialFile collection_;
   std::string cells_;  // the same in every frame
   std::size_t cell_count_ = 0;
   std::vector<double> times_;

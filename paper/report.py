@@ -1,4 +1,4 @@
-"""Writes DIR/report.html (one self-contained file) and DIR/report.pdf:  /usr/bin/python3 paper/report.py DIR"""
+"""Writes the report of a result folder, as one self-contained HTML file and as PDF."""
 
 import base64
 import html
@@ -6,7 +6,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -14,28 +13,30 @@ import jinja2
 
 import sections
 from content import (Results, failure_section, provenance_section, summary_section, verdict_table)
-from reading import InputError, fail
+from command import command, replacing
+from reading import InputError
 
 HERE = Path(__file__).resolve().parent
 LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
          "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
          "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$",
+         "[": "{[}", "*": "{*}",  # after the end of a row they would be its arguments
          "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
 NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
-MARK = re.compile(r"`([^`]*)`|\[@([a-z0-9]+)\]")
+BIBLIOGRAPHY = (HERE / "refs.bib").read_text(encoding="utf-8")
+MARK = re.compile(r"`([^`]*)`|\[@(" + "|".join(re.findall(r"@\w+\{(\w+),", BIBLIOGRAPHY)) + r")\]")
 
 
 def compose(results):
     """All sections in the order of the report."""
     found = results.experiments()
     names = list(sections.SECTIONS) + [name for name in found if name not in sections.SECTIONS and name != "figures"]
-    present = [name for name in names if name in found]
-    body = [summary_section(results, present)]
+    body = [summary_section(results, names)]
     for name in names:
         section = sections.section_of(results, name)
         section.tables += verdict_table(results, name)
         body.append(section)
-    return [*body, failure_section(results, present), provenance_section(results, present)]
+    return [*body, failure_section(results, names), provenance_section(results, names)]
 
 
 # ------------------------------------------------------------------------------------------------------------ marks
@@ -52,7 +53,7 @@ def marked(text, escape, code, cite):
 
 def to_latex(text):
     def escape(plain):
-        text = "".join(LATEX.get(c, c if c.isascii() else "?") for c in plain)
+        text = "".join(LATEX.get(c, c if c.isascii() and c.isprintable() else " " if c.isspace() else "?") for c in plain)
         return NEGATIVE_EXPONENT.sub(r"\\mbox{\g<0>}", text)  # else a line may end after its hyphen
 
     def code(escaped):
@@ -92,17 +93,15 @@ def plain_bibtex(text):
 # ------------------------------------------------------------------------------------------------------------- html
 
 def inlined(path):
-    """A figure as a data URI, None if it was not drawn."""
+    """A figure as a data URI."""
     svg, png = path.with_suffix(".svg"), path.with_suffix(".png")
-    chosen = png if svg.exists() and png.exists() and svg.stat().st_size > 1_500_000 else svg
-    if not chosen.exists():
-        return None
+    chosen = png if svg.stat().st_size > 1_500_000 else svg
     kind = "svg+xml" if chosen.suffix == ".svg" else "png"
     return f"data:image/{kind};base64,{base64.b64encode(chosen.read_bytes()).decode()}"
 
 
 def write_html(body, directory):
-    entries = references((HERE / "refs.bib").read_text(encoding="utf-8"))
+    entries = references(BIBLIOGRAPHY)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["marked"] = lambda text: jinja2.utils.markupsafe.Markup(to_html(text, entries))
@@ -126,9 +125,13 @@ def column_widths(table):
 
 
 def write_pdf(body, directory):
-    """Builds the report in a temporary folder; raises RuntimeError with what to do if it cannot."""
+    """Builds the report in a temporary folder; if it cannot, says what to do and leaves no older PDF beside the HTML."""
+    log = directory / "report.log"
+    for path in (directory / "report.pdf", log):
+        path.unlink(missing_ok=True)
     if not shutil.which("latexmk"):
-        raise RuntimeError("latexmk is not installed (Debian: latexmk texlive-latex-recommended)")
+        raise InputError("report.pdf is not written, report.html is: latexmk is not installed "
+                         "(Debian: latexmk texlive-latex-recommended)")
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(HERE), trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined,
         block_start_string="<%", block_end_string="%>", variable_start_string="<<", variable_end_string=">>",
@@ -136,7 +139,7 @@ def write_pdf(body, directory):
     environment.filters["marked"] = to_latex
     figures = (directory / "figures").resolve()
     text = environment.get_template("report.tex.j2").render(
-        sections=body, widths=column_widths, drawn=lambda name: (figures / f"{name}.pdf").exists())
+        sections=body, widths=column_widths)
     with tempfile.TemporaryDirectory() as folder:
         build = Path(folder)
         (build / "report.tex").write_text(text, encoding="utf-8")
@@ -146,33 +149,30 @@ def write_pdf(body, directory):
                               capture_output=True, text=True, errors="replace", check=False,
                               env={**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"})
         if done.returncode != 0:
-            log = directory / "report.log"
             write_file(log, (done.stdout + done.stderr).encode())
-            raise RuntimeError(f"LaTeX failed, see {log}")
+            raise InputError(f"report.pdf is not written, report.html is: LaTeX failed, see {log}")
         write_file(directory / "report.pdf", (build / "report.pdf").read_bytes())
 
 
 def write_file(path, data):
-    partial = path.with_name(path.name + ".partial")
-    partial.write_bytes(data)
-    os.replace(partial, path)
+    with replacing(path) as partial:
+        partial.write_bytes(data)
 
 
 def main(directory):
+    """Writes DIR/report.html and DIR/report.pdf."""
     if not directory.is_dir():
         raise InputError(f"{directory}: got no folder; allowed: a result folder, as written by `pbdcheck run`")
-    body = compose(Results(directory))
+    results = Results(directory)
+    if not results.experiments():
+        raise InputError(f"{directory}: got no experiment; allowed: a result folder, as written by `pbdcheck run`")
+    body = compose(results)
     write_html(body, directory)
     print(directory / "report.html")
-    try:
-        write_pdf(body, directory)
-        print(directory / "report.pdf")
-    except RuntimeError as error:
-        print(f"report.pdf was not written: {error}", file=sys.stderr)
+    write_pdf(body, directory)
+    print(directory / "report.pdf")
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
-    except InputError as error:
-        fail(error)
+    command(main, "Writes the report of a result folder, as `pbdcheck run` and plots/make.py left it: DIR/report.html, one "
+                  "self-contained file, and DIR/report.pdf.")

@@ -8,7 +8,7 @@ import numpy as np
 from content import Figure, Section, Table, counted, listed, number, span
 from reading import CONTRACTING, failed, good, step_text
 
-NOT_RUN = "Not run: the result folder has no table of this experiment."
+NO_TABLE = "The run left no table."
 
 
 def judges(results):
@@ -263,9 +263,13 @@ SECTIONS = {function.__name__: function for function in (
 
 def section_of(results, experiment):
     """The section of an experiment: its own if there is one, else what can be said of any."""
-    if experiment not in SECTIONS:
-        return Section(experiment.replace("_", " ").capitalize(), "", ["No text is written for this experiment."])
-    section = SECTIONS[experiment](results)
-    if not section.paragraphs and not section.tables:
-        section.paragraphs, section.figures = [NOT_RUN], []
+    section = SECTIONS[experiment](results) if experiment in SECTIONS else \
+        Section(experiment.replace("_", " ").capitalize(), paragraphs=["No text is written for this experiment."])
+    shortfall = results.shortfall(experiment)
+    if shortfall:
+        section.notice = f"No result is shown: {shortfall}."
+    if shortfall or not (section.paragraphs or section.tables):
+        section.paragraphs, section.figures = [] if shortfall else [NO_TABLE], []
+    for figure in section.figures:
+        figure.drawn = results.drawn(experiment, figure.name)
     return section

@@ -1,6 +1,10 @@
 """Tests of the report:  python3 -m unittest discover -s paper"""
 
+import json
+import os
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -12,6 +16,8 @@ from content import Results, Table, counted, failures, listed, number, span  # m
 from reading import InputError
 
 import sample
+from common import FIGURES
+import make  # noqa: F401  (registers the figures)
 
 
 class Texts(unittest.TestCase):
@@ -20,8 +26,13 @@ class Texts(unittest.TestCase):
                          r"50 \% of a\_b \& c \#1 \{x\} \$y\$ \textasciitilde{}\textasciicircum{}\textbackslash{}")
 
     def test_marks(self):
-        self.assertEqual(report.to_latex("`a_b` [@key]"), r"\texttt{a\_\allowbreak{}b} \citep{key}")
-        self.assertEqual(report.to_html("`a<b` [@key]", {"key": ""}), '<code>a&lt;b</code> [<a href="#key">1</a>]')
+        key = "liu2017quasi"
+        self.assertEqual(report.to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
+        self.assertEqual(report.to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
+
+    def test_a_citation_of_nothing_is_text(self):
+        self.assertEqual(report.to_latex("[@key]\n*"), "{[}@key] {*}")
+        self.assertEqual(report.to_html("[@key]", {}), "[@key]")
 
     def test_html_escapes(self):
         self.assertEqual(report.to_html("<script>&", {}), "&lt;script&gt;&amp;")
@@ -55,11 +66,19 @@ class Report(unittest.TestCase):
             report.main(self.directory)
         return (self.directory / "report.html").read_text(encoding="utf-8")
 
+    def draw(self, name):
+        (self.directory / "figures").mkdir(exist_ok=True)
+        for kind in ("png", "svg", "pdf"):
+            (self.directory / "figures" / f"{name}.{kind}").write_text("", encoding="utf-8")
+
     def test_all_experiments(self):
         sample.write_all(self.directory)
+        for figure in FIGURES:
+            self.draw(f"{figure.experiment}_{figure.name}")
         with mock.patch.object(report, "write_pdf"):
             text = self.html()
-        self.assertNotIn(sections.NOT_RUN, text)
+        for absent in (sections.NO_TABLE, "Not drawn", "incomplete", "stem from different"):
+            self.assertNotIn(absent, text)
         self.assertIn("7 of 14 verdicts hold", text)
         self.assertIn("theory predicts contraction in 4; 4 of these converge", text)
         self.assertNotIn("http://", text)
@@ -71,13 +90,72 @@ class Report(unittest.TestCase):
         self.assertTrue((self.directory / "report.pdf").read_bytes().startswith(b"%PDF"))
 
     def test_nothing_run(self):
-        with mock.patch.object(report, "write_pdf"):
-            self.assertEqual(self.html().count(sections.NOT_RUN), len(sections.SECTIONS))
+        with self.assertRaisesRegex(InputError, "got no experiment"):
+            report.main(self.directory)
 
     def test_without_latex_html_is_still_written(self):
-        with mock.patch.object(report.shutil, "which", return_value=None):
-            self.assertIn("Not run", self.html())
-        self.assertFalse((self.directory / "report.pdf").exists())
+        sample.write_all(self.directory)
+        (self.directory / "report.pdf").write_text("of an earlier run", encoding="utf-8")
+        with mock.patch.object(report.shutil, "which", return_value=None), \
+                self.assertRaisesRegex(InputError, "latexmk is not installed"):
+            self.html()
+        self.assertEqual(sorted(path.name for path in self.directory.glob("report*")), ["report.html"])
+
+    def change_run(self, experiment, **values):
+        path = self.directory / experiment / "run.json"
+        path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | values), encoding="utf-8")
+
+    def test_a_run_that_is_not_complete_shows_its_reason_and_no_results(self):
+        sample.write_all(self.directory)
+        self.change_run("judges", status="failed", reason="out of memory")
+        (self.directory / "effects_cost" / "run.json").unlink()
+        self.draw("judges_agreement")
+        with mock.patch.object(report, "write_pdf"):
+            text = self.html()
+        self.assertIn("This report is incomplete. No result is shown of <code>judges</code> (failed: out of memory), "
+                      "<code>effects_cost</code> (no run.json, the run did not come to its end)", text)
+        self.assertIn("5 of 10 verdicts hold", text)
+        for shown in ("could be compared", "Agreement of the judges", "judges/agreement"):
+            self.assertNotIn(shown, text)
+        self.assertNotIn("<img", text)
+
+    def test_a_figure_older_than_its_run_is_not_shown(self):
+        sample.write_all(self.directory)
+        self.draw("judges_agreement")
+        for path in self.directory.glob("figures/*"):
+            os.utime(path, (0, 0))
+        with mock.patch.object(report, "write_pdf"):
+            self.assertNotIn("<img", self.html())
+
+    def test_different_programs_are_named(self):
+        sample.write_all(self.directory)
+        self.change_run("judges", commit="fedcba")
+        with mock.patch.object(report, "write_pdf"):
+            self.assertIn("stem from different programs", self.html())
+
+    def test_counts_of_verdicts_must_agree(self):
+        sample.write_all(self.directory)
+        self.change_run("judges", verdicts={"holds": 2, "fails": 0})
+        with self.assertRaisesRegex(InputError, "judges/run.json: key 'verdicts': got holds = 2; allowed: 1"):
+            self.html()
+
+    def test_special_characters_everywhere(self):
+        sample.write_all(self.directory)
+        path = self.directory / "judges" / "agreement.csv"
+        nasty = "*[x]$ % & # _ ^ ~ { } < > | ` [@key] é ☃ \\end"
+        path.write_text(path.read_text(encoding="utf-8").replace("pendulum", nasty), encoding="utf-8")
+        if shutil.which("latexmk"):
+            self.html()
+            self.assertFalse((self.directory / "report.log").exists())
+
+    def test_the_report_is_a_folder(self):
+        sample.write_all(self.directory)
+        (self.directory / "report.html").mkdir()
+        done = subprocess.run([sys.executable, report.HERE / "report.py", self.directory], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("report.html: cannot be read or written", done.stderr)
+        self.assertEqual([path.name for path in self.directory.glob(".*")], [])
 
     def test_nothing_but_failures(self):
         sample.write_all(self.directory)
@@ -90,6 +168,7 @@ class Report(unittest.TestCase):
     def test_unknown_experiment_is_shown(self):
         sample.write(self.directory, "brand_new", "verdicts", "id statement quantity measured bound verdict",
                      [("n.1", "It <works>", "share", 1.0, 2.0, "holds")])
+        sample.write_run(self.directory, "brand_new", holds=1)
         with mock.patch.object(report, "write_pdf"):
             text = self.html()
         self.assertIn("Brand new", text)
@@ -97,7 +176,15 @@ class Report(unittest.TestCase):
 
     def test_failures_are_counted(self):
         sample.write(self.directory, "a", "t", "error status reason", [(1.0, "diverged", "far")] * 3 + [(1.0, "ok", "")])
+        sample.write_run(self.directory, "a")
         self.assertEqual(failures(Results(self.directory), ["a"]), [["`a/t`", "`diverged`", "far", "3"]])
+
+    def test_failures_of_traces_are_counted_by_solve(self):
+        sample.write(self.directory, "inner_convergence", "errors", "scene relaxation sweep wall_s error status reason",
+                     [(scene, "jacobi", sweep, 0.0, 1.0, "diverged", "far") for scene in "ab" for sweep in range(9)])
+        sample.write_run(self.directory, "inner_convergence")
+        self.assertEqual(failures(Results(self.directory), ["inner_convergence"]),
+                         [["`inner_convergence/errors`", "`diverged`", "far", "2"]])
 
     def test_no_folder(self):
         with self.assertRaises(InputError):

@@ -1,9 +1,8 @@
 """What every figure shares: the register of figures, the style, drawing what failed, saving."""
 
-import os
 import textwrap
 import zlib
-from pathlib import Path
+from types import MappingProxyType
 from typing import Callable, NamedTuple
 
 import matplotlib
@@ -13,7 +12,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
 
-from reading import drawable, failed, good  # noqa: E402
+from command import replacing  # noqa: E402
+from reading import TEXT, drawable, failed, good  # noqa: E402
 
 ZERO_DRAWN_AT = 1e-17  # an exact zero on a logarithmic axis, below the resolution of any relative error
 
@@ -41,6 +41,8 @@ plt.rcParams.update({
     "savefig.dpi": 200,
 })
 
+KINDS = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}  # and what they keep quiet
+
 FIGURES = []
 
 
@@ -61,29 +63,35 @@ def figure(experiment, name, table):
 
 # ---------------------------------------------------------------------------------------------------------- drawing
 
+def literal(frame):
+    """The table with every $ in its texts as it stands, not as the begin of a formula."""
+    return frame.assign(**{c: [text.replace("$", r"\$") for text in frame[c]] for c in TEXT & set(frame)})
+
+
 def on_log(values):
     """Values for a logarithmic axis: exact zeros are drawn at ZERO_DRAWN_AT."""
     return np.maximum(values, ZERO_DRAWN_AT)
 
 
-def draw_failed(ax, rows, x, y, color=BLACK, marker="o"):
-    """Hollow crossed markers: at the value where there is one, under the upper edge where only x is known. All rows
+def draw_failed(ax, rows, x, y, look=MappingProxyType({"color": BLACK, "marker": "o"})):
+    """Crossed markers: at the value where there is one, under the upper edge where only x is known. All rows
     that have no place at all are one marker in a column beside the right edge."""
     known = drawable(rows, [x]) & (rows[x] > 0)
     valued = drawable(rows, [x, y])
     for _, row in rows[valued].iterrows():
-        crossed(ax, row[x], on_log(row[y]), color, marker, ax.transData)
+        crossed(ax, row[x], on_log(row[y]), look, ax.transData)
     for _, row in rows[known & ~valued].iterrows():
-        crossed(ax, row[x], 0.97, color, marker, ax.get_xaxis_transform())
+        crossed(ax, row[x], 0.97, look, ax.get_xaxis_transform())
     if (~known & ~valued).any():
         above = sum(artist.get_gid() == "no place" for artist in ax.lines)
-        crossed(ax, 1.03, 0.97 - 0.08 * above, color, marker, ax.transAxes, gid="no place")
+        crossed(ax, 1.03, 0.97 - 0.08 * above, look, ax.transAxes, gid="no place")
 
 
-def crossed(ax, x, y, color, marker, transform, gid=None):
-    look = {"color": color, "markeredgewidth": 0.8, "transform": transform, "clip_on": False, "zorder": 5}
-    ax.plot([x], [y], marker, markersize=6, markerfacecolor="none", gid=gid, **look)
-    ax.plot([x], [y], "x", markersize=3.5, **look)
+def crossed(ax, x, y, look, transform, gid=None):
+    """The marker of a method, larger, with a cross."""
+    shared = {"markeredgewidth": 0.8, "transform": transform, "clip_on": False, "zorder": 5}
+    ax.plot([x], [y], markersize=6, gid=gid, **{"markerfacecolor": "none"} | look | shared | {"linestyle": "none"})
+    ax.plot([x], [y], "x", color=BLACK, markersize=4, **shared)
 
 
 def style(name):
@@ -96,17 +104,17 @@ def curve(ax, frame, x, y, label, look):
     """The trace of one run: a line through every value there is, crossed where it ends badly or leaves the numbers."""
     rows = frame.sort_values(x)
     shown = drawable(rows, [x, y])
-    ax.plot(rows[x][shown], on_log(rows[y][shown]), label=label, markerfacecolor="white",
-            markevery=max(1, shown.sum() // 8), **look)
+    ax.plot(rows[x][shown], on_log(rows[y][shown]), label=label, markevery=max(1, shown.sum() // 8),
+            **{"markerfacecolor": "white"} | look)
     ends = rows[shown].tail(1)
-    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, look["color"])
+    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, {"color": look["color"], "marker": look["marker"]})
 
 
 def curve_points(ax, points, x, y, label, look):
     """A line through the good points in the order of x; all others crossed."""
     rows = good(points, x, y).sort_values(x)
-    ax.plot(on_log(rows[x]), on_log(rows[y]), label=label, markerfacecolor="white", **look)
-    draw_failed(ax, failed(points, x, y), x, y, look["color"], look["marker"])
+    ax.plot(on_log(rows[x]), on_log(rows[y]), label=label, **{"markerfacecolor": "white"} | look)
+    draw_failed(ax, failed(points, x, y), x, y, look)
 
 
 def panels(count, columns=3, width=6.5, height=2.1, **keywords):
@@ -163,16 +171,13 @@ def _give_empty_axes_limits(figure):
 
 def save(figure, directory, name, foot):
     """Writes DIR/name.{png,svg,pdf} with the provenance at the foot; the same input gives the same bytes."""
-    directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     _give_empty_axes_limits(figure)
-    footnote(figure, foot, size=4.5)
+    footnote(figure, foot.replace("$", r"\$"), size=4.5)
     _place_footnotes(figure)
     figure.set_layout_engine("none")  # laid out by now
-    metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
     area = figure.get_tightbbox(figure.canvas.get_renderer()).padded(0.05)
-    for kind, facts in metadata.items():
-        partial = directory / f".{name}.partial.{kind}"
-        figure.savefig(partial, format=kind, metadata=facts, bbox_inches=area)
-        os.replace(partial, directory / f"{name}.{kind}")
+    for kind, facts in KINDS.items():
+        with replacing(directory / f"{name}.{kind}") as partial:
+            figure.savefig(partial, format=kind, metadata=facts, bbox_inches=area)
     plt.close(figure)

@@ -1,24 +1,21 @@
-"""Draws DIR/compare.csv, as `pbdcheck compare` writes it:  /usr/bin/python3 plots/compare.py DIR"""
+"""Draws the table of a comparison."""
 
-import sys
-from pathlib import Path
-
-from common import save
-from reading import InputError, fail, provenance, read_run, read_table
+from command import command
+from common import literal, save
+from reading import InputError, read_table
 from tables import columns
 from work_precision import draw_methods
 
 
 def main(directory):
-    frame = read_table(directory / "compare.csv", columns(".", "compare"))
+    """Writes DIR/figures/compare_seconds."""
+    path = directory / "compare.csv"
+    frame = read_table(path, columns(".", "compare"))
     if frame.empty:
-        raise InputError(f"{directory / 'compare.csv'}: got no rows; at least one is needed")
-    fig = draw_methods(frame, "wall_s", "wall time (s)")
-    save(fig, directory / "figures", "compare_seconds", provenance(read_run(directory)))
+        raise InputError(f"{path}: got no rows; at least one is needed")
+    fig = draw_methods(literal(frame), "wall_s", "wall time (s)")
+    save(fig, directory / "figures", "compare_seconds", f"pbdcheck compare: {path}")
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
-    except InputError as error:
-        fail(error)
+    command(main, "Draws DIR/compare.csv, as `pbdcheck compare` writes it: DIR/figures/compare_seconds.{png,svg,pdf}.")

@@ -4,17 +4,18 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import PURPLE, SKY, curve, figure, footnote, on_log, panels, shared_legend, style
-from reading import failed, reasons_note, text_number
+from reading import LARGEST, failed, reasons_note, text_number
 
 METHOD = ["outer", "relaxation"]
 MATERIAL = ["scene", "strain", "young_pa", "poisson"]
 
 
 def look(outer, relaxation):
-    """The relaxation decides marker and line, the outer iteration the colour where it is incremental."""
+    """That of the relaxation; where the outer iteration is incremental, one of its own."""
     if outer != "incremental":
         return style(relaxation)
-    return style(relaxation) | {"color": {"direct": PURPLE}.get(relaxation, SKY)}
+    return {"direct": {"color": PURPLE, "marker": "*", "linestyle": ":"}}.get(
+        relaxation, {"color": SKY, "marker": "v", "linestyle": "--"})
 
 
 @figure("dual_vs_primal", "errors", table="errors")
@@ -40,13 +41,11 @@ def errors(frame):
 
 
 def draw_floor(ax, trace):
-    """Marks where a trace stays: its second half no better than its middle."""
+    """A line where a trace stays: its second half no better than its middle."""
     half = trace["error"].iloc[len(trace) // 2:]
     floor = half.min()
     if np.isfinite(floor) and half.iloc[0] < 1.1 * floor:
-        ax.axhline(on_log(floor), color="#888888", linewidth=0.6)
-        ax.text(0.98, on_log(floor), f"floor {text_number(floor)}", fontsize=6, ha="right", va="bottom",
-                transform=ax.get_yaxis_transform())
+        ax.axhline(on_log(floor), color="#888888", linewidth=0.6, label="where incremental stays")
 
 
 @figure("dual_vs_primal", "final", table="final")
@@ -59,7 +58,7 @@ def final(frame):
     values = np.full((len(rows), len(columns)), np.nan)
     for _, cell in frame.iterrows():
         i, j = rows.index(cell["row"]), columns.index(cell["column"])
-        values[i, j] = on_log(cell["error"]) if np.isfinite(cell["error"]) else np.nan
+        values[i, j] = on_log(cell["error"]) if cell["error"] <= LARGEST else np.nan
         label = text_number(cell["error"]) if np.isfinite(cell["error"]) else "none"
         dark = np.isfinite(values[i, j]) and values[i, j] < 1e-8
         ax.text(j, i, label + ("" if cell["status"] == "ok" else " ×"), ha="center", va="center", fontsize=6,
@@ -70,10 +69,10 @@ def final(frame):
     ax.set_yticks(range(len(rows)), rows, fontsize=6)
     ax.grid(False)
     fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")
-    footnote(fig, reasons_note(failed(frame, "error")))
+    footnote(fig, "In brackets the number of elements. " + reasons_note(failed(frame, "error")))
     return fig
 
 
 def material(row):
-    return (f"{row['scene']} {row['elements']:.0f}, {row['strain']}, E {text_number(row['young_pa'])} Pa, "
+    return (f"{row['scene']} ({row['elements']:.0f}), {row['strain']}, E {text_number(row['young_pa'])} Pa, "
             f"ν {text_number(row['poisson'])}")

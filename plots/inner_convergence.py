@@ -43,8 +43,7 @@ def rates(frame):
         ax.plot(group["predicted"], group["measured"], label=relaxation, markerfacecolor="white",
                 **style(relaxation) | {"linestyle": "none"})
     for relaxation, group in failed(frame, "predicted", "measured").groupby("relaxation", sort=False):
-        look = style(relaxation)
-        draw_failed(ax, group, "predicted", "measured", look["color"], look["marker"])
+        draw_failed(ax, group, "predicted", "measured", style(relaxation))
     drawn = rows[["predicted", "measured"]].to_numpy()
     low = drawn[drawn > 0].min() if (drawn > 0).any() else 1e-3
     line = np.array([low / 2, 1.0])

@@ -28,7 +28,7 @@ def agreement(frame):
         rows = good(frame, column)
         ax.plot(on_log(rows[column]), rows["place"] + shift, marker, color=color, label=label, markerfacecolor="none",
                 markersize=4, markeredgewidth=0.8)
-    draw_failed(ax, failed(frame, "difference"), "difference", "place", BLUE)
+    draw_failed(ax, failed(frame, "difference"), "difference", "place", {"color": BLUE, "marker": "o"})
     counts = names.value_counts()
     ax.set_yticks(list(places.values()), [f"{name} ({counts[name]})" for name in places])
     ax.set_ylim(len(places) - 0.5, -0.5)

@@ -1,9 +1,8 @@
-"""Draws every figure of a result folder:  /usr/bin/python3 plots/make.py DIR  writes DIR/figures."""
+"""Draws every figure of a result folder."""
 
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
-from pathlib import Path
 
 import dual_vs_primal  # noqa: F401  (each of these registers its figures)
 import effects_cost  # noqa: F401
@@ -12,8 +11,9 @@ import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
 import work_precision  # noqa: F401
-from common import FIGURES, save
-from reading import InputError, fail, provenance, read_run, read_table
+from command import command
+from common import FIGURES, KINDS, literal, save
+from reading import InputError, provenance, read_run, read_table, shortfall
 from tables import OWN_TABLES, columns
 
 
@@ -22,17 +22,24 @@ def say(text):
 
 
 def draw(entry, directory):
-    """Draws one figure; says so if its table is missing or holds nothing to draw."""
+    """Draws one figure in place of an older one; says so if its run is not complete or there is nothing to draw."""
+    name = f"{entry.experiment}_{entry.name}"
+    for kind in KINDS:
+        (directory / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     path = directory / entry.experiment / f"{entry.table}.csv"
     if not path.exists():
-        say(f"skipped: {entry.experiment}_{entry.name}: no {path}")
+        say(f"skipped: {name}: no {path}")
         return
-    frame = read_table(path, columns(entry.experiment, entry.table))
+    run = read_run(path.parent)
+    if shortfall(run):
+        say(f"skipped: {name}: {path.parent}: {shortfall(run)}")
+        return
+    frame = literal(read_table(path, columns(entry.experiment, entry.table)))
     drawn = entry.draw(frame) if len(frame) else None
     if drawn is None:
-        say(f"skipped: {entry.experiment}_{entry.name}: nothing to draw in {path}")
+        say(f"skipped: {name}: nothing to draw in {path}")
         return
-    save(drawn, directory / "figures", f"{entry.experiment}_{entry.name}", provenance(read_run(path.parent)))
+    save(drawn, directory / "figures", name, provenance(run))
 
 
 def without_figure(directory):
@@ -44,6 +51,7 @@ def without_figure(directory):
 
 
 def main(directory):
+    """Writes DIR/figures."""
     if not directory.is_dir():
         raise InputError(f"{directory}: got no folder; allowed: a result folder, as written by `pbdcheck run`")
     with ProcessPoolExecutor() as pool:
@@ -53,7 +61,4 @@ def main(directory):
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
-    except InputError as error:
-        fail(error)
+    command(main, "Draws every figure of a result folder, as `pbdcheck run` writes it: DIR/figures/*.{png,svg,pdf}.")

@@ -3,8 +3,7 @@
 from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, style
 from reading import failed, good, reasons_note
 
-QUANTITIES = {"compliance_j": "compliance (J)", "frequency_hz": "first frequency (Hz)",
-              "axial_j": "axial compliance (J)"}
+QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
 MODELS = {"tet_p1": "linear tetrahedra, constraint solver", "tet_p1 reference": "linear tetrahedra, finite element judge",
           "springs": "mass-spring network"}
 
@@ -23,7 +22,7 @@ def beam(frame):
             curve_points(ax, rows, "n", "error_beam", MODELS.get(model, model), style(model))
         ax.set(xscale="log", yscale="log", xlabel="cells across the beam, n", title=QUANTITIES.get(quantity, quantity))
         whole_ticks(ax, frame["n"].unique())
-    axes[0].set_ylabel("error against beam theory, relative")
+    axes[0].set_ylabel("error against Timoshenko's beam\n(axial: the rod), relative")
     shared_legend(fig, axes, columns=2)
     footnote(fig, reasons_note(failed(frame, "error_beam")))
     return fig
@@ -44,7 +43,7 @@ def manufactured(frame):
         rows = good(frame, "h_m", column).sort_values("h_m")
         ax.plot(rows["h_m"], on_log(rows[column]), color=color, marker=marker, linestyle=line, markerfacecolor="white",
                 label=label)
-        draw_failed(ax, failed(frame, "h_m", column), "h_m", column, color)
+        draw_failed(ax, failed(frame, "h_m", column), "h_m", column, {"color": color, "marker": marker})
         if len(rows) > 1:
             slope_triangle(ax, rows["h_m"].iloc[0], 0.55 * on_log(rows[column].iloc[0]), order, color)
     ax.set(xscale="log", yscale="log", xlabel="element size h (m)", ylabel="error against the exact solution")

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import CONTRACTING, failed, good, reasons_note, step_text, text_number
+from reading import CONTRACTING, LARGEST, failed, good, reasons_note, step_text, text_number
 
 
 def cases(frame):
@@ -59,19 +59,18 @@ def proximal(frame):
 def rate_map(frame):
     """Measured rate of the plain iteration over step and mass ratio, with the line where theory predicts 1."""
     frame = frame[(frame["outer"] == "plain") & (frame["mass_ratio"] > 0)]
-    sizes = frame.groupby("scene").apply(lambda rows: rows[["step_s", "mass_ratio"]].nunique().min())
-    scenes = [scene for scene, size in sizes.items() if size > 1]
-    if not scenes:
+    sizes = frame.groupby("scene")[["step_s", "mass_ratio"]].nunique().min(axis=1)
+    scenes = sizes.index[sizes > 1]
+    if scenes.empty:
         return None
     fig, axes = panels(len(scenes), columns=2, height=2.6)
     for ax, scene in zip(axes, scenes):
         mesh = map_panel(ax, frame[frame["scene"] == scene])
-        ax.set(title=scene, xlabel="step", ylabel="mass ratio, heaviest to lightest node")
+        ax.set(title=f"{scene}, plain iteration, error against Newton", xlabel="step", ylabel="mass ratio, heaviest to lightest node")
     fig.colorbar(mesh, ax=axes, label="measured rate, error per iteration", extend="both")
-    handles = [plt.Line2D([], [], color=BLACK, linestyle="--"),
-               plt.Line2D([], [], color=BLACK, marker="x", linestyle="", markerfacecolor="none")]
-    fig.legend(handles, ["predicted rate = 1", "error does not fall steadily; grey: no rate to measure"], loc="upper center", bbox_to_anchor=(0.5, 0),
-               ncol=2)
+    handles = [plt.Line2D([], [], color=BLACK, linestyle="--"), plt.Line2D([], [], color=BLACK, marker="x", linestyle="")]
+    fig.legend(handles, ["predicted rate = 1", "error does not fall steadily; grey: no rate to measure"],
+               loc="upper center", bbox_to_anchor=(0.5, 0), ncol=2)
     footnote(fig, reasons_note(failed(frame, "measured_rate")))
     return fig
 
@@ -79,6 +78,7 @@ def rate_map(frame):
 def map_panel(ax, rows):
     measured = rows.pivot_table("measured_rate", "mass_ratio", "step_s", dropna=False)
     predicted = rows.pivot_table("predicted_rate", "mass_ratio", "step_s", dropna=False).reindex_like(measured)
+    measured = measured.where(measured <= LARGEST)
     x, y = measured.columns.to_numpy(), measured.index.to_numpy()
     mesh = ax.pcolormesh(edges(x), edges(y), on_log(measured.to_numpy()), norm=LogNorm(0.05, 1), cmap="cividis")
     ax.set(xscale="log", yscale="log", facecolor="#bbbbbb")
@@ -86,8 +86,12 @@ def map_panel(ax, rows):
     ax.set_yticks(y, [text_number(ratio) for ratio in y])
     ax.minorticks_off()
     ax.grid(False)
-    if np.nanmin(predicted) < 1 < np.nanmax(predicted):
-        ax.contour(x, y, np.log(predicted), levels=[0.0], colors=BLACK, linestyles="--")
+    known = predicted.where((predicted > 0) & (predicted <= LARGEST))
+    if (known < 1).any(axis=None) and (known > 1).any(axis=None):
+        ax.contour(x, y, np.log(known), levels=[0.0], colors=BLACK, linestyles="--")
+    for (i, j), rate in np.ndenumerate(measured.to_numpy()):
+        if np.isfinite(rate):
+            ax.text(x[j], y[i], f"{rate:.2g}", ha="center", va="center", fontsize=6, color="white" if rate < 0.2 else BLACK)
     bad = rows[~rows["behaviour"].isin(CONTRACTING)]
     ax.plot(bad["step_s"], bad["mass_ratio"], "x", color=BLACK, markersize=4, markeredgewidth=0.8)
     return mesh
@@ -129,7 +133,7 @@ def pendulum(frame):
         return None
     fig, (ax,) = panels(1, height=2.4)
     rows = good(frame, "measured_rate")
-    ax.plot(frame["step_s"], frame["predicted_rate"], "--", color=BLACK, label=r"predicted, $h^2 T/(m l)$")
+    ax.plot(frame["step_s"], frame["predicted_rate"], "--", color=BLACK, label="predicted, h² T/(m l)")
     ax.plot(rows["step_s"], on_log(rows["measured_rate"]), "o", color=RED, markersize=6, markerfacecolor="none",
             label="measured")
     for _, row in rows.iterrows():
@@ -138,6 +142,8 @@ def pendulum(frame):
     draw_failed(ax, failed(frame, "measured_rate"), "step_s", "measured_rate")
     ax.set(xscale="log", yscale="log", xlabel="step (s)", ylabel="rate, error per outer iteration",
            title="Pendulum, plain iteration, error against Newton")
+    ax.set_xticks(frame["step_s"].unique(), [text_number(step) for step in frame["step_s"].unique()])
+    ax.set_xticks([], minor=True)
     ax.margins(0.15)
     shared_legend(fig, [ax])
     footnote(fig, reasons_note(failed(frame, "measured_rate")))

@@ -7,7 +7,6 @@ with 17 digits, `nan`, `inf` or `-inf`. A row whose `status` is not `ok`, or who
 
 import csv
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,13 @@ import pandas as pd
 CONTRACTING = ("converged", "converging")  # the error falls steadily
 BEHAVIOURS = (*CONTRACTING, "oscillating", "diverging")
 STATUSES = ("ok", "not_converged", "diverged", "skipped")
+VERDICTS = ("holds", "fails")
+COMPLETE = "complete"  # the status of a run that came to its end
+LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
+SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
+            "sweeps", "outer_iterations", "row_updates"}  # chosen or counted, not measured: always numbers
+RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
+       "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name"}
@@ -23,12 +29,6 @@ TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "rea
 
 class InputError(Exception):
     """A result file that cannot be read: names the file, the place in it, and what is allowed."""
-
-
-def fail(error):
-    """Ends the program as every bad input does."""
-    print(f"error: {error}", file=sys.stderr)
-    sys.exit(2)
 
 
 def read_table(path, columns=()):
@@ -43,6 +43,23 @@ def read_table(path, columns=()):
                          columns=header)
     _check_words(path, frame, "status", STATUSES)
     _check_words(path, frame, "behaviour", BEHAVIOURS)
+    for column in columns:
+        if column in SETTINGS:
+            _check_setting(path, frame, column)
+    return frame
+
+
+def read_verdicts(path, columns):
+    """A table of verdicts, each word of which is what the numbers beside it say."""
+    frame = read_table(path, columns)
+    _check_words(path, frame, "verdict", VERDICTS)
+    for i, row in frame.iterrows():
+        if not np.isfinite(row["bound"]):
+            raise InputError(f"{path}: line {i + 2}: column 'bound': got {row['bound']}; allowed: a finite number")
+        truth = "holds" if row["measured"] <= row["bound"] else "fails"  # not a number never holds
+        if row["verdict"] != truth:
+            raise InputError(f"{path}: line {i + 2}: column 'verdict': got '{row['verdict']}'; allowed: '{truth}', for "
+                             f"measured = {row['measured']:.17g} and bound = {row['bound']:.17g}")
     return frame
 
 
@@ -50,8 +67,14 @@ def _read_cells(path):
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = [row for row in csv.reader(file, strict=True)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as CSV: {error}") from error
+    for line, row in enumerate(rows, start=1):
+        for cell in row:
+            if not cell.isprintable():
+                raise InputError(f"{path}: line {line}: got {cell[:40]!r}; allowed: printable characters")
     if not rows or not any(rows[0]):
         raise InputError(f"{path}: line 1: got nothing; a header row is needed")
     header = rows[0]
@@ -92,36 +115,59 @@ def _check_words(path, frame, column, allowed):
             raise InputError(f"{path}: line {i + 2}: column '{column}': got '{word}'; allowed: {', '.join(allowed)}")
 
 
+def _check_setting(path, frame, column):
+    smallest = 1 / LARGEST if column == "step_s" else 0.0
+    for i, value in enumerate(frame[column]):
+        if not smallest <= value <= LARGEST:
+            raise InputError(f"{path}: line {i + 2}: column '{column}': got {value:g}; allowed: {smallest:g} to {LARGEST:g}")
+
+
 def read_run(directory):
-    """The run.json of an experiment, {} if there is none."""
+    """The run.json of an experiment, {} if there is none: then the run did not come to its end."""
     path = Path(directory) / "run.json"
     if not path.exists():
         return {}
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        run = json.loads(path.read_text(encoding="utf-8"))
+        json.dumps(run, ensure_ascii=False).encode()  # half a character can be escaped, never written
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: cannot be read as JSON: {error}") from error
+    if not isinstance(run, dict):
+        raise InputError(f"{path}: got {json.dumps(run)[:40]}; allowed: an object")
+    needed = {"status": str} | (RUN if run.get("status") == COMPLETE else {})
+    for key, kind in needed.items():
+        value = run.get(key)
+        if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool) or value != value:
+            name = {str: "a text", bool: "true or false", dict: "an object"}.get(kind, "a number")
+            raise InputError(f"{path}: key '{key}': got {json.dumps(value)[:40] if key in run else 'nothing'}; "
+                             f"allowed: {name}")
+    return run
+
+
+def shortfall(run):
+    """Why a run is not complete, '' if it is."""
+    if not run:
+        return "no run.json, the run did not come to its end"
+    if run["status"] == COMPLETE:
+        return ""
+    return run["status"] + (f": {run['reason']}" if run.get("reason") else "")
 
 
 def provenance(run):
-    """One line saying what produced a result."""
-    if not run:
-        return "provenance unknown: no run.json"
-    commit = str(run.get("commit", "unknown"))[:10] + (" (modified)" if run.get("dirty") else "")
-    parts = [f"pbdcheck {run.get('version', '?')}", f"commit {commit}", f"tier {run.get('tier', '?')}",
-             f"{run.get('compiler', 'compiler ?')}", f"{run.get('processor', 'processor ?')}",
-             f"{run.get('threads', '?')} thread(s)"]
-    return " | ".join(parts)
+    """One line saying what produced the result of a complete run."""
+    commit = run["commit"][:10] + (" (modified)" if run["dirty"] else "")
+    return " | ".join([f"pbdcheck {run['version']}", f"commit {commit}", f"tier {run['tier']}", run["compiler"],
+                       run["processor"], f"{run['threads']} thread(s)"])
 
 
 def drawable(frame, columns):
-    """Which rows have finite, not negative numbers in all `columns`."""
+    """Which rows have numbers from 0 to LARGEST in all `columns`."""
     values = frame[list(columns)].to_numpy(dtype=float)
-    return pd.Series((np.isfinite(values) & (values >= 0)).all(axis=1), index=frame.index)
+    return pd.Series(((values >= 0) & (values <= LARGEST)).all(axis=1), index=frame.index)
 
 
 def good(frame, *columns):
-    """The rows that are ok and whose `columns` are finite and not negative."""
+    """The rows that are ok and whose `columns` are drawable."""
     ok = frame["status"].eq("ok") if "status" in frame else True
     return frame[ok & drawable(frame, columns)]
 
@@ -135,7 +181,7 @@ def why(row):
     """Short text of what is wrong with a row of `failed`."""
     status = row.get("status", "ok")
     if status == "ok":
-        return "ok, but not a number"
+        return "ok, but no number that can be drawn"
     return f"{status}: {row['reason']}" if row.get("reason") else status
 
 

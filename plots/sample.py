@@ -1,16 +1,16 @@
 """Writes made-up result tables in the shape the experiments give them: for the tests of the plots and the report.
 
-    /usr/bin/python3 plots/sample.py DIR
-
 None of the numbers means anything.
 """
 
 import csv
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
+
+from command import command
+from reading import InputError
 
 RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
 RATES = {"gauss_seidel": 0.95, "jacobi": 0.985, "nesterov_jacobi": 0.9, "direct": 1e-6}
@@ -156,14 +156,25 @@ def write_all(directory):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)
-        run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
-               "flags": "-O3 -march=native", "processor": "Made-up CPU", "threads": 2, "seed": 1, "tier": "quick",
-               "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5}
-        (Path(directory) / name / "run.json").write_text(json.dumps(run), encoding="utf-8")
+        write_run(directory, name, holds=1, fails=1)
     write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", ""), method_points(False))
 
 
+def write_run(directory, experiment, holds=0, fails=0):
+    """The run.json of a complete run."""
+    run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
+           "flags": "-O3 -march=native", "processor": "Made-up CPU", "threads": 2, "seed": 1, "tier": "quick",
+           "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5,
+           "verdicts": {"holds": holds, "fails": fails}, "status": "complete"}
+    (Path(directory) / experiment / "run.json").write_text(json.dumps(run), encoding="utf-8")
+
+
+def main(directory):
+    """Writes DIR, which must not hold anything: made-up numbers do not go among measured ones."""
+    if directory.exists() and any(directory.iterdir()):
+        raise InputError(f"{directory}: got a folder with files in it; allowed: a new or empty one")
+    write_all(directory)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: sample.py DIR")
-    write_all(sys.argv[1])
+    command(main, "Writes made-up results, for trying the plots and the report: none of the numbers means anything.")

@@ -1,5 +1,6 @@
 """Tests of reading, of keeping failures visible, and of every figure:  python3 -m unittest discover -s plots"""
 
+import json
 import math
 import subprocess
 import sys
@@ -70,27 +71,74 @@ class Reading(unittest.TestCase):
     def test_column_twice(self):
         self.assert_refused("error,error\n1,2\n", "'error'", "twice")
 
+    def test_control_characters_and_binary_garbage(self):
+        self.assert_refused("scene\na\x00b\n", "line 2", r"'a\x00b'", "printable")
+        self.path.write_bytes(bytes(range(256)))
+        with self.assertRaises(reading.InputError):
+            reading.read_table(self.path)
+
+    def test_settings_that_cannot_be(self):
+        for value in ("0", "-1", "nan", "inf", "1e308"):
+            self.assert_refused(f"step_s\n{value}\n", "line 2", "'step_s'", "allowed", columns=["step_s"])
+        self.assert_refused("sweep\nnan\n", "line 2", "'sweep'", columns=["sweep"])
+        self.assertEqual(self.read("sweep\n0\n", ["sweep"])["sweep"].tolist(), [0])
+
+    def verdicts(self, measured, bound, word):
+        self.path.write_text(f"measured,bound,verdict\n{measured},{bound},{word}\n", encoding="utf-8")
+        return reading.read_verdicts(self.path, ["measured", "bound", "verdict"])["verdict"].tolist()
+
+    def test_verdicts_are_what_their_numbers_say(self):
+        for measured, bound, word in ((1, 1, "holds"), (2, 1, "fails"), ("nan", 1, "fails"), ("inf", 1, "fails"), ("", 1, "fails")):
+            self.assertEqual(self.verdicts(measured, bound, word), [word])
+        for measured, bound, word, allowed in ((2, 1, "holds", "'fails'"), (1, 1, "fails", "'holds'"), ("nan", 1, "holds", "'fails'"),
+                                               (1, "nan", "fails", "a finite number"), (1, "inf", "holds", "a finite number"),
+                                               (1, 2, "passes", "holds, fails"), (1, 2, "", "holds, fails")):
+            with self.assertRaisesRegex(reading.InputError, f"table.csv: line 2: .*allowed: {allowed}"):
+                self.verdicts(measured, bound, word)
+
     def test_empty_and_absent_file(self):
         self.assert_refused("", "header")
         with self.assertRaises(reading.InputError):
             reading.read_table(self.path.with_name("absent.csv"))
 
-    def test_bad_run(self):
-        (self.path.parent / "run.json").write_text("{", encoding="utf-8")
-        with self.assertRaises(reading.InputError):
-            reading.read_run(self.path.parent)
+    def run_json(self, text):
+        (self.path.parent / "run.json").write_text(text, encoding="utf-8")
+        return reading.read_run(self.path.parent)
+
+    def test_bad_runs(self):
+        for text, said in (("{", "JSON"), ("[" * 99999, "JSON"), ('{"status": "\\ud800"}', "JSON"), ("[1]", r"got \[1\]"),
+                           ('"x"', 'got "x"'), ("{}", "'status': got nothing"), ('{"status": 1}', "'status': got 1")):
+            with self.assertRaisesRegex(reading.InputError, f"run.json: .*{said}"):
+                self.run_json(text)
+
+    def test_a_complete_run_has_every_fact(self):
+        sample.write_run(self.path.parent, ".")
+        run = reading.read_run(self.path.parent)
+        self.assertEqual(reading.shortfall(run), "")
+        for key in reading.RUN:
+            for value in (None, [1]):
+                with self.assertRaisesRegex(reading.InputError, f"'{key}': got .*; allowed: "):
+                    self.run_json(json.dumps(run | {key: value}))
+        for key, value in (("wall_s", True), ("wall_s", math.nan), ("dirty", 1)):
+            with self.assertRaisesRegex(reading.InputError, f"'{key}': got "):
+                self.run_json(json.dumps(run | {key: value}))
+
+    def test_runs_that_are_not_complete(self):
+        self.assertIn("no run.json", reading.shortfall(reading.read_run(self.path.parent)))
+        self.assertEqual(reading.shortfall(self.run_json('{"status": "interrupted"}')), "interrupted")
+        self.assertEqual(reading.shortfall(self.run_json('{"status": "failed", "reason": "why"}')), "failed: why")
 
 
 class Failures(unittest.TestCase):
     def test_every_row_is_good_or_failed(self):
-        frame = reading.pd.DataFrame({"error": [1.0, np.nan, np.inf, -1.0, 0.0, 2.0],
+        frame = reading.pd.DataFrame({"error": [1.0, np.nan, 1e308, -1.0, 0.0, 2.0],
                                      "status": ["ok", "ok", "ok", "ok", "ok", "diverged"], "reason": [""] * 5 + ["far"]})
         self.assertEqual(reading.good(frame, "error").index.tolist(), [0, 4])
         self.assertEqual(reading.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
 
     def test_reasons_are_counted(self):
         frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
-        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but not a number")
+        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
 
     def test_steps_read_as_fractions(self):
         self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
@@ -132,6 +180,32 @@ class Drawing(unittest.TestCase):
                     figure.draw_without_rendering()
                     common.plt.close(figure)
 
+    def test_a_map_without_a_single_rate(self):
+        entry = next(e for e in common.FIGURES if e.name == "map")
+        frame = self.table(entry).assign(measured_rate=np.nan, predicted_rate=np.nan, behaviour="diverging")
+        common.plt.close(entry.draw(frame))
+        self.assertIsNone(entry.draw(frame[:0]))
+
+    def test_numbers_near_overflow(self):
+        for entry in common.FIGURES:
+            if entry.name in ("map", "final", "rates"):
+                frame = self.table(entry)
+                frame[[c for c in frame if c.startswith(("error", "measured", "predicted"))]] = 1e308
+                figure = entry.draw(frame)
+                figure.draw_without_rendering()
+                common.plt.close(figure)
+
+    def test_no_name_is_a_formula(self):
+        for entry in common.FIGURES:
+            with self.subTest(entry.experiment + "_" + entry.name):
+                frame = self.table(entry)
+                names = {c: [f"$\\no{{_{text}$ %&^" for text in frame[c]] for c in frame
+                         if c in reading.TEXT - {"status", "behaviour", "outer"}}
+                figure = entry.draw(common.literal(frame.assign(**names)))
+                if figure:
+                    figure.draw_without_rendering()
+                    common.plt.close(figure)
+
     def test_saving_twice_gives_the_same_bytes(self):
         entry = next(e for e in common.FIGURES if e.experiment == "mesh_refinement" and e.name == "mms")
         written = []
@@ -151,9 +225,44 @@ class Commands(unittest.TestCase):
     def run_plots(self, script, *arguments):
         return subprocess.run([sys.executable, HERE / script, *arguments], capture_output=True, text=True, check=False)
 
+    def test_help_and_wrong_usage(self):
+        for script in ("make.py", "compare.py", "sample.py", "../paper/report.py"):
+            asked = self.run_plots(script, "--help")
+            self.assertEqual((asked.returncode, asked.stderr), (0, ""))
+            self.assertIn("DIR", asked.stdout)
+            wrong = self.run_plots(script, "a", "b")
+            self.assertEqual(wrong.returncode, 2)
+            self.assertIn("unrecognized arguments: b", wrong.stderr)
+
+    def test_the_sample_never_goes_among_results(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.run_plots("sample.py", folder).returncode, 0)
+            self.assertEqual(self.run_plots("sample.py", folder).returncode, 2)
+
+    def test_figures_is_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.write_all(folder)
+            (Path(folder) / "figures").touch()
+            for script in ("make.py", "compare.py"):
+                result = self.run_plots(script, folder)
+                self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
+                self.assertIn("figures", result.stderr)
+
+    def test_a_run_that_is_not_complete_has_no_figures_not_even_old_ones(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.judges(folder)
+            (Path(folder) / "figures").mkdir()
+            old = Path(folder) / "figures" / "judges_agreement.png"
+            old.touch()
+            result = self.run_plots("make.py", folder)
+            self.assertIn("skipped: judges_agreement: ", result.stderr)
+            self.assertIn("no run.json", result.stderr)
+            self.assertFalse(old.exists())
+
     def test_bad_table_exits_with_2_and_names_the_place(self):
         with tempfile.TemporaryDirectory() as folder:
             sample.write(folder, "judges", "agreement", "scene nodes", [("pendulum", 2)])
+            sample.write_run(folder, "judges")
             result = self.run_plots("make.py", folder)
             self.assertEqual(result.returncode, 2)
             self.assertIn("agreement.csv: column 'step_s' is missing", result.stderr)

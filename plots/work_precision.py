@@ -1,9 +1,11 @@
 """Which method gives which accuracy for which work?"""
 
-from common import BLACK, curve_points, figure, footnote, panels, shared_legend, style
+from common import BLACK, ORANGE, SKY, curve_points, figure, footnote, panels, shared_legend, style
 from reading import failed, reasons_note, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "direct": "D"}
+FILLINGS = {"incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
+            "frozen": {"markerfacecolor": ORANGE}}
 
 
 def method_name(row):
@@ -14,9 +16,9 @@ def method_name(row):
 
 
 def method_style(row):
-    """Colour and line tell the outer iteration, the marker the relaxation."""
+    """Colour, line and filling tell the outer iteration, the marker the relaxation."""
     look = style(row["outer"])
-    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])}
+    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])} | FILLINGS.get(row["outer"], {})
 
 
 def is_reference(points):
@@ -32,7 +34,12 @@ def mark_reference(ax, points, x, name):
 
 
 def draw_methods(frame, x, label):
-    """Error against work, one panel a scene, step, integrator and friction."""
+    """Error against work, one panel a scene, step, integrator and friction. Judges have a place on the axis of seconds
+    only."""
+    judges = frame[frame["outer"] == "judge"]
+    names = [name for name, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
+    if x != "wall_s":
+        frame = frame.drop(judges.index)
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
@@ -46,7 +53,7 @@ def draw_methods(frame, x, label):
         ax.set(xscale="log", yscale="log", title=f"{scene}, {integrator}, h = {step_text(step)}{extra}")
         ax.title.set_fontsize(7)
     fig.supxlabel(label, fontsize=8)
-    fig.supylabel("error against the judge, relative", fontsize=8)
+    fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
     shared_legend(fig, axes, columns=3)
     bad = failed(frame, x, "error")
     beside = "Beside the right edge: methods whose tighter tolerances were skipped. " if \
@@ -60,16 +67,11 @@ def seconds(frame):
     return draw_methods(frame, "wall_s", "wall time (s)")
 
 
-def without_judges(frame):
-    """Judges do not sweep: they have a place on the axis of seconds only."""
-    return frame[frame["outer"] != "judge"]
-
-
 @figure("work_precision", "row_updates", table="points")
 def row_updates(frame):
-    return draw_methods(without_judges(frame), "row_updates", "row updates")
+    return draw_methods(frame, "row_updates", "row updates")
 
 
 @figure("work_precision", "outer_iterations", table="points")
 def outer_iterations(frame):
-    return draw_methods(without_judges(frame), "outer_iterations", "outer iterations")
+    return draw_methods(frame, "outer_iterations", "outer iterations")

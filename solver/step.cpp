@@ -199,15 +199,16 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
 namespace {
 
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+constexpr std::string_view not_finite = "not finite";
 
 /// Residual, scale and rounding level of an iterate; true if the outer iteration is to end.
 bool finished(const Method& method, double primal_rounding, double dual_rounding, double first_residual,
               Report& report) {
   const double residual = std::max(report.primal, report.dual);
   constexpr double blown_up = 1e8;  // growth beyond any transient
-  if (!std::isfinite(report.primal) || !std::isfinite(report.dual)) {
+  if (!std::isfinite(report.primal) || !std::isfinite(report.dual) || !std::isfinite(report.scale)) {
     report.status = Status::diverged;
-    report.reason = "not finite";
+    report.reason = not_finite;
   } else if (report.primal <= std::max(method.tolerance * report.scale, primal_rounding) &&
              report.dual <= std::max(method.tolerance * report.scale, dual_rounding)) {
     report.status = Status::ok;
@@ -305,6 +306,10 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     }
     w.previous = w.v;
     w.outer.iterate(iteration);
+  }
+  if (!w.x.allFinite() || !w.v.allFinite() || !std::isfinite(state.time + h)) {
+    report.status = Status::diverged;
+    report.reason = not_finite;
   }
   if (report.status != Status::diverged) {
     state.x = w.x;

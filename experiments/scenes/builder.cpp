@@ -22,8 +22,7 @@ int nearest_node(const pbd::Scene& scene, const NodeRange& range, const pbd::Vec
 std::vector<int> nodes_in_box(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
   const auto box = keys.vectors("box_m");
   if (box.size() != 2 || (box[0].array() > box[1].array()).any())
-    keys.refuse("box_m", fmt::format("{} corners or a box of negative size", box.size()),
-                "[[lowest x, y, z], [highest x, y, z]]");
+    keys.refuse("box_m", "[[lowest x, y, z], [highest x, y, z]]");
   std::vector<int> found;
   for (int node = range.first; node < range.first + range.count; ++node) {
     const auto x = scene.initial.x.col(node).array();
@@ -38,8 +37,11 @@ std::vector<int> corner_nodes(Keys& keys, const pbd::Scene& scene, const NodeRan
   const pbd::Vec3 lowest = x.rowwise().minCoeff();
   const pbd::Vec3 size = x.rowwise().maxCoeff() - lowest;
   std::vector<int> found;
-  for (const auto& corner : keys.vectors("corners"))
+  for (const auto& corner : keys.vectors("corners")) {
+    if (corner.minCoeff() < 0 || corner.maxCoeff() > 1)
+      keys.refuse("corners", "places from [0, 0, 0] to [1, 1, 1], the bounding box");
     found.push_back(nearest_node(scene, range, lowest + size.cwiseProduct(corner)));
+  }
   return found;
 }
 
@@ -56,11 +58,21 @@ std::vector<int> indexed_nodes(Keys& keys, const NodeRange& range, std::string_v
 
 }  // namespace
 
+void Builder::reserve(const Keys& keys, std::string_view key, double count) {
+  elements += count;
+  if (elements > most_elements)
+    keys.refuse(key, fmt::format("{:.0f} elements ({:.0f} in the scene so far)", count, elements),
+                fmt::format("at most {:.0f} links, triangles and tetrahedra in a scene", most_elements));
+}
+
 void Builder::anchor(const Keys& keys, const std::vector<int>& nodes, double compliance,
                      pbd::Anchor& effect) {
   for (const int node : nodes) {
     if (!anchored.insert(node).second)
       throw pbd::SetupError(keys.where(), fmt::format("node {} anchored twice", node), "one anchor per node");
+    if (scene.mass[static_cast<std::size_t>(node)] == pbd::infinity)
+      throw pbd::SetupError(keys.where(), fmt::format("an anchor on node {}, which is fixed", node),
+                            "anchors on nodes of finite mass");
     effect.node.push_back(node);
     effect.target.emplace_back(scene.initial.x.col(node));
     effect.compliance.push_back(compliance);
@@ -110,7 +122,10 @@ double read_compliance(Keys& keys) {
   const bool soft = keys.has("compliance_m_per_n");
   if (!keys.has("stiffness_n_per_m")) return keys.number_or("compliance_m_per_n", 0, Range::not_negative);
   if (soft) keys.refuse("stiffness_n_per_m", "a stiffness and a compliance", "one of them");
-  return 1 / keys.number("stiffness_n_per_m", Range::positive_or_infinite);
+  const double compliance = 1 / keys.number("stiffness_n_per_m", Range::positive_or_infinite);
+  if (compliance > largest_number)
+    keys.refuse("stiffness_n_per_m", fmt::format("a number >= {:g}, or inf", 1 / largest_number));
+  return compliance;
 }
 
 }  // namespace pbdcheck

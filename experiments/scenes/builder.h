@@ -5,10 +5,31 @@
 #include <set>
 #include <vector>
 
+#include "error.h"
 #include "keys.h"
 #include "scene.h"
 
 namespace pbdcheck {
+
+/// Nodes [first, first + count) of the scene, the ones a selection may pick and counts from.
+struct NodeRange {
+  int first = 0;
+  int count = 0;
+};
+
+/// Links, triangles and tetrahedra of a scene. A tetrahedron takes about 1.5 kB in scene and rows, so that
+/// this many take 3 GB; more are taken for a typing error.
+inline constexpr double most_elements = 2e6;
+
+/// What `make` returns; a SetupError of it gets `where` in front.
+template <class Make>
+auto located(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const pbd::SetupError& error) {
+    throw pbd::SetupError(where + ": " + error.what());
+  }
+}
 
 struct Builder {
   pbd::Scene scene;
@@ -18,24 +39,20 @@ struct Builder {
   };
   std::vector<Placed> placed;
   std::set<int> anchored;
+  double elements = 0;
 
   void add(int line, pbd::Effect effect) { placed.push_back({line, std::move(effect)}); }
 
-  /// Anchors `nodes` at their initial places; `keys` names the table in errors: a node twice is refused.
+  /// Counts the links, triangles or tetrahedra of a body before they are made, and refuses the value of `key`
+  /// if the scene has more than `most_elements` with them.
+  void reserve(const Keys& keys, std::string_view key, double count);
+
+  /// Anchors `nodes` at their initial places; `keys` names the table in errors: a node twice and one of
+  /// infinite mass are refused.
   void anchor(const Keys& keys, const std::vector<int>& nodes, double compliance, pbd::Anchor& effect);
 
   /// Moves the effects into the scene, in the file's order.
   pbd::Scene finish();
-};
-
-/// Bodies with more nodes than this are taken for a typing error: their step would not fit a machine's
-/// memory.
-inline constexpr double most_nodes = 1e7;
-
-/// Nodes [first, first + count) of the scene, the ones a selection may pick and counts from.
-struct NodeRange {
-  int first = 0;
-  int count = 0;
 };
 
 /// The nodes a table picks, each once, by `node` (one index), `nodes` (a list), `near_m` (the nearest to a

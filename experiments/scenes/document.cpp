@@ -2,18 +2,60 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <sstream>
 
 #include "error.h"
+#include "lines.h"
 
 namespace pbdcheck {
 namespace {
 
+/// The line (from 1) on which a dotted key has too many parts; 0 if there is none. Texts and comments are
+/// skipped.
+std::ptrdiff_t line_of_deep_key(std::string_view text) {
+  std::size_t dots = 0;
+  std::string_view closing;  // of the text or comment being skipped
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (!closing.empty()) {
+      if (text.substr(i).starts_with(closing)) {
+        i += closing.size() - 1;
+        closing = {};
+      } else if (c == '\\' && closing[0] == '"') {
+        ++i;
+      } else if (c == '\n' && closing.size() == 1) {
+        closing = {};
+      }
+    } else if (c == '"' || c == '\'') {
+      closing = text.substr(i, text.substr(i, 3) == std::string(3, c) ? 3 : 1);
+      i += closing.size() - 1;
+    } else if (c == '.') {
+      if (++dots == most_key_parts) return 1 + std::count(text.begin(), text.begin() + i, '\n');
+    } else if (std::string_view("\n#=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+      if (c == '#') closing = "\n";
+    }
+  }
+  return 0;
+}
+
+[[noreturn]] void refuse_deep_key(const std::string& where) {
+  throw pbd::SetupError(where, "a key of too many parts",
+                        fmt::format("at most {} parts, as in a.b.c", most_key_parts));
+}
+
 toml::table parsed(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file))
-    throw pbd::SetupError(file.string(), "no such file", "a scene file (TOML)");
+  const auto reason = unreadable(file);
+  if (!reason.empty()) throw pbd::SetupError(file.string(), reason, "a scene file (TOML)");
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  if (const auto line = line_of_deep_key(text.str()))
+    refuse_deep_key(fmt::format("{}:{}", file.string(), line));
   try {
-    return toml::parse_file(file.string());
+    return toml::parse(text.str(), file.string());
   } catch (const toml::parse_error& error) {
     throw pbd::SetupError(fmt::format("{}:{}", file.string(), error.source().begin.line), error.description(),
                           "TOML 1.0");
@@ -66,6 +108,7 @@ toml::node& descend(toml::node& node, const std::string& part, const std::string
 }  // namespace
 
 void apply_setting(toml::table& root, const std::string& setting, const std::string& option) {
+  if (line_of_deep_key(setting) > 0) refuse_deep_key(option);
   const auto equals = setting.find('=');
   if (equals == std::string::npos || equals == 0)
     throw pbd::SetupError(option, "`" + setting + "`", "KEY=VALUE, as in method.relaxation=jacobi");

@@ -16,13 +16,13 @@ namespace {
 std::string_view description(Range range) {
   switch (range) {
     case Range::finite:
-      return "a finite number";
+      return "a finite number up to 1e100 in size";
     case Range::not_negative:
-      return "a finite number >= 0";
+      return "a finite number >= 0, up to 1e100";
     case Range::positive:
-      return "a finite number > 0";
+      return "a finite number > 0, up to 1e100";
     case Range::positive_or_infinite:
-      return "a number > 0, or inf";
+      return "a number > 0 up to 1e100, or inf";
   }
   return "";
 }
@@ -30,13 +30,13 @@ std::string_view description(Range range) {
 bool within(double value, Range range) {
   switch (range) {
     case Range::finite:
-      return std::isfinite(value);
+      return std::abs(value) <= largest_number;
     case Range::not_negative:
-      return std::isfinite(value) && value >= 0;
+      return value >= 0 && value <= largest_number;
     case Range::positive:
-      return std::isfinite(value) && value > 0;
+      return value > 0 && value <= largest_number;
     case Range::positive_or_infinite:
-      return value > 0;
+      return (value > 0 && value <= largest_number) || value == pbd::infinity;
   }
   return false;
 }
@@ -45,6 +45,8 @@ std::string shown(const toml::node& node) {
   std::ostringstream out;
   if (node.is_table())
     out << "a table";
+  else if (node.is_floating_point())
+    out << fmt::format("{}", *node.value<double>());
   else if (const auto* array = node.as_array(); array != nullptr && array->size() > 8)
     out << "a list of " << array->size() << " entries";
   else
@@ -55,7 +57,7 @@ std::string shown(const toml::node& node) {
   return line;
 }
 
-constexpr std::string_view vector_text = "a list of three finite numbers";
+constexpr std::string_view vector_text = "a list of three finite numbers up to 1e100 in size";
 
 }  // namespace
 
@@ -65,10 +67,11 @@ Keys::Keys(const toml::table& table, std::string path, Origin origin)
 std::string Keys::where_of(const toml::node* node, std::string_view key) const {
   std::string full = path_;
   if (!key.empty()) full += (full.empty() ? "" : ".") + std::string(key);
+  if (node == nullptr && path_.empty()) return full.empty() ? origin_.file : origin_.file + ": " + full;
   if (node == nullptr) node = table_;
   const auto line = node->source().begin.line;
   if (line > 0) return fmt::format("{}:{}{}{}", origin_.file, line, full.empty() ? "" : ": ", full);
-  return full.empty() ? origin_.option : origin_.option + " " + full;
+  return origin_.option + " " + full;
 }
 
 std::string Keys::where() const {
@@ -82,6 +85,10 @@ int Keys::line() const {
 
 void Keys::refuse(std::string_view key, const std::string& value, std::string_view allowed) const {
   throw pbd::SetupError(where_of(table_->get(key), key), value, allowed);
+}
+
+void Keys::refuse(std::string_view key, std::string_view allowed) const {
+  refuse(key, shown(*table_->get(key)), allowed);
 }
 
 const toml::node* Keys::find(std::string_view key) {
@@ -110,7 +117,8 @@ double Keys::checked_number(const toml::node& node, std::string_view key, Range 
 int Keys::checked_integer(const toml::node& node, std::string_view key, int smallest) const {
   const auto value = node.is_integer() ? *node.value<std::int64_t>() : std::int64_t{-1};
   if (!node.is_integer() || value < smallest || value > std::numeric_limits<int>::max())
-    throw pbd::SetupError(where_of(&node, key), shown(node), fmt::format("an integer >= {}", smallest));
+    throw pbd::SetupError(where_of(&node, key), shown(node),
+                          fmt::format("an integer from {} to {}", smallest, std::numeric_limits<int>::max()));
   return static_cast<int>(value);
 }
 
@@ -152,7 +160,7 @@ std::string Keys::text(std::string_view key) {
 std::string Keys::choice_or(std::string_view key, std::string_view fallback,
                             const std::vector<std::string>& allowed) {
   if (!has(key)) return std::string(fallback);
-  const std::string name = text(key);
+  std::string name = text(key);
   require_name(where_of(find(key), key), name, allowed);
   return name;
 }
@@ -173,19 +181,24 @@ const toml::array& Keys::need_array(std::string_view key, std::string_view allow
 
 std::vector<pbd::Vec3> Keys::vectors(std::string_view key) {
   std::vector<pbd::Vec3> found;
-  for (const auto& node : need_array(key, "a list of lists of three finite numbers"))
+  for (const auto& node : need_array(key, "a list of lists of three numbers"))
     found.push_back(checked_vector(node, key));
   return found;
 }
 
 std::vector<double> Keys::numbers(std::string_view key, std::size_t size, Range range) {
-  const toml::node& node = need(key, description(range));
-  if (!node.is_array()) return std::vector<double>(size, checked_number(node, key, range));
+  const auto allowed = fmt::format("a list of {} numbers", size);
+  const toml::array& array = need_array(key, allowed);
+  if (array.size() != size) refuse(key, allowed);
   std::vector<double> found;
-  for (const auto& entry : *node.as_array()) found.push_back(checked_number(entry, key, range));
-  if (found.size() != size)
-    refuse(key, fmt::format("{} numbers", found.size()), fmt::format("one number, or a list of {}", size));
+  for (const auto& entry : array) found.push_back(checked_number(entry, key, range));
   return found;
+}
+
+std::vector<double> Keys::numbers_or_one(std::string_view key, std::size_t size, Range range) {
+  const toml::node& node = need(key, description(range));
+  if (node.is_array()) return numbers(key, size, range);
+  return std::vector<double>(size, checked_number(node, key, range));
 }
 
 std::vector<int> Keys::integers(std::string_view key, int smallest) {
@@ -218,12 +231,20 @@ std::vector<Keys> Keys::tables(std::string_view key) {
   if (node->is_table()) return {Keys(*node->as_table(), full, origin_)};
   const toml::array* array = node->as_array();
   if (array == nullptr) refuse(key, shown(*node), fmt::format("a table, [{0}] or [[{0}]]", full));
+  if (array->empty()) refuse(key, "an empty list", "one table or more; leave the key out for none");
   std::vector<Keys> found;
   for (const auto& entry : *array) {
     if (!entry.is_table()) throw pbd::SetupError(where_of(&entry, key), shown(entry), "a table");
     found.emplace_back(*entry.as_table(), fmt::format("{}.{}", full, found.size()), origin_);
   }
   return found;
+}
+
+std::optional<Keys> Keys::table(std::string_view key) {
+  auto found = tables(key);
+  if (found.empty()) return {};
+  if (found.size() > 1) refuse(key, fmt::format("{} tables", found.size()), "one table");
+  return std::move(found[0]);
 }
 
 void Keys::refuse_unknown() const {

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,9 @@ struct Origin {
   std::string option = "--set";
 };
 
-/// Which numbers a key takes.
+/// Which numbers a key takes. Finite ones are at most `largest_number` in size, so that squares and cubes of
+/// them stay finite.
+inline constexpr double largest_number = 1e100;
 enum class Range { finite, not_negative, positive, positive_or_infinite };
 
 class Keys {
@@ -44,8 +47,11 @@ class Keys {
   pbd::Vec3 vector_or(std::string_view key, const pbd::Vec3& fallback);
   std::vector<pbd::Vec3> vectors(std::string_view key);
 
-  /// A list of `size` numbers, or one number repeated `size` times.
+  /// A list of `size` numbers.
   std::vector<double> numbers(std::string_view key, std::size_t size, Range range);
+
+  /// The same, or one number repeated `size` times.
+  std::vector<double> numbers_or_one(std::string_view key, std::size_t size, Range range);
 
   std::vector<int> integers(std::string_view key, int smallest);
 
@@ -55,10 +61,16 @@ class Keys {
   /// The sub-table or the sub-tables ([key] and [[key]] both do), in the file's order; none if absent.
   std::vector<Keys> tables(std::string_view key);
 
+  /// The only sub-table, if there is one.
+  std::optional<Keys> table(std::string_view key);
+
   /// Throws for the first key of the table that was never asked for, with the nearest one that was.
   void refuse_unknown() const;
 
   [[noreturn]] void refuse(std::string_view key, const std::string& value, std::string_view allowed) const;
+
+  /// Refuses the value that stands at `key`.
+  [[noreturn]] void refuse(std::string_view key, std::string_view allowed) const;
 
   /// Where the table itself stands, as errors begin.
   std::string where() const;

@@ -11,16 +11,29 @@
 
 namespace pbdcheck {
 
+/// Why a file cannot be read as one ("no such file", "a folder", ...); empty if it can.
+std::string unreadable(const std::filesystem::path& file);
+
 class Lines {
  public:
-  /// Opens the file; throws SetupError if there is none.
+  /// Opens the file; throws SetupError if it cannot be read. A byte order mark at its begin is skipped.
   explicit Lines(std::filesystem::path file);
 
-  /// Moves to the next line that has words, text after `#` left out; false at the end.
+  /// Moves to the next line that has words, text after `#` left out; false at the end. Refuses a line that
+  /// holds control characters, as binary files do.
   bool next();
 
   /// As next(), but the file's end is an error: `expected` says what is missing.
   void need_next(std::string_view expected);
+
+  /// Refuses this line unless `first` is its first word.
+  void need_first(std::string_view first) const;
+
+  /// Refuses this line unless it has `least` to `most` words; `meaning` says which.
+  void need_words(std::size_t least, std::size_t most, std::string_view meaning) const;
+
+  /// Refuses a further line.
+  void need_end();
 
   const std::vector<std::string>& words() const { return words_; }
 
@@ -28,12 +41,17 @@ class Lines {
   double number(std::size_t index) const;
   std::int64_t integer(std::size_t index) const;
 
+  /// A part of this line as an integer; throws SetupError with the line if it is not one.
+  std::int64_t integer(std::string_view text) const;
+
   /// Words `index` to `index + 2` as a position, finite.
   std::array<double, 3> position(std::size_t index) const;
 
-  [[noreturn]] void refuse(std::string_view value, std::string_view allowed) const;
+  [[noreturn]] void refuse(std::string value, std::string_view allowed) const;
 
  private:
+  const std::string& word(std::size_t index) const;
+
   std::filesystem::path file_;
   std::ifstream in_;
   std::vector<std::string> words_;

@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <functional>
+#include <numeric>
 
 #include "builder.h"
-#include "error.h"
+#include "lines.h"
 #include "mesh_file.h"
-#include "validate.h"
 
 namespace pbdcheck {
 namespace {
@@ -15,37 +16,42 @@ namespace {
 std::filesystem::path mesh_path(Keys& keys) {
   for (const auto* key : {"cells", "size_m"})
     if (keys.has(key)) keys.refuse(key, "a grid and a mesh file", "either file, or cells and size_m");
-  const std::filesystem::path path = std::filesystem::path(keys.file()).parent_path() / keys.text("file");
-  if (!std::filesystem::is_regular_file(path))
-    keys.refuse("file", path.string() + ", no such file", "a mesh file, relative to the scene file");
+  auto path = std::filesystem::path(keys.file()).parent_path() / keys.text("file");
+  const auto reason = unreadable(path);
+  if (!reason.empty())
+    keys.refuse("file", path.string() + ", " + reason, "a mesh file, relative to the scene file");
   return path;
 }
 
 template <std::size_t K>
-std::array<int, K> cells(Keys& keys) {
+std::array<int, K> cells(Keys& keys, int elements_a_cell, Builder& builder) {
   const auto found = keys.integers("cells", 1);
-  if (found.size() != K)
-    keys.refuse("cells", fmt::format("{} numbers", found.size()), fmt::format("{} integers >= 1", K));
-  double nodes = 1;
-  for (const int count : found) nodes *= count + 1.0;
-  if (nodes > most_nodes)
-    keys.refuse("cells", fmt::format("{:g} nodes", nodes), fmt::format("at most {:g} nodes", most_nodes));
+  if (found.size() != K) keys.refuse("cells", fmt::format("a list of {} integers >= 1", K));
+  builder.reserve(keys, "cells",
+                  std::accumulate(found.begin(), found.end(), double(elements_a_cell), std::multiplies<>()));
   std::array<int, K> counts{};
   std::copy(found.begin(), found.end(), counts.begin());
   return counts;
 }
 
-pbd::TetMesh solid_mesh(Keys& keys) {
-  if (keys.has("file")) return read_tet_mesh(mesh_path(keys));
-  const pbd::Vec3 size = keys.vector("size_m");
-  if (size.minCoeff() <= 0) keys.refuse("size_m", "a size <= 0", "three numbers > 0");
-  return pbd::kuhn_grid(cells<3>(keys), size);
+pbd::TetMesh solid_mesh(Keys& keys, Builder& builder) {
+  if (!keys.has("file")) {
+    const auto size = keys.numbers("size_m", 3, Range::positive);
+    return pbd::kuhn_grid(cells<3>(keys, 6, builder), {size[0], size[1], size[2]});
+  }
+  auto mesh = read_tet_mesh(mesh_path(keys));
+  builder.reserve(keys, "file", static_cast<double>(mesh.tets.size()));
+  return mesh;
 }
 
-pbd::TriangleMesh cloth_mesh(Keys& keys) {
-  if (keys.has("file")) return read_triangle_mesh(mesh_path(keys));
-  const auto size = keys.numbers("size_m", 2, Range::positive);
-  return pbd::grid_sheet(cells<2>(keys), {size[0], size[1]});
+pbd::TriangleMesh cloth_mesh(Keys& keys, Builder& builder) {
+  if (!keys.has("file")) {
+    const auto size = keys.numbers("size_m", 2, Range::positive);
+    return pbd::grid_sheet(cells<2>(keys, 2, builder), {size[0], size[1]});
+  }
+  auto mesh = read_triangle_mesh(mesh_path(keys));
+  builder.reserve(keys, "file", static_cast<double>(mesh.triangles.size()));
+  return mesh;
 }
 
 /// Moves the rest shape: scale, then rotation about the origin by |rotation_rad| about its axis, then
@@ -57,6 +63,18 @@ void place(Keys& keys, pbd::Points& x) {
   if (scale != 1) x *= scale;
   if (rotation.norm() > 0) x = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix() * x;
   x.colwise() += translation;
+  if (!(x.cwiseAbs().maxCoeff() <= largest_number))
+    throw pbd::SetupError(keys.where(), "positions beyond 1e100 m", "positions up to 1e100 m in size");
+}
+
+/// Refuses masses that overflow, which would fix their nodes, or vanish.
+void require_masses(const Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
+  for (int node = range.first; node < range.first + range.count; ++node) {
+    const double mass = scene.mass[static_cast<std::size_t>(node)];
+    if (!(mass > 0 && mass <= largest_number))
+      throw pbd::SetupError(keys.where(), fmt::format("mass {} kg of node {}", mass, node - range.first),
+                            "sizes and densities that make masses > 0, up to 1e100 kg");
+  }
 }
 
 /// Velocities of a rigid motion: velocity_m_s of the centre of mass, angular_velocity_rad_s about it.
@@ -74,7 +92,10 @@ void set_velocity(Keys& keys, pbd::Scene& scene, const NodeRange& range) {
 void hold(Keys& keys, Builder& builder, const NodeRange& range) {
   for (auto& fixed : keys.tables("fixed")) {
     for (const int node : select_nodes(fixed, builder.scene, range)) {
-      builder.scene.mass[static_cast<std::size_t>(node)] = pbd::infinity;
+      double& mass = builder.scene.mass[static_cast<std::size_t>(node)];
+      if (mass == pbd::infinity)
+        throw pbd::SetupError(fixed.where(), fmt::format("node {} fixed twice", node - range.first), "once");
+      mass = pbd::infinity;
       builder.scene.initial.v.col(node).setZero();
     }
     fixed.refuse_unknown();
@@ -97,35 +118,27 @@ double read_poisson(Keys& keys) {
   return poisson;
 }
 
-/// The elements of the mesh as positions, refused by index and by the file (or table) they come from.
-template <int K, class Elements>
-void require_proper_elements(const pbd::Points& x, const Elements& elements, const std::string& where) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    Eigen::Matrix<double, 3, K> rest;
-    for (int a = 0; a < K; ++a) rest.col(a) = x.col(elements[i][static_cast<std::size_t>(a)]);
-    pbd::require_proper(rest, fmt::format("{} {} {}", where, K == 4 ? "tetrahedron" : "triangle", i));
-  }
-}
-
+/// The table, and the file if its mesh comes from one.
 std::string mesh_name(Keys& keys) {
   return keys.has("file") ? keys.where() + ": " + keys.text("file") : keys.where();
 }
 
 void add_cloth_effects(Keys& keys, const pbd::TriangleMesh& mesh, int first, Builder& builder) {
-  for (auto& links : keys.tables("links")) {
-    builder.add(links.line(), pbd::sheet_links(mesh, first, read_compliance(links)));
-    links.refuse_unknown();
+  if (auto links = keys.table("links")) {
+    builder.add(links->line(), pbd::sheet_links(mesh, first, read_compliance(*links)));
+    links->refuse_unknown();
   }
-  for (auto& strain : keys.tables("strain")) {
-    const double young = strain.number("young_pa", Range::positive_or_infinite);
-    const double thickness = strain.number("thickness_m", Range::positive);
-    builder.add(strain.line(), pbd::sheet_strain(mesh, first, {young, read_poisson(strain)}, thickness));
-    strain.refuse_unknown();
+  if (auto strain = keys.table("strain")) {
+    const double young = strain->number("young_pa", Range::positive_or_infinite);
+    const double thickness = strain->number("thickness_m", Range::positive);
+    builder.add(strain->line(), pbd::sheet_strain(mesh, first, {young, read_poisson(*strain)}, thickness));
+    strain->refuse_unknown();
   }
-  for (auto& bending : keys.tables("bending")) {
-    const double compliance = bending.number_or("compliance_rad_per_n_m", 0, Range::not_negative);
-    builder.add(bending.line(), pbd::sheet_bending(mesh, first, compliance));
-    bending.refuse_unknown();
+  if (auto bending = keys.table("bending")) {
+    const double compliance = bending->number_or("compliance_rad_per_n_m", 0, Range::not_negative);
+    builder.add(bending->line(),
+                located(mesh_name(keys), [&] { return pbd::sheet_bending(mesh, first, compliance); }));
+    bending->refuse_unknown();
   }
 }
 
@@ -133,12 +146,13 @@ void add_cloth_effects(Keys& keys, const pbd::TriangleMesh& mesh, int first, Bui
 
 void read_cloths(Keys& root, Builder& builder) {
   for (auto& keys : root.tables("cloth")) {
-    pbd::TriangleMesh mesh = cloth_mesh(keys);
+    pbd::TriangleMesh mesh = cloth_mesh(keys, builder);
     place(keys, mesh.x);
-    require_proper_elements<3>(mesh.x, mesh.triangles, mesh_name(keys));
+    const double density = keys.number("area_density_kg_m2", Range::positive);
     const int first =
-        pbd::add_sheet_nodes(builder.scene, mesh, keys.number("area_density_kg_m2", Range::positive));
+        located(mesh_name(keys), [&] { return pbd::add_sheet_nodes(builder.scene, mesh, density); });
     const NodeRange range{first, static_cast<int>(mesh.x.cols())};
+    require_masses(keys, builder.scene, range);
     set_velocity(keys, builder.scene, range);
     add_cloth_effects(keys, mesh, first, builder);
     hold(keys, builder, range);
@@ -149,18 +163,20 @@ void read_cloths(Keys& root, Builder& builder) {
 void read_solids(Keys& root, Builder& builder) {
   const auto names = std::vector<std::string>(pbd::strain_names.begin(), pbd::strain_names.end());
   for (auto& keys : root.tables("solid")) {
-    pbd::TetMesh mesh = solid_mesh(keys);
+    pbd::TetMesh mesh = solid_mesh(keys, builder);
     place(keys, mesh.x);
-    require_proper_elements<4>(mesh.x, mesh.tets, mesh_name(keys));
     const double density = keys.number("density_kg_m3", Range::positive);
     const double young = keys.number("young_pa", Range::positive);
     const auto strain = keys.choice_or("strain", "corotational", names);
     const auto index = std::find(names.begin(), names.end(), strain) - names.begin();
-    const int first = pbd::add_solid(builder.scene, mesh, density, {young, read_poisson(keys)},
-                                     static_cast<pbd::Strain>(index));
+    const pbd::Material material{young, read_poisson(keys)};
+    const int first = located(mesh_name(keys), [&] {
+      return pbd::add_solid(builder.scene, mesh, density, material, static_cast<pbd::Strain>(index));
+    });
     builder.add(keys.line(), std::move(builder.scene.effects.back()));
     builder.scene.effects.pop_back();
     const NodeRange range{first, static_cast<int>(mesh.x.cols())};
+    require_masses(keys, builder.scene, range);
     set_velocity(keys, builder.scene, range);
     hold(keys, builder, range);
     keys.refuse_unknown();

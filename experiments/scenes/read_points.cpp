@@ -25,7 +25,7 @@ void check_nodes(const Keys& keys, const std::vector<int>& nodes, int count) {
 
 void read_particle_arrays(Keys& keys, Builder& builder) {
   const auto x = keys.vectors("position_m");
-  const auto mass = keys.numbers("mass_kg", x.size(), Range::positive_or_infinite);
+  const auto mass = keys.numbers_or_one("mass_kg", x.size(), Range::positive_or_infinite);
   const bool moving = keys.has("velocity_m_s");
   const auto v =
       moving ? keys.vectors("velocity_m_s") : std::vector<pbd::Vec3>(x.size(), pbd::Vec3::Zero().eval());
@@ -47,17 +47,16 @@ struct Chain {
   std::string hold;
 };
 
-Chain read_chain(Keys& keys) {
+Chain read_chain(Keys& keys, Builder& builder) {
   Chain chain;
   chain.links = keys.integer_or("links", 20, 1);
-  if (chain.links > most_nodes)
-    keys.refuse("links", std::to_string(chain.links), fmt::format("at most {:g}", most_nodes));
+  if (keys.has("links")) builder.reserve(keys, "links", chain.links);
   chain.length = keys.number("length_m", Range::positive);
   chain.mass = keys.number("mass_kg", Range::positive);
   chain.tip_mass = keys.number_or("tip_mass_kg", chain.mass, Range::positive);
   chain.start = keys.vector_or("start_m", pbd::Vec3::Zero());
   chain.direction = keys.vector_or("direction", pbd::Vec3::UnitX());
-  if (chain.direction.norm() == 0) keys.refuse("direction", "the zero vector", "a direction of any length");
+  if (chain.direction.isZero(0)) keys.refuse("direction", "the zero vector", "a direction of any length");
   chain.velocity = keys.vector_or("velocity_m_s", pbd::Vec3::Zero());
   chain.compliance = read_compliance(keys);
   chain.hold = keys.choice_or("start", "anchored", {"anchored", "fixed", "free"});
@@ -69,7 +68,7 @@ void add_chain(const Keys& keys, const Chain& chain, Builder& builder) {
   const bool fixed = chain.hold == "fixed";
   const bool held = chain.hold != "free";
   const double rest_length = chain.length / chain.links;
-  const pbd::Vec3 step = chain.direction.normalized() * rest_length;
+  const pbd::Vec3 step = chain.direction.stableNormalized() * rest_length;
   pbd::Distance distance;
   const int first = builder.scene.nodes();
   for (int i = 0; i <= chain.links; ++i) {
@@ -102,14 +101,14 @@ void read_particles(Keys& root, Builder& builder) {
 }
 
 void read_chains(Keys& root, Builder& builder) {
-  for (auto& keys : root.tables("chain")) add_chain(keys, read_chain(keys), builder);
+  for (auto& keys : root.tables("chain")) add_chain(keys, read_chain(keys, builder), builder);
 }
 
 void read_gravity(Keys& root, Builder& builder) {
-  for (auto& keys : root.tables("gravity")) {
-    builder.add(keys.line(), pbd::Gravity{keys.vector_or("acceleration_m_s2", pbd::Gravity{}.acceleration)});
-    keys.refuse_unknown();
-  }
+  auto keys = root.table("gravity");
+  if (!keys) return;
+  builder.add(keys->line(), pbd::Gravity{keys->vector_or("acceleration_m_s2", pbd::Gravity{}.acceleration)});
+  keys->refuse_unknown();
 }
 
 void read_forces(Keys& root, Builder& builder) {
@@ -155,13 +154,16 @@ void read_distances(Keys& root, Builder& builder) {
     const double compliance = read_compliance(keys);
     std::vector<double> rest_length;
     if (keys.has("rest_length_m"))
-      rest_length = keys.numbers("rest_length_m", links.size(), Range::not_negative);
+      rest_length = keys.numbers_or_one("rest_length_m", links.size(), Range::not_negative);
     for (std::size_t i = 0; i < links.size(); ++i) {
       check_nodes(keys, links[i], builder.scene.nodes());
       effect.node.push_back({links[i][0], links[i][1]});
       effect.rest_length.push_back(rest_length.empty() ? (x.col(links[i][1]) - x.col(links[i][0])).norm()
                                                        : rest_length[i]);
       effect.compliance.push_back(compliance);
+      if (effect.rest_length.back() == 0 && compliance == 0)
+        throw pbd::SetupError(keys.where(), fmt::format("link {} hard and of rest length 0", i),
+                              "a rest length or a compliance > 0");
     }
     keys.refuse_unknown();
   }

@@ -15,17 +15,10 @@
 namespace pbdcheck {
 namespace {
 
-/// The single table `name` below the root; an empty list if absent.
-std::vector<Keys> single(Keys& root, std::string_view name) {
-  auto tables = root.tables(name);
-  if (tables.size() > 1) root.refuse(name, fmt::format("{} tables", tables.size()), "one table");
-  return tables;
-}
-
 void read_step(Keys& root, SceneFile& found) {
-  auto tables = single(root, "step");
-  if (tables.empty()) root.refuse("step", "nothing", "a table [step] with step_s, and duration_s or steps");
-  Keys& keys = tables[0];
+  auto table = root.table("step");
+  if (!table) root.refuse("step", "nothing", "a table [step] with step_s, and duration_s or steps");
+  Keys& keys = *table;
   found.step_s = keys.number("step_s", Range::positive);
   const bool by_count = keys.has("steps");
   if (by_count == keys.has("duration_s"))
@@ -99,15 +92,11 @@ pbd::Scene read_scene(Keys& root) {
     throw pbd::SetupError(root.file(), "a scene without nodes",
                           "at least one of particle, particles, chain, cloth, solid");
   }
+  const auto& mass = builder.scene.mass;
+  if (std::count(mass.begin(), mass.end(), pbd::infinity) == builder.scene.nodes())
+    throw pbd::SetupError(root.file(), "a scene in which every node has infinite mass",
+                          "a node that can move");
   return builder.finish();
-}
-
-void validate_with_file(const pbd::Scene& scene, const std::string& file) {
-  try {
-    pbd::validate(scene);
-  } catch (const pbd::SetupError& error) {
-    throw pbd::SetupError(file, error.what(), "see above");
-  }
 }
 
 }  // namespace
@@ -120,10 +109,10 @@ SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<s
   for (const auto* later : {"step", "method", "probe"}) root.has(later);  // known, though read last
   found.scene = read_scene(root);
   read_step(root, found);
-  for (auto& keys : single(root, "method")) found.method = read_method(keys, found.method);
+  if (auto keys = root.table("method")) found.method = read_method(*keys, found.method);
   read_probes(root, found);
   root.refuse_unknown();
-  validate_with_file(found.scene, file.string());
+  located(file.string(), [&] { pbd::validate(found.scene); });
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "error.h"
 #include "validate.h"
 
 namespace pbd {
@@ -46,6 +47,23 @@ int append_nodes(Scene& scene, const Points& x, const std::vector<double>& mass)
   scene.initial.x.rightCols(x.cols()) = x;
   scene.initial.v.rightCols(x.cols()).setZero();
   return first;
+}
+
+/// A triangle at an edge: its index, its third node, and whether it passes the edge from the smaller node up.
+struct Wing {
+  std::size_t triangle;
+  int opposite;
+  bool along;
+};
+
+void require_hinge(const Edge& edge, const std::vector<Wing>& wings) {
+  if (wings.size() < 2 || (wings.size() == 2 && wings[0].along != wings[1].along)) return;
+  std::string where = "triangles";
+  for (const auto& wing : wings) where += " " + std::to_string(wing.triangle);
+  const std::string at = " the edge of nodes " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]);
+  if (wings.size() > 2) throw SetupError(where, "all at" + at, "at most two triangles at an edge");
+  throw SetupError(where, "the same direction along" + at,
+                   "opposite ones: neighbours with their nodes in the same sense of rotation");
 }
 
 }  // namespace
@@ -166,17 +184,21 @@ Distance sheet_links(const TriangleMesh& mesh, int first, double compliance) {
 }
 
 Bending sheet_bending(const TriangleMesh& mesh, int first, double compliance) {
-  // For each directed edge, the node of its triangle opposite to it: an inner edge has both directions.
-  std::map<Edge, int> opposite;
-  for (const auto& t : mesh.triangles)
-    for (std::size_t a = 0; a < 3; ++a) opposite[{t[a], t[(a + 1) % 3]}] = t[(a + 2) % 3];
+  std::map<Edge, std::vector<Wing>> wings_of;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto& t = mesh.triangles[i];
+      const int from = t[a], to = t[(a + 1) % 3];
+      wings_of[{std::min(from, to), std::max(from, to)}].push_back({i, t[(a + 2) % 3], from < to});
+    }
   Bending effect;
-  for (const auto& [edge, node] : opposite) {
-    const auto other = opposite.find({edge[1], edge[0]});
-    if (other == opposite.end() || edge[0] > edge[1]) continue;
-    effect.node.push_back(shifted(std::array{edge[0], edge[1], node, other->second}, first));
-    effect.rest_angle.push_back(
-        dihedral_angle(columns(mesh.x, std::array{edge[0], edge[1], node, other->second})));
+  for (const auto& [edge, wings] : wings_of) {
+    require_hinge(edge, wings);
+    if (wings.size() < 2) continue;
+    const std::size_t along = wings[0].along ? 0 : 1;
+    const std::array hinge{edge[0], edge[1], wings[along].opposite, wings[1 - along].opposite};
+    effect.node.push_back(shifted(hinge, first));
+    effect.rest_angle.push_back(dihedral_angle(columns(mesh.x, hinge)));
     effect.compliance.push_back(compliance);
   }
   return effect;

@@ -54,6 +54,9 @@ int add_sheet_nodes(Scene& scene, const TriangleMesh& mesh, double area_density)
 /// The effects a sheet can have; `first` is what `add_sheet_nodes` returned. Compliances as in scene.h.
 TriangleStrain sheet_strain(const TriangleMesh& mesh, int first, const Material& material, double thickness);
 Distance sheet_links(const TriangleMesh& mesh, int first, double compliance);
+
+/// A hinge at every edge of two triangles. Throws SetupError naming the triangles of an edge that has more,
+/// or that its two triangles pass in the same direction: their normals disagree.
 Bending sheet_bending(const TriangleMesh& mesh, int first, double compliance);
 
 }  // namespace pbd

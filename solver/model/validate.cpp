@@ -38,7 +38,7 @@ void require(bool holds, const std::string& where, const std::string& value, std
 
 /// Checks of one effect; `name` is its position and kind in the scene, as in "effects[2] distance".
 struct EffectCheck {
-  int nodes;
+  const Scene& scene;
   std::string name;
 
   std::string at(std::size_t i, std::string_view field) const {
@@ -52,7 +52,8 @@ struct EffectCheck {
   }
 
   void node_index(int node, const std::string& where) const {
-    require(node >= 0 && node < nodes, where, text(node), "a node index from 0 to " + text(nodes - 1));
+    require(node >= 0 && node < scene.nodes(), where, text(node),
+            "a node index from 0 to " + text(scene.nodes() - 1));
   }
 
   template <std::size_t K>
@@ -106,6 +107,9 @@ struct EffectCheck {
     same_size(effect.node.size(), effect.target, "target");
     same_size(effect.node.size(), effect.compliance, "compliance");
     node_indices(effect.node);
+    for (std::size_t i = 0; i < effect.node.size(); ++i)
+      require(std::isfinite(scene.mass[static_cast<std::size_t>(effect.node[i])]), at(i, "node"),
+              text(effect.node[i]) + ", of infinite mass", "a node of finite mass, which an anchor can hold");
     finite(effect.target, "target");
     not_negative(effect.compliance, "compliance");
   }
@@ -180,7 +184,7 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.effects.size(); ++i)
     std::visit(
         [&](const auto& effect) {
-          EffectCheck{scene.nodes(), "effects[" + text(i) + "] " + std::string(effect.name)}(effect);
+          EffectCheck{scene, "effects[" + text(i) + "] " + std::string(effect.name)}(effect);
         },
         scene.effects[i]);
 }

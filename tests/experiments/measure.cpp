@@ -47,6 +47,12 @@ TEST_CASE("the relative error is that of the worst node over the largest displac
   x.col(1) = pbd::Vec3(0, 2, 0);
   CHECK(relative_error(x, reference, start) == Approx(2.0 / 5));
   CHECK(relative_error(x, start, start) == Approx(std::sqrt(26.0)));  // nothing moved: in metres
+  for (const double lost : {std::nan(""), pbd::infinity}) {
+    pbd::Points nowhere = reference;
+    nowhere(0, 1) = lost;
+    CHECK_FALSE(std::isfinite(relative_error(nowhere, reference, start)));
+    CHECK(std::isnan(relative_error(x, nowhere, start)));
+  }
 }
 
 TEST_CASE("energies and constraint errors are those of the formulas") {

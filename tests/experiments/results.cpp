@@ -44,7 +44,13 @@ const std::vector<Experiment> samples{
        table.row({1.0});
        throw std::runtime_error("broken");
      }},
-    {"stopped", "What if it is stopped?", [](Context&) { throw Interrupted{}; }},
+    {"stopped", "What if it is stopped?",
+     [](Context& context) {
+       context.table("first", {"a"}).close();
+       throw Interrupted{};
+     }},
+    {"unwritable", "What if a table's place is taken?",
+     [](Context& context) { context.table("taken", {"a"}); }},
 };
 
 }  // namespace
@@ -101,6 +107,15 @@ TEST_CASE("parallel work visits each index once and rethrows the failure of the 
   }
 }
 
+TEST_CASE("there are no more threads than work") {
+  const TemporaryFolder folder;
+  std::atomic<int> done = 0;
+  Context(folder.path, Tier::quick, std::numeric_limits<int>::max()).parallel(3, [&](std::int64_t) {
+    ++done;
+  });
+  CHECK(done == 3);
+}
+
 TEST_CASE("a run writes its verdicts and record, and its exit code says whether all hold") {
   const TemporaryFolder folder;
   RunOptions options{.experiments = {"good"}, .directory = folder.path};
@@ -132,10 +147,26 @@ TEST_CASE("an experiment that throws or is stopped says so and leaves no partial
   CHECK(run_record(folder.path / "thrown")["reason"] == "broken");
   CHECK(run_record(folder.path / "good")["status"] == "complete");  // the others still run
 
+  std::filesystem::create_directory(folder.path / "stopped");
+  folder.write("stopped/run.json", "{}");
+  folder.write("stopped/second.csv", "of an earlier run");
   options.experiments = {"stopped", "bad"};
   CHECK(run(options, samples) == exit_interrupted);
   CHECK(run_record(folder.path / "stopped")["status"] == "interrupted");
+  CHECK(files_in(folder.path / "stopped") ==
+        std::vector<std::string>{"first.csv", "run.json", "verdicts.csv"});
   CHECK_FALSE(std::filesystem::exists(folder.path / "bad"));
+}
+
+TEST_CASE("an experiment that cannot write its results makes the exit code 2, and the others still run") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "unwritable" / "taken.csv");
+  const RunOptions options{.experiments = {"unwritable", "good", "bad"}, .directory = folder.path};
+  CHECK(run(options, samples) == exit_usage);
+  CHECK(run_record(folder.path / "unwritable")["status"] == "failed");
+  CHECK_THAT(run_record(folder.path / "unwritable")["reason"].get<std::string>(),
+             Catch::Contains((folder.path / "unwritable" / "taken.csv").string()));
+  CHECK(run_record(folder.path / "bad")["status"] == "complete");
 }
 
 TEST_CASE("run --resume skips what is complete with the same tier, and repeats the rest") {
@@ -162,6 +193,12 @@ TEST_CASE("run --resume skips what is complete with the same tier, and repeats t
   folder.write("counted/run.json", "{ not json");
   CHECK(run(options, samples) == exit_done);
   CHECK(times_counted == 5);
+  for (const auto* key : {"commit", "changes", "status", "tier"}) {
+    auto changed = record;
+    changed[key] = 7;
+    const auto file = folder.write("counted/run.json", changed.dump());
+    CHECK_THROWS_WITH(run(options, samples), Catch::StartsWith(file.string() + ": got "));
+  }
   options.resume = false;
   CHECK(run(options, samples) == exit_done);
   CHECK(times_counted == 6);

@@ -75,6 +75,18 @@ force_n = [1, 2, 3]
   CHECK(effect<pbd::ExternalForce>(file, 4).node == std::vector<int>{1, 3});
 }
 
+TEST_CASE("texts and comments full of dots are no deep keys, and a byte order mark is skipped") {
+  const std::string dots(100, '.');
+  const auto file = read("\xEF\xBB\xBF# " + dots + "\ndescription = \"a # \\\"" + dots +
+                         "\"\n[[particle]]\nposition_m = [0.5, 0.5, 0.5]\nmass_kg = 1\n");
+  CHECK(file.description == "a # \"" + dots);
+}
+
+TEST_CASE("a direction may be tiny") {
+  const auto file = read("[[chain]]\nlinks = 1\nlength_m = 2\nmass_kg = 1\ndirection = [0, 0, 1e-200]\n");
+  CHECK(file.scene.initial.x.col(1) == pbd::Vec3(0, 0, 2));
+}
+
 TEST_CASE("effects keep the order of the file, which is that of Gauss-Seidel") {
   const std::string nodes = "[particles]\nposition_m = [[0,0,0],[1,0,0]]\nmass_kg = 1\n";
   const std::string anchor = "[[anchor]]\nnode = 0\n";

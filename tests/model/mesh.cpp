@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "error.h"
+#include "validate.h"
 
 using namespace pbd;
 
@@ -33,6 +34,37 @@ TEST_CASE("an inverted and a flat tetrahedron are refused with their index") {
     mesh.tets[2] = {0, 1, 2, 3};
     CHECK_THROWS_WITH(add_solid(scene, mesh, 1000, {}, Strain::green), Catch::Contains("tetrahedron 2"));
   }
+}
+
+TEST_CASE("bending refuses triangles whose normals disagree and edges of three triangles, naming them") {
+  TriangleMesh mesh = grid_sheet({2, 1}, {1, 1});
+  CHECK(sheet_bending(mesh, 0, 1).node.size() == 3);
+  SECTION("turned over") {
+    std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
+    CHECK_THROWS_WITH(sheet_bending(mesh, 0, 1), Catch::Contains("triangles 2 3: got the same direction") &&
+                                                     Catch::Contains("nodes 1 and 5"));
+  }
+  SECTION("a third one") {
+    mesh.triangles.push_back({0, 4, 5});
+    CHECK_THROWS_WITH(sheet_bending(mesh, 0, 1), Catch::Contains("triangles 0 1 4: got all at the edge") &&
+                                                     Catch::Contains("nodes 0 and 4"));
+  }
+}
+
+TEST_CASE("an anchor on a node of infinite mass is refused with its index") {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), 1);
+  add_node(scene, Vec3::UnitX(), infinity);
+  scene.effects.emplace_back(Anchor{.node = {0}, .target = {Vec3::Zero()}, .compliance = {0}});
+  CHECK_NOTHROW(validate(scene));
+  std::get<Anchor>(scene.effects[0]).node[0] = 1;
+  CHECK_THROWS_WITH(validate(scene), Catch::Contains("effects[0] anchor node[0]: got 1, of infinite mass"));
+}
+
+TEST_CASE("a set-up error is one short line, whatever the file holds") {
+  const std::string message = SetupError("where", "\x1b[31m\n" + std::string(1000, 'x'), "less").what();
+  CHECK(message.size() < 300);
+  CHECK_THAT(message, Catch::StartsWith("where: got ?[31m?xx") && Catch::EndsWith("xx...; allowed: less"));
 }
 
 TEST_CASE("a dihedral angle is zero when flat, and its sign follows the convention of Bending") {

@@ -73,6 +73,13 @@ BlockCholesky::Slot BlockCholesky::slot(int row, int column) const {
           static_cast<int>(last - first)};
 }
 
+// The diagonal block is the first one of its columns.
+void BlockCholesky::reset(const Eigen::VectorXd& diagonal) {
+  values_.setZero();
+  for (int i = 0; i < diagonal.size(); ++i)
+    values_(start_[static_cast<std::size_t>(i)] + i % 3) = diagonal(i);
+}
+
 Eigen::VectorXd BlockCholesky::diagonal() const {
   Eigen::VectorXd d(static_cast<int>(matrix_.ncol));
   for (int i = 0; i < d.size(); ++i) d(i) = values_(start_[static_cast<std::size_t>(i)] + i % 3);

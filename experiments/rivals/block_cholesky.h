@@ -26,7 +26,8 @@ class BlockCholesky {
   ~BlockCholesky();
 
   Slot slot(int row, int column) const;
-  void set_zero() { values_.setZero(); }
+  /// Makes the matrix diagonal.
+  void reset(const Eigen::VectorXd& diagonal);
   template <class Block>
   void add(const Slot& slot, const Block& block) {
     for (int j = 0; j < 3; ++j)

@@ -1,30 +1,15 @@
 #include "rivals/newton.h"
 
-#include <chrono>
 #include <cmath>
 #include <string>
 
 #include "error.h"
 #include "rivals/potential.h"
+#include "rivals/stopwatch.h"
 #include "validate.h"
 
 namespace pbd::rivals {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Adds the time that `work` takes to `seconds`.
-template <class Work>
-auto timed(double& seconds, const Work& work) {
-  const auto start = Clock::now();
-  const auto result = work();
-  seconds += since(start);
-  return result;
-}
 
 /// Block row of each node of finite mass, in order; -1 for the others. `blocks` is their number.
 std::vector<int> number(const Scene& scene, int& blocks) {
@@ -75,6 +60,7 @@ class Newton final : public Rival {
   bool quadratic_, factorised_ = false;
 
   Points target_, direction_;  // y; dx
+  Eigen::VectorXd inertia_;    // M/h^2 of the unknowns, N/m
   Eigen::VectorXd right_;      // -grad phi of the unknowns
   Point now_, next_;
   double rounding_ = 0;  // of the residual, sqrt(J)
@@ -91,12 +77,14 @@ Newton::Newton(const Scene& scene, double h)
       matrix_(blocks_, potential_.pairs()),
       quadratic_(potential_.quadratic()),
       direction_(Points::Zero(3, scene.nodes())),
+      inertia_(3 * blocks_),
       right_(3 * blocks_) {
   potential_.attach(matrix_);
   for (int node = 0; node < scene.nodes(); ++node)
     if (const double mass = scene.mass[static_cast<std::size_t>(node)]; std::isfinite(mass)) {
       mass_(node) = mass;
       inverse_mass_(node) = 1 / mass;
+      inertia_.segment<3>(3 * block_[static_cast<std::size_t>(node)]).setConstant(mass / (h * h));
     }
 }
 
@@ -105,7 +93,7 @@ void Newton::begin(const State& state) {
   rounding_ = 0;
   now_.x = state.x + h_ * state.v;
   target_ = now_.x + h_ * free_velocity_change_;
-  timed(report_.evaluate_s, [&] { return evaluate(now_), 0; });
+  timed(report_.evaluate_s, [&] { evaluate(now_); });
 }
 
 void Newton::evaluate(Point& point) {
@@ -135,16 +123,13 @@ bool Newton::finished(const State& state, const Budget& budget) {
 /// H at the current point and its factor; false if it is not positive definite.
 bool Newton::factorise(bool projected) {
   timed(report_.assemble_s, [&] {
-    matrix_.set_zero();
-    for (std::size_t node = 0; node < block_.size(); ++node)
-      if (block_[node] >= 0)
-        matrix_.add(matrix_.slot(block_[node], block_[node]),
-                    Mat3(mass_(static_cast<int>(node)) / (h_ * h_) * Mat3::Identity()));
+    matrix_.reset(inertia_);
     potential_.add_stiffness(now_.x, projected, matrix_);
-    return 0;
   });
   ++report_.factorisations;
-  return timed(report_.factorise_s, [&] { return matrix_.factorise(); });
+  bool positive = false;
+  timed(report_.factorise_s, [&] { positive = matrix_.factorise(); });
+  return positive;
 }
 
 /// dx = -H^-1 grad phi, and what rounding of x makes of the residual; false if there is no factor.
@@ -163,7 +148,6 @@ bool Newton::find_direction() {
     const auto solution = matrix_.solve(right_);
     for (std::size_t node = 0; node < block_.size(); ++node)
       if (block_[node] >= 0) direction_.col(static_cast<int>(node)) = solution.segment<3>(3 * block_[node]);
-    return 0;
   });
   return true;
 }
@@ -175,7 +159,7 @@ bool Newton::search() {
   const double slope = now_.gradient.cwiseProduct(direction_).sum();
   for (double t = 1; t > smallest_step; t /= 2) {
     next_.x = now_.x + t * direction_;
-    timed(report_.evaluate_s, [&] { return evaluate(next_), 0; });
+    timed(report_.evaluate_s, [&] { evaluate(next_); });
     const bool decreased = next_.phi <= now_.phi + enough * t * slope;
     const bool flat = next_.phi <= now_.phi + rounding * now_.phi &&
                       next_.gradient.cwiseProduct(direction_).sum() <= (2 * enough - 1) * slope;

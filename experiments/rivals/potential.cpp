@@ -1,0 +1,180 @@
+#include "rivals/potential.h"
+
+#include <cmath>
+#include <string>
+
+#include "error.h"
+
+namespace pbd::rivals {
+namespace {
+
+template <class Groups, class Function>
+void for_each(Groups& groups, const Function& function) {
+  std::apply([&](auto&... group) { (function(group), ...); }, groups);
+}
+
+template <class Element>
+Nodes<Element::nodes> gather(const Points& x, const std::array<int, Element::nodes>& node) {
+  Nodes<Element::nodes> local;
+  for (int a = 0; a < Element::nodes; ++a) local.col(a) = x.col(node[static_cast<std::size_t>(a)]);
+  return local;
+}
+
+/// Shape gradients and constants of a simplex from its edges at rest in D dimensions (m).
+template <int D>
+Simplex<D> simplex(const Eigen::Matrix<double, D, D>& edges, double lambda, double mu) {
+  const double volume = edges.determinant() / (D == 2 ? 2 : 6);
+  Simplex<D> result{{}, volume * lambda, volume * mu};
+  result.shape.template rightCols<D>() = edges.inverse().transpose();
+  result.shape.col(0) = -result.shape.template rightCols<D>().rowwise().sum();
+  return result;
+}
+
+/// Edges from node 0 in the plane of a rest triangle, the first one along u.
+Eigen::Matrix2d flat_edges(const Mat3& rest) {
+  const Vec3 u = rest.col(1) - rest.col(0), other = rest.col(2) - rest.col(0);
+  Eigen::Matrix2d edges;
+  edges << u.norm(), u.dot(other) / u.norm(), 0, u.cross(other).norm() / u.norm();
+  return edges;
+}
+
+/// Fills the groups from the scene's effects.
+template <class Groups>
+struct Builder {
+  Groups& groups;
+
+  template <class Element>
+  Group<Element>& group() const {
+    return std::get<Group<Element>>(groups);
+  }
+  template <class E>
+  static double constant(const E& effect, std::size_t i) {
+    if (effect.compliance[i] > 0) return 1 / effect.compliance[i];
+    throw SetupError("newton: " + std::string(E::name) + " compliance[" + std::to_string(i) + "]", "0",
+                     "a number > 0: no hard constraints");
+  }
+
+  void operator()(const Gravity&) const {}
+  void operator()(const ExternalForce&) const {}
+  void operator()(const Anchor& e) const {
+    for (std::size_t i = 0; i < e.node.size(); ++i)
+      group<AnchorElement>().add({e.node[i]}, {e.target[i], constant(e, i)});
+  }
+  void operator()(const Distance& e) const {
+    for (std::size_t i = 0; i < e.node.size(); ++i)
+      group<SpringElement>().add(e.node[i], {e.rest_length[i], constant(e, i)});
+  }
+  void operator()(const Bending& e) const {
+    for (std::size_t i = 0; i < e.node.size(); ++i)
+      group<HingeElement>().add(e.node[i], {e.rest_angle[i], constant(e, i)});
+  }
+  void operator()(const TriangleStrain& e) const {
+    if (std::isinf(e.material.young))
+      throw SetupError("newton: triangle_strain young", "inf", "a finite number: no hard constraints");
+    const double nu = e.material.poisson, k = e.thickness * e.material.young / (1 - nu * nu);
+    for (std::size_t i = 0; i < e.node.size(); ++i)
+      group<GreenElement<2>>().add(e.node[i], {simplex<2>(flat_edges(e.rest[i]), k * nu, k * (1 - nu) / 2)});
+  }
+  void operator()(const TetStrain& e) const {
+    const double nu = e.material.poisson, mu = e.material.young / (2 * (1 + nu)),
+                 lambda = 2 * mu * nu / (1 - 2 * nu);
+    for (std::size_t i = 0; i < e.node.size(); ++i) {
+      const auto tet = simplex<3>(e.rest[i].rightCols<3>().colwise() - e.rest[i].col(0), lambda, mu);
+      switch (e.strain) {
+        case Strain::green:
+          group<GreenElement<3>>().add(e.node[i], {tet});
+          break;
+        case Strain::corotational:
+          group<CorotationalElement>().add(e.node[i], {tet});
+          break;
+        case Strain::linear:
+          group<LinearElement>().add(e.node[i], {tet});
+          break;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+Points acceleration(const Scene& scene) {
+  Points a = Points::Zero(3, scene.nodes());
+  for (const Effect& effect : scene.effects) {
+    if (const auto* gravity = std::get_if<Gravity>(&effect)) a.colwise() += gravity->acceleration;
+    if (const auto* external = std::get_if<ExternalForce>(&effect))
+      for (std::size_t i = 0; i < external->node.size(); ++i)
+        a.col(external->node[i]) +=
+            external->force[i] / scene.mass[static_cast<std::size_t>(external->node[i])];
+  }
+  for (int node = 0; node < scene.nodes(); ++node)
+    if (std::isinf(scene.mass[static_cast<std::size_t>(node)])) a.col(node).setZero();
+  return a;
+}
+
+Potential::Potential(const Scene& scene, const std::vector<int>& block) : block_(block) {
+  for (const Effect& effect : scene.effects) std::visit(Builder<decltype(groups_)>{groups_}, effect);
+}
+
+std::vector<std::array<int, 2>> Potential::pairs() const {
+  std::vector<std::array<int, 2>> pairs;
+  for_each(groups_, [&](const auto& group) {
+    for (const auto& node : group.node)
+      for (const int a : node)
+        for (const int b : node) {
+          const int row = block_[static_cast<std::size_t>(a)], column = block_[static_cast<std::size_t>(b)];
+          if (column >= 0 && row > column) pairs.push_back({row, column});
+        }
+  });
+  return pairs;
+}
+
+void Potential::attach(const BlockCholesky& matrix) {
+  for_each(groups_, [&]<class Element>(Group<Element>& group) {
+    group.target.clear();
+    for (const auto& node : group.node) {
+      auto target = group.target.emplace_back().begin();
+      const auto block = [&](int a) {
+        return block_[static_cast<std::size_t>(node[static_cast<std::size_t>(a)])];
+      };
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int b = 0; b <= a; ++b, ++target) {
+          *target = block(a) >= block(b) ? typename Group<Element>::Target{a, b, {}}
+                                         : typename Group<Element>::Target{b, a, {}};
+          if (block(target->b) >= 0) target->slot = matrix.slot(block(target->a), block(target->b));
+        }
+    }
+  });
+}
+
+double Potential::energy(const Points& x, Points& gradient) const {
+  double sum = 0;
+  for_each(groups_, [&]<class Element>(const Group<Element>& group) {
+    for (std::size_t i = 0; i < group.element.size(); ++i) {
+      Nodes<Element::nodes> local;
+      sum += group.element[i].energy(gather<Element>(x, group.node[i]), local);
+      for (int a = 0; a < Element::nodes; ++a)
+        gradient.col(group.node[i][static_cast<std::size_t>(a)]) += local.col(a);
+    }
+  });
+  return sum;
+}
+
+void Potential::add_stiffness(const Points& x, bool projected, BlockCholesky& matrix) const {
+  for_each(groups_, [&]<class Element>(const Group<Element>& group) {
+    for (std::size_t i = 0; i < group.element.size(); ++i) {
+      const auto block = group.element[i].stiffness(gather<Element>(x, group.node[i]), projected);
+      for (const auto& [a, b, slot] : group.target[i])
+        if (slot.first >= 0) matrix.add(slot, block(a, b));
+    }
+  });
+}
+
+bool Potential::quadratic() const {
+  return std::get<Group<SpringElement>>(groups_).element.empty() &&
+         std::get<Group<HingeElement>>(groups_).element.empty() &&
+         std::get<Group<GreenElement<2>>>(groups_).element.empty() &&
+         std::get<Group<GreenElement<3>>>(groups_).element.empty() &&
+         std::get<Group<CorotationalElement>>(groups_).element.empty();
+}
+
+}  // namespace pbd::rivals

@@ -1,0 +1,56 @@
+// The elastic energy of a scene, its gradient and its stiffness, element by element.
+#pragma once
+
+#include <tuple>
+
+#include "rivals/block_cholesky.h"
+#include "rivals/solids.h"
+
+namespace pbd::rivals {
+
+/// All elements of one kind. The elements' nodes, and where the blocks of their stiffness go.
+template <class Element>
+struct Group {
+  static constexpr std::size_t nodes = Element::nodes;
+  struct Target {
+    int a, b;  // local nodes; a's block row is not above b's
+    BlockCholesky::Slot slot;
+  };
+  std::vector<Element> element;
+  std::vector<std::array<int, nodes>> node;
+  std::vector<std::array<Target, nodes*(nodes + 1) / 2>> target;
+
+  void add(const std::array<int, nodes>& nodes_of_it, const Element& it) {
+    node.push_back(nodes_of_it);
+    element.push_back(it);
+  }
+};
+
+/// Acceleration of every node by gravity and external forces, m/s^2; zero for infinite mass.
+Points acceleration(const Scene& scene);
+
+class Potential {
+ public:
+  /// Throws SetupError for a constraint of compliance 0. `block` is the block row of each node, -1 for none.
+  Potential(const Scene& scene, const std::vector<int>& block);
+
+  /// Pairs of block rows that an element connects, the larger one first.
+  std::vector<std::array<int, 2>> pairs() const;
+  /// Makes ready for adding to this matrix.
+  void attach(const BlockCholesky& matrix);
+
+  /// U(x) in J; adds its gradient (N).
+  double energy(const Points& x, Points& gradient) const;
+  /// Adds d2U/dx2 (N/m), every element's part made positive semidefinite if `projected`.
+  void add_stiffness(const Points& x, bool projected, BlockCholesky& matrix) const;
+  /// Whether d2U/dx2 is the same at every x.
+  bool quadratic() const;
+
+ private:
+  std::vector<int> block_;
+  std::tuple<Group<AnchorElement>, Group<SpringElement>, Group<HingeElement>, Group<GreenElement<2>>,
+             Group<GreenElement<3>>, Group<CorotationalElement>, Group<LinearElement>>
+      groups_;
+};
+
+}  // namespace pbd::rivals

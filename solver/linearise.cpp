@@ -43,6 +43,9 @@ typename Block::Square diagonal_block(const Block& block, const std::vector<doub
   return n;
 }
 
+/// Of a constraint's value, as part of its largest coordinate.
+constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
+
 template <class Block>
 typename Block::Positions positions(const Block& block, const Points& x, std::size_t i) {
   typename Block::Positions local;
@@ -54,7 +57,6 @@ template <class E, class Block>
 BlockResidual linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
                               const std::vector<double>& inverse_mass, double unreachable_mass,
                               Block& block) {
-  constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
   BlockResidual sums;
   typename Block::Value value;
   for (std::size_t i = 0; i < block.size(); ++i) {
@@ -111,19 +113,25 @@ BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& 
       effect);
 }
 
-double add_potential(const Effect& effect, const StepMap& map, const Points& x,
-                     const std::vector<double>& inverse_mass, AnyBlock& any, Points& v) {
+BlockPotential add_potential(const Effect& effect, const StepMap& map, const Points& x,
+                             const std::vector<double>& inverse_mass, AnyBlock& any, Points& v) {
   return std::visit(
       [&]<class E>(const E& stated) {
-        double sum = 0;
+        BlockPotential sum;
         if constexpr (RowEffect<E>) {
           auto& block = std::get<BlockOf<E>>(any);
           for (std::size_t i = 0; i < block.size(); ++i) {
             typename BlockOf<E>::Value value;
-            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, block.jacobian[i]);
+            const auto local = positions(block, x, i);
+            Constraint<E>::evaluate(stated, i, local, value, block.jacobian[i]);
             value /= map.d;
             block.impulse[i].noalias() = -block.stiffness[i] * value;
-            sum -= value.dot(block.impulse[i]) / 2;
+            sum.value -= value.dot(block.impulse[i]) / 2;
+            const double size = roundoff * local.cwiseAbs().maxCoeff() / map.d * block.stiffness[i].trace() *
+                                block.jacobian[i].squaredNorm();
+            double inverse = 0;
+            for (const int node : block.node[i]) inverse += inverse_mass[static_cast<std::size_t>(node)];
+            sum.rounding_squared += size * size * inverse;
             block.apply(inverse_mass, i, block.impulse[i], v);
           }
         }
@@ -181,6 +189,23 @@ void add_geometric_inertia(const Effect& effect, const StepMap& map, const Point
             for (int a = 0; a < block.nodes; ++a)
               inertia[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] +=
                   map.d / 2 * bound[a];
+          }
+        }
+      },
+      effect);
+}
+
+void add_push(const Effect& effect, const Points& x, const std::vector<double>& inverse_mass,
+              const AnyBlock& any, Points& v) {
+  std::visit(
+      [&]<class E>(const E& stated) {
+        if constexpr (RowEffect<E>) {
+          const auto& block = std::get<BlockOf<E>>(any);
+          typename BlockOf<E>::Value value;
+          typename BlockOf<E>::Jacobian jacobian;
+          for (std::size_t i = 0; i < block.size(); ++i) {
+            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
+            block.apply(inverse_mass, i, jacobian, block.impulse[i], v);
           }
         }
       },

@@ -30,12 +30,22 @@ void quasi_newton(OuterIteration& iteration) {
   iteration.descend();
 }
 
+void automatic(OuterIteration& iteration) {
+  if (iteration.on_potential())
+    quasi_newton(iteration);
+  else if (iteration.plain_contracts())
+    plain(iteration);
+  else
+    proximal(iteration);
+}
+
 }  // namespace
 
 const std::vector<Outer>& outers() {
-  static const std::vector<Outer> list{{"plain", true, plain},
+  static const std::vector<Outer> list{{"auto", true, automatic, OnPotential::where_possible},
+                                       {"plain", true, plain},
                                        {"proximal", true, proximal},
-                                       {"quasi_newton", true, quasi_newton, true},
+                                       {"quasi_newton", true, quasi_newton, OnPotential::always},
                                        {"incremental", false, incremental},
                                        {"frozen", false, frozen}};
   return list;

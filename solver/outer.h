@@ -4,8 +4,10 @@
 //   plain        v <- v_free + W J_k^T p, then relax
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
-//   quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are eliminated
-//   proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free; accelerated
+//   auto         quasi_newton where every row is compliant; else plain where that contracts, proximal where
+//   not quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are
+//   eliminated proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free;
+//   accelerated
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
 // the solutions of the step. In incremental earlier impulses keep the directions they were found with, as in
@@ -36,17 +38,23 @@ class OuterIteration {
   virtual void relax() = 0;               // improves impulses and v by the linear rows
   virtual void add_inertia() = 0;         // the proximal term: changes W and `rebuilt` until the next iterate
   virtual void accelerate() = 0;          // by the iterates so far
-  virtual void descend() = 0;             // one step down the potential of compliant rows
+  virtual bool on_potential() = 0;        // every row is compliant and its impulse eliminated
+  virtual void descend() = 0;             // one step down that potential
+  virtual bool plain_contracts() = 0;     // as predicted, and as far as the iterates so far show
 
  protected:
   ~OuterIteration() = default;
 };
 
+/// Whether impulses are the compliant rows' own, p = -Sigma^-1 c/d: `where_possible` if every row is
+/// compliant.
+enum class OnPotential { never, where_possible, always };
+
 struct Outer {
   std::string_view name;
   bool solves_step;  // its fixed points are the solutions of the step
   void (*iterate)(OuterIteration& iteration);
-  bool on_potential = false;  // impulses are the rows' own, p = -Sigma^-1 c/d; every row must be compliant
+  OnPotential potential = OnPotential::never;
 };
 
 /// All outer iterations.

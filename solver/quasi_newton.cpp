@@ -11,7 +11,7 @@ double dot(const Points& a, const Points& b) {
 
 }  // namespace
 
-void QuasiNewton::factor(const std::vector<double>& inverse_mass,
+void QuasiNewton::factor(const StepMap& map, const std::vector<double>& inverse_mass,
                          const std::vector<Eigen::Triplet<double>>& stiffness) {
   column_.clear();
   order_ = 0;
@@ -29,6 +29,8 @@ void QuasiNewton::factor(const std::vector<double>& inverse_mass,
   matrix.setFromTriplets(entries.begin(), entries.end());
   factor_->compute(matrix);
   right_.resize(order_, 3);
+  d_ = map.d;
+  s_ = map.s;
   forget();
 }
 

@@ -10,15 +10,10 @@
 #include <memory>
 #include <vector>
 
+#include "integrators.h"
 #include "rows.h"
 
 namespace pbd {
-
-/// phi and its gradient (N s, one column a node; zero for infinite mass) at some velocity.
-struct Potential {
-  double value = 0;  // J
-  Points gradient;
-};
 
 class QuasiNewton {
  public:
@@ -26,9 +21,10 @@ class QuasiNewton {
 
   /// Factors P from the pairwise stiffnesses, entries (row, column, N s^2/m times s d) of L on and below the
   /// diagonal.
-  void factor(const std::vector<double>& inverse_mass, const std::vector<Eigen::Triplet<double>>& stiffness);
+  void factor(const StepMap& map, const std::vector<double>& inverse_mass,
+              const std::vector<Eigen::Triplet<double>>& stiffness);
 
-  bool factored() const { return factor_->info() == Eigen::Success && order_ > 0; }
+  bool factored_for(const StepMap& map) const { return d_ == map.d && s_ == map.s; }
 
   /// Forgets the curvature of the last step.
   void forget() { count_ = 0; }
@@ -39,13 +35,16 @@ class QuasiNewton {
   /// Descent direction -H gradient.
   void direction(const Points& gradient, Points& result);
 
+  /// result = P^-1 right
+  void solve(const Points& right, Points& result);
+
  private:
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  void solve(const Points& right, Points& result);
 
   int memory_;
   int count_ = 0;
   int order_ = 0;
+  double d_ = 0, s_ = 0;     // s, of the steps that P is factored for
   std::vector<int> column_;  // of each node in P, -1 for infinite mass
   using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
   std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();

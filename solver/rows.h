@@ -57,7 +57,13 @@ struct RowBlock : ConstraintShape<R, K> {
   /// v += W J_i^T p
   void apply(const std::vector<double>& inverse_mass, std::size_t i, const typename Shape::Value& p,
              Points& v) const {
-    const Velocities push = jacobian[i].transpose() * p;
+    apply(inverse_mass, i, jacobian[i], p, v);
+  }
+
+  /// v += W J^T p with other directions for constraint i
+  void apply(const std::vector<double>& inverse_mass, std::size_t i,
+             const typename Shape::Jacobian& directions, const typename Shape::Value& p, Points& v) const {
+    const Velocities push = directions.transpose() * p;
     for (int a = 0; a < K; ++a) {
       const int index = node[i][static_cast<std::size_t>(a)];
       v.col(index) += inverse_mass[static_cast<std::size_t>(index)] * push.template segment<3>(3 * a);

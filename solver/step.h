@@ -14,6 +14,7 @@
 // constraint's value counts as solved (BlockResidual in linearise.h).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,14 +29,14 @@ namespace pbd {
 /// How a step is solved. Names are those of the lists in integrators.h, outer.h and relaxation.h.
 struct Method {
   std::string integrator = "implicit_euler";
-  std::string outer = "plain";
+  std::string outer = "auto";
   std::string relaxation = "gauss_seidel";
-  double tolerance = 1e-8;     // on the residuals, relative to `scale`
-  int max_outer = 100;         // outer iterations a step
-  int max_sweeps = 20;         // sweeps of the relaxation an outer iteration
-  double inner_tolerance = 0;  // end an outer iteration's sweeps when the linear residual fell by this factor
-  bool warm_start = true;      // begin with the previous step's impulses
-  int memory = 20;             // iterates that `proximal` is accelerated by; 0 leaves it as it is
+  double tolerance = 1e-8;         // on the residuals, relative to `scale`
+  int max_outer = 100;             // outer iterations a step
+  int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration
+  double inner_tolerance = 0.003;  // end an outer iteration's sweeps at this share of the nonlinear residual
+  bool warm_start = true;          // begin with the previous step's impulses
+  int memory = 20;                 // iterates that `proximal` is accelerated by; 0 leaves it as it is
 };
 
 enum class Status { ok, not_converged, diverged };
@@ -48,6 +49,7 @@ struct EffectCost {
   std::int64_t bytes = 0;  // of its rows
   double seconds = 0;      // linearising, and relaxing as the first of each outer iteration's sweeps took;
                            // what `direct` spends in its common factorisation is in no effect's share
+  double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step; 1
 };
 
 /// What a step reached. Residuals are absolute, in sqrt(J).
@@ -60,6 +62,8 @@ struct Report {
   double primal = 0;
   double dual = 0;
   double scale = 0;
+  double contraction =
+      std::nan("");  // of plain at the step's end: what it multiplies an error by; an estimate
 
   /// Largest residual relative to `scale`; 0 if both vanish.
   double residual() const;

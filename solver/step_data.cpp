@@ -1,0 +1,328 @@
+#include "step_data.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+
+#include "error.h"
+#include "names.h"
+
+namespace pbd {
+StepData::StepData(const Scene& scene, const Method& method)
+    : integrator(find_named(integrators(), "integrator", method.integrator).map),
+      outer(find_named(outers(), "outer", method.outer)),
+      relaxation(make_relaxation(method.relaxation)),
+      rows(allocate_rows(scene, effect_of_block)),
+      inverse_mass(rows.inverse_mass),
+      zero(Points::Zero(3, scene.nodes())),
+      seconds(rows.blocks.size(), 0.0),
+      inertia(rows.inverse_mass.size(), 0.0),
+      anderson(method.memory),
+      quasi_newton(method.memory) {
+  for (const double mass : scene.mass)
+    if (std::isfinite(mass)) finite_mass += mass;
+  if (finite_mass == 0) finite_mass = 1;  // nothing moves, and an unmet constraint still weighs
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    costs.push_back(
+        {std::visit([](const auto& effect) { return effect.name; }, scene.effects[effect_of_block[b]]),
+         row_count(rows.blocks[b]),
+         std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]), 0.0});
+  find_free_components();
+  on_potential = outer.potential != OnPotential::never && !rows.blocks.empty();
+  for (std::size_t index = 0; index < scene.effects.size() && on_potential; ++index)
+    if (!all_compliant(scene.effects[index])) {
+      if (outer.potential == OnPotential::always)
+        throw SetupError("outer",
+                         std::string(outer.name) + " with hard rows in effect " + std::to_string(index),
+                         "compliant rows, or another outer iteration");
+      on_potential = false;
+    }
+}
+
+void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
+  accelerations(scene, acceleration);
+  integrator(state, acceleration, h, map);
+  if (!method.warm_start) forget_impulses();
+  v = state.v;
+  previous = v;
+  anderson.forget();
+  accelerated = false;
+  quasi_newton.forget();
+  evaluated = false;
+  slow_changes = 0;
+  heavier = false;
+  if (on_potential) factor_metric(scene);
+}
+
+double StepData::distance(const Points& a, const Points& b) const {
+  double squared = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    if (inverse_mass[node] > 0)
+      squared +=
+          (a.col(static_cast<int>(node)) - b.col(static_cast<int>(node))).squaredNorm() / inverse_mass[node];
+  return std::sqrt(squared);
+}
+
+double StepData::inner_product(const Points& a, const Points& b) const {
+  double sum = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    if (inverse_mass[node] > 0)
+      sum += a.col(static_cast<int>(node)).dot(b.col(static_cast<int>(node))) / inverse_mass[node];
+  return sum;
+}
+
+BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
+  x = map.x0 + map.d * at;
+  rows.inverse_mass = inverse_mass;
+  BlockResidual sums;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+    const auto start = std::chrono::steady_clock::now();
+    const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass,
+                                          finite_mass, rows.blocks[b]);
+    sums.squared += share.squared;
+    sums.rounding_squared += share.rounding_squared;
+    costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  rebuilt = map.v_free;
+  apply_impulses(rows, rebuilt);
+  return sums;
+}
+
+BlockResidual StepData::potential_at_v(const Scene& scene) {
+  if (!evaluated) evaluate_potential(scene);
+  return {.rounding_squared = potential_rounding_squared};
+}
+
+void StepData::evaluate_potential(const Scene& scene) {
+  x = map.x0 + map.d * v;
+  rebuilt = map.v_free;
+  potential = std::pow(distance(v, map.v_free), 2) / 2;
+  potential_rounding_squared = 0;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+    const auto start = std::chrono::steady_clock::now();
+    const BlockPotential share =
+        add_potential(scene.effects[effect_of_block[b]], map, x, inverse_mass, rows.blocks[b], rebuilt);
+    potential += share.value;
+    potential_rounding_squared += share.rounding_squared;
+    costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  gradient = v - rebuilt;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    gradient.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+  evaluated = true;
+}
+
+void StepData::factor_metric(const Scene& scene) {
+  if (quasi_newton.factored_for(map)) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    add_metric(scene.effects[effect_of_block[b]], map, scene.initial.x, rows.blocks[b], entries);
+  quasi_newton.factor(map, inverse_mass, entries);
+}
+
+void StepData::descend(const Scene& scene, bool first) {
+  constexpr double sufficient = 1e-4;
+  constexpr double flat = 1e-10, flatter = 0.8;  // where the potential's change is lost in its rounding
+  constexpr int most_halvings = 30;
+  const double before = potential;
+  search_from = v;
+  if (first) {
+    v = map.v_free;
+    evaluate_potential(scene);
+    if (potential < before) return;
+    v = search_from;
+    evaluate_potential(scene);
+  }
+  const auto along = [this] { return (gradient.array() * direction.array()).sum(); };
+  quasi_newton.direction(gradient, direction);
+  if (!(along() < 0)) {
+    quasi_newton.forget();
+    quasi_newton.direction(gradient, direction);
+  }
+  const double slope = along();
+  last_gradient = gradient;
+  double length = 1;
+  for (int k = 0; k < most_halvings; ++k, length /= 2) {
+    v = search_from + length * direction;
+    evaluate_potential(scene);
+    if (potential <= before + sufficient * length * slope) break;
+    if (potential <= (1 + flat) * before && along() <= flatter * std::abs(slope)) break;
+  }
+  quasi_newton.learn(v - search_from, gradient - last_gradient);
+}
+
+double StepData::bound_contraction(const Scene& scene) {
+  std::fill(inertia.begin(), inertia.end(), 0.0);
+  double bound = 0;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
+    const double before = bound;
+    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, rows.blocks[b], inertia);
+    bound = 0;
+    for (std::size_t node = 0; node < inertia.size(); ++node)
+      bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
+    costs[b].contraction = bound - before;
+  }
+  return bound;
+}
+
+void StepData::add_inertia() {
+  if (std::all_of(inertia.begin(), inertia.end(), [](double kg) { return kg == 0; })) return;
+  heavier = true;
+  rebuilt = map.v_free;
+  for (std::size_t node = 0; node < inertia.size(); ++node) {
+    const double share = inertia[node] * inverse_mass[node];  // D / M
+    const auto column = static_cast<Eigen::Index>(node);
+    rows.inverse_mass[node] = inverse_mass[node] / (1 + share);
+    rebuilt.col(column) = (map.v_free.col(column) + share * v.col(column)) / (1 + share);
+  }
+  refresh_inverse_diagonal(rows);
+  apply_impulses(rows, rebuilt);
+}
+
+std::int64_t StepData::relax(bool fresh, const InnerBudget& budget) {
+  std::fill(seconds.begin(), seconds.end(), 0.0);
+  const auto sweeps = pbd::relax(relaxation, rows, v, fresh, budget, &seconds);
+  for (std::size_t b = 0; b < seconds.size(); ++b)
+    costs[b].seconds += seconds[b] * static_cast<double>(sweeps);
+  return sweeps;
+}
+
+/// What one plain iteration makes of a small error at v: error <- -(M + material)^-1 K error on the motions
+/// that the rows allow. With the rows linearised at v, the impulses' push along the turned directions is the
+/// source.
+std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
+  constexpr double turned = 1e-6;  // of the scene's extent
+  const double extent = (map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff();
+  const double largest = map.d * error.colwise().norm().maxCoeff();
+  const double scale = turned * extent / largest;
+  const Points at = map.x0 + map.d * (v + scale * error);
+  Points push = map.v_free;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    add_push(scene.effects[effect_of_block[b]], at, inverse_mass, rows.blocks[b], push);
+  error = (push - rebuilt) / scale;
+  if (on_potential) {
+    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+      error.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+    quasi_newton.solve(Points(error), error);
+    return 0;
+  }
+  constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
+  return relax_homogeneous(relaxation, rows, error, rough, kept);
+}
+
+std::int64_t StepData::estimate_contraction(const Scene& scene) {
+  contraction = bound_contraction(scene);
+  if (!(contraction > slow_contraction)) return 0;
+  constexpr int most = 12, fewest = 3;  // vectors, in the first step and later ones
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
+  const int count = krylov.empty() ? most : fewest;
+  if (krylov.empty()) {
+    krylov.assign(most + 1, v);
+    for (Eigen::Index k = 0; k < v.size(); ++k)
+      krylov[0].reshaped()[k] = std::sin(12.9898 * static_cast<double>(k + 1));
+    krylov[0] /= norm(krylov[0]);
+  }
+  std::int64_t sweeps = 0;
+  Small projected = Small::Zero(count, count);
+  int used = 0;
+  for (; used < count; ++used) {
+    auto& next = krylov[static_cast<std::size_t>(used) + 1];
+    next = krylov[static_cast<std::size_t>(used)];
+    sweeps += apply_plain(scene, next);
+    const double before = norm(next);
+    for (int k = 0; k <= used; ++k) {
+      projected(k, used) = inner_product(krylov[static_cast<std::size_t>(k)], next);
+      next -= projected(k, used) * krylov[static_cast<std::size_t>(k)];
+    }
+    const double left = norm(next);
+    constexpr double exhausted = 1e-10;
+    if (!(left > exhausted * before)) {
+      ++used;
+      break;
+    }
+    next /= left;
+    if (used + 1 < count) projected(used + 1, used) = left;
+  }
+  const Eigen::EigenSolver<Small> ritz(Small(projected.topLeftCorner(used, used)));
+  int largest = 0;
+  const double estimate = ritz.eigenvalues().cwiseAbs().maxCoeff(&largest);
+  if (!std::isfinite(estimate)) {
+    forget_prediction();
+    return sweeps;
+  }
+  contraction = std::min(contraction, estimate);
+  Points& mode = krylov.back();
+  mode.setZero();
+  for (int k = 0; k < used; ++k)
+    mode += ritz.eigenvectors()(k, largest).real() * krylov[static_cast<std::size_t>(k)];
+  krylov[0] = mode / norm(mode);
+  return sweeps;
+}
+
+void StepData::restore_momentum() {
+  if (!heavier) return;
+  std::fill(momentum.begin(), momentum.end(), Eigen::Vector4d::Zero());
+  const auto free_nodes = [this](auto&& f) {
+    for (std::size_t node = 0; node < component.size(); ++node)
+      if (component[node] >= 0)
+        f(momentum[static_cast<std::size_t>(component[node])], static_cast<Eigen::Index>(node),
+          1 / inverse_mass[node]);
+  };
+  free_nodes([this](Eigen::Vector4d& sum, Eigen::Index node, double mass) {
+    sum.head<3>() += mass * (map.v_free.col(node) - v.col(node));
+    sum[3] += mass;
+  });
+  free_nodes([this](const Eigen::Vector4d& sum, Eigen::Index node, double) {
+    v.col(node) += sum.head<3>() / sum[3];
+    x.col(node) += map.d * sum.head<3>() / sum[3];
+  });
+}
+
+void StepData::find_free_components() {
+  const std::size_t nodes = inverse_mass.size();
+  component.resize(nodes);
+  std::iota(component.begin(), component.end(), 0);
+  const auto root = [this](int node) {
+    while (component[static_cast<std::size_t>(node)] != node) {
+      auto& parent = component[static_cast<std::size_t>(node)];
+      parent = component[static_cast<std::size_t>(parent)];
+      node = parent;
+    }
+    return node;
+  };
+  std::vector<bool> held(nodes, false);
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (const auto& own : block.node) {
+      for (const int node : own) component[static_cast<std::size_t>(root(node))] = root(own[0]);
+      if (Block::nodes == 1) held[static_cast<std::size_t>(own[0])] = true;
+    }
+  });
+  std::vector<int> index(nodes, 0);  // of each root: -1 where something outside holds the component
+  for (std::size_t node = 0; node < nodes; ++node)
+    if (held[node] || !(inverse_mass[node] > 0))
+      index[static_cast<std::size_t>(root(static_cast<int>(node)))] = -1;
+  int count = 0;
+  for (std::size_t node = 0; node < nodes; ++node)
+    if (component[node] == static_cast<int>(node) && index[node] == 0) index[node] = count++;
+  std::vector<int> of_node(nodes);
+  for (std::size_t node = 0; node < nodes; ++node)
+    of_node[node] = index[static_cast<std::size_t>(root(static_cast<int>(node)))];
+  component = of_node;
+  momentum.resize(static_cast<std::size_t>(count));
+}
+
+void StepData::forget_prediction() {
+  contraction = std::nan("");
+  krylov.clear();
+}
+
+void StepData::forget_impulses() {
+  for_each_block(rows.blocks, [](auto& block) {
+    for (auto& impulse : block.impulse) impulse.setZero();
+  });
+}
+
+}  // namespace pbd

@@ -1,0 +1,103 @@
+// What a step works on: rows, iterates and the tools of the outer iterations. Allocated once a workspace.
+#pragma once
+
+#include <vector>
+
+#include "acceleration.h"
+#include "linearise.h"
+#include "outer.h"
+#include "quasi_newton.h"
+#include "relaxation.h"
+#include "step.h"
+
+namespace pbd {
+
+/// Above this contraction the accelerated proximal iteration is the faster one.
+inline constexpr double slow_contraction = 0.7;
+
+struct StepData {
+  IntegratorFunction integrator;
+  Outer outer;
+  bool on_potential = false;  // impulses are the compliant rows' own, p = -Sigma^-1 c/d
+  Relaxation relaxation;
+  std::vector<std::size_t> effect_of_block;
+  Rows rows;
+  std::vector<double> inverse_mass;  // 1/kg; the rows' own is changed by a proximal term
+  double finite_mass = 0;            // kg, of all nodes that can move
+
+  StepMap map;
+  Points acceleration, zero, v, x, rebuilt, previous;
+  double change = 0, last_change = 0;  // |v_k - v_k-1|_M, and the one before
+  std::vector<double> seconds;         // per block, of the current outer iteration's first sweep
+  std::vector<EffectCost> costs;
+
+  std::vector<double> inertia;  // kg, D of the proximal term
+  Anderson anderson;
+  bool heavier = false;                   // D was added in this step
+  std::vector<int> component;             // of each node, connected by rows; -1 if held from outside
+  std::vector<Eigen::Vector4d> momentum;  // missing of each component (N s), and its mass (kg)
+  bool accelerated = false;               // v is not an image of the iteration, but its acceleration
+
+  QuasiNewton quasi_newton;
+  double potential = 0;                   // J, at v
+  double potential_rounding_squared = 0;  // of its gradient, J
+  bool evaluated = false;                 // the potential and the impulses are those of v
+  Points gradient, last_gradient, direction, search_from;
+
+  double contraction = std::nan("");  // of plain, at the end of the last step
+  int slow_changes = 0;               // of v in this step, in a row
+  std::vector<Points> krylov;         // orthonormal in M; the first one is what plain reduces least
+  std::vector<double> kept;
+
+  StepData(const Scene& scene, const Method& method);
+
+  /// Gets ready for a step of h seconds from `state`.
+  void begin(const Scene& scene, const Method& method, double h, const State& state);
+
+  /// |a - b|_M and |velocity|_M over the nodes that can move, sqrt(J).
+  double distance(const Points& a, const Points& b) const;
+  double inner_product(const Points& a, const Points& b) const;
+  double norm(const Points& velocity) const { return distance(velocity, zero); }
+
+  /// Refreshes all rows at velocity `at` and `rebuilt`, the velocities that the impulses give along the new
+  /// directions.
+  BlockResidual linearise_at(const Scene& scene, const Points& at);
+
+  /// Sets the rows' own impulses at v, `rebuilt`, the potential and its gradient, unless they are. The dual
+  /// residual is zero; returns the rounding of the primal one.
+  BlockResidual potential_at_v(const Scene& scene);
+
+  /// One line search down the potential along the quasi-Newton direction; the first one of a step starts
+  /// where the potential is lower, at the old velocity or at v_free.
+  void descend(const Scene& scene, bool first);
+
+  /// Fills `inertia` by the effects' geometric bounds at v. Returns the bound that they give of plain's
+  /// contraction, the largest 2 D/M; each effect's own goes into `costs`.
+  double bound_contraction(const Scene& scene);
+
+  /// Replaces M by M + D and v_free by (M + D)^-1 (M v_free + D v), D the `inertia`.
+  void add_inertia();
+
+  /// Sweeps the rows from v; returns the number of sweeps.
+  std::int64_t relax(bool fresh, const InnerBudget& budget);
+
+  /// Estimates at v what plain would multiply its error by: the bound where that is small, else Arnoldi's
+  /// method on the error's map. Returns the number of sweeps it took.
+  std::int64_t estimate_contraction(const Scene& scene);
+
+  /// A proximal term moves momentum from one iterate to the next, which vanishes as they converge. Gives
+  /// every component that only internal constraints act on the momentum of v_free again, by a shift of v and
+  /// x.
+  void restore_momentum();
+
+  void forget_impulses();
+  void forget_prediction();
+
+ private:
+  void find_free_components();
+  void factor_metric(const Scene& scene);
+  void evaluate_potential(const Scene& scene);
+  std::int64_t apply_plain(const Scene& scene, Points& error);
+};
+
+}  // namespace pbd

@@ -107,6 +107,10 @@ struct Prediction {
 Prediction predict(const Problem& each, std::string_view relaxation,
                    const reference::RelaxationRates& dense) {
   if (relaxation == Direct::name) return {0, "exact"};
+  if (relaxation == ConjugateGradients::name) {
+    const double root = std::sqrt(dense.condition);
+    return {(root - 1) / (root + 1), "(sqrt(kappa) - 1)/(sqrt(kappa) + 1), Chebyshev's bound"};
+  }
   if (relaxation == NesterovJacobi::name)
     return {1 - 1 / std::sqrt(dense.condition), "1 - 1/sqrt(kappa), Nesterov's bound"};
   const bool jacobi = relaxation == Jacobi::name;

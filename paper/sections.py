@@ -106,7 +106,7 @@ def inner_convergence(results):
                    "the same rows."),
             Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
             Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
-                   "For `nesterov_jacobi` the prediction is a bound, not a rate.")])
+                   "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
     errors, rates = results.table("inner_convergence", "errors"), results.table("inner_convergence", "rates")
     if errors is not None:
         section.paragraphs.append(fastest_text(errors))

@@ -3,7 +3,7 @@
 from common import BLACK, ORANGE, SKY, curve_points, figure, footnote, panels, shared_legend, style
 from reading import failed, reasons_note, step_text
 
-RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "direct": "D"}
+RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "conjugate_gradients": "P", "direct": "D"}
 FILLINGS = {"incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
             "frozen": {"markerfacecolor": ORANGE}}
 

@@ -56,14 +56,45 @@ bool Anderson::accelerate(const std::vector<double>& inverse_mass, Rows& rows, P
   }
   const int columns = std::min(count_++, memory_);
   if (columns == 0) return false;
-
-  const Eigen::VectorXd gamma = residual_change_.leftCols(columns).colPivHouseholderQr().solve(residual_);
-  start_ = image_ - image_change_.leftCols(columns) * gamma;
+  combine(columns);
   constexpr double longest = 100;
   const double length = (start_ - image_).head(v.size()).cwiseProduct(root_mass_).norm();
   if (!(length <= longest * residual_.norm())) return false;
   spread(start_, rows, v);
   return true;
+}
+
+/// start_ = g - Dg gamma, by Gram and Schmidt from the newest difference to the oldest: what the newer ones
+/// span already is left out.
+void Anderson::combine(int columns) {
+  constexpr double dependent = 1e-12;
+  const auto newest = [&](int k) { return (count_ - 2 - k) % memory_; };
+  basis_.resize(residual_.size(), memory_);
+  triangle_.setZero(memory_, memory_);
+  for (int k = 0; k < columns; ++k) {
+    basis_.col(k) = residual_change_.col(newest(k));
+    const double length = basis_.col(k).norm();
+    for (int pass = 0; pass < 2; ++pass)
+      for (int j = 0; j < k; ++j) {
+        const double share = basis_.col(j).dot(basis_.col(k));
+        triangle_(j, k) += share;
+        basis_.col(k) -= share * basis_.col(j);
+      }
+    const double left = basis_.col(k).norm();
+    triangle_(k, k) = left;
+    if (left > dependent * length)
+      basis_.col(k) /= left;
+    else
+      basis_.col(k).setZero();
+  }
+  start_ = image_;
+  coefficient_.resize(memory_);
+  for (int k = columns - 1; k >= 0; --k) {
+    double rest = basis_.col(k).dot(residual_);
+    for (int j = k + 1; j < columns; ++j) rest -= triangle_(k, j) * coefficient_[j];
+    coefficient_[k] = basis_.col(k).isZero(0) ? 0.0 : rest / triangle_(k, k);
+    start_ -= coefficient_[k] * image_change_.col(newest(k));
+  }
 }
 
 void Anderson::reject(Rows& rows, Points& v) {

@@ -6,7 +6,7 @@
 // do.
 #pragma once
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "rows.h"
 
@@ -31,6 +31,7 @@ class Anderson {
   void reject(Rows& rows, Points& v);
 
  private:
+  void combine(int columns);
   void flatten(const Rows& rows, const Points& v, Eigen::VectorXd& z) const;
   void spread(const Eigen::VectorXd& z, Rows& rows, Points& v) const;
 
@@ -38,6 +39,8 @@ class Anderson {
   int count_ = 0;  // images since the last `forget`
   Eigen::VectorXd start_, image_, last_image_, residual_, last_residual_, root_mass_;
   Eigen::MatrixXd residual_change_, image_change_;  // one column a difference
+  Eigen::MatrixXd basis_, triangle_;                // of the residuals' differences
+  Eigen::VectorXd coefficient_;
 };
 
 }  // namespace pbd

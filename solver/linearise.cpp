@@ -150,7 +150,10 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBl
           for (std::size_t i = 0; i < block.size(); ++i) {
             typename BlockOf<E>::Value value;
             typename BlockOf<E>::Jacobian jacobian;
-            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
+            if constexpr (requires { Constraint<E>::rest(stated, i); })
+              Constraint<E>::evaluate(stated, i, Constraint<E>::rest(stated, i), value, jacobian);
+            else
+              Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
             block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();
             for (int a = 0; a < block.nodes; ++a)
               for (int b = 0; b <= a; ++b)

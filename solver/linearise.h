@@ -38,8 +38,9 @@ struct BlockPotential {
 BlockPotential add_potential(const Effect& effect, const StepMap& map, const Points& x,
                              const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
 
-/// Appends the block's share s d L of the quasi-Newton metric, L_ab = 1/3 trace(J_a^T A^-1 J_b) at positions
-/// x: entries (node a, node b, kg), each pair once. Fills the block's `stiffness`.
+/// Appends the block's share s d L of the quasi-Newton metric, L_ab = 1/3 trace(J_a^T A^-1 J_b) at rest,
+/// at positions x where an effect has no rest shape: entries (node a, node b, kg), each pair once. Fills the
+/// block's `stiffness`.
 void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBlock& block,
                 std::vector<Eigen::Triplet<double>>& entries);
 

@@ -1,7 +1,7 @@
 // Quasi-Newton iteration on the incremental potential of compliant rows,
 //   phi(v) = 1/2 |v - v_free|_M^2 + 1/2 sum_i (c_i/d)^T Sigma_i^-1 (c_i/d),   c at x0 + d v,
 // whose gradient M (v - v_free) - J^T p with p = -Sigma^-1 c/d is the step's primal residual. The metric
-//   P = M + s d sum_i L_i,   L_ab = 1/3 trace(J_a^T A^-1 J_b) at the scene's initial positions
+//   P = M + s d sum_i L_i,   L_ab = 1/3 trace(J_a^T A^-1 J_b) at rest
 // is one number a pair of nodes, shared by x, y and z, so it does not see rotations; it is factored once per
 // step length (Liu, Bouaziz, Kavan 2017). L-BFGS on top (Nocedal 1980), backtracking on phi.
 #pragma once

@@ -186,6 +186,53 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   return std::sqrt(squared);
 }
 
+void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
+  direction_.assign(static_cast<std::size_t>(row_count(rows)), 0.0);
+  last_.assign(direction_.size(), 0.0);
+  velocity_.setZero(3, v.cols());
+  last_product_ = 0;
+}
+
+double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  push_.setZero(3, v.cols());
+  double product = 0, kept_product = 0;  // of r with the new and the last D^-1 r
+  double slope = 0;                      // of r along the old direction
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+      const typename Block::Value next = block.inverse_diagonal[i] * r;
+      auto last = entries(last_, block, first_row, i);
+      product += r.dot(next);
+      kept_product += r.dot(last);
+      slope += r.dot(entries(direction_, block, first_row, i));
+      last = next;
+      block.apply(rows.inverse_mass, i, -next, push_);
+    }
+  });
+  const double beta = last_product_ > 0 ? std::max(0.0, (product - kept_product) / last_product_) : 0.0;
+  slope = beta * slope - product;
+  velocity_ = push_ + beta * velocity_;
+  double curvature = 0;
+  for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
+    if (rows.inverse_mass[node] > 0)
+      curvature += velocity_.col(static_cast<Eigen::Index>(node)).squaredNorm() / rows.inverse_mass[node];
+  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      auto direction = entries(direction_, block, first_row, i);
+      direction = beta * direction - entries(last_, block, first_row, i);
+      curvature += direction.dot(block.compliance[i] * direction);
+    }
+  });
+  last_product_ = product;
+  const double length = curvature > 0 ? -slope / curvature : 0.0;
+  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block.impulse[i] += length * entries(direction_, block, first_row, i);
+  });
+  v += length * velocity_;
+  return std::sqrt(product);
+}
+
 std::int64_t relax(Relaxation& any, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
                    BlockSeconds first_sweep) {
   return std::visit(

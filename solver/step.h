@@ -36,7 +36,7 @@ struct Method {
   int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration
   double inner_tolerance = 0.003;  // end an outer iteration's sweeps at this share of the nonlinear residual
   bool warm_start = true;          // begin with the previous step's impulses
-  int memory = 20;                 // iterates that `proximal` is accelerated by; 0 leaves it as it is
+  int memory = 20;                 // iterates that proximal and quasi_newton learn from
 };
 
 enum class Status { ok, not_converged, diverged };

@@ -43,6 +43,10 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);
   method.inner_tolerance = keys.number_or("inner_tolerance", method.inner_tolerance, Range::not_negative);
   method.warm_start = keys.flag_or("warm_start", method.warm_start);
+  method.memory = keys.integer_or("memory", method.memory, 0);
+  constexpr int most_memory = 1000;
+  if (method.memory > most_memory)
+    keys.refuse("memory", std::to_string(method.memory), fmt::format("0 to {} iterates", most_memory));
   keys.refuse_unknown();
   return method;
 }
@@ -131,9 +135,9 @@ pbd::Method parse_method(const std::string& settings, pbd::Method base, const st
 std::string method_text(const pbd::Method& m) {
   return fmt::format(
       "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
-      "warm_start={}",
+      "warm_start={} memory={}",
       m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
-      m.warm_start);
+      m.warm_start, m.memory);
 }
 
 }  // namespace pbdcheck

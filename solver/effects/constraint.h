@@ -2,7 +2,8 @@
 // = dc/dx and its compliance A, at the positions of the constraint's K nodes, and a bound B (N s/m, one a
 // node) of the geometric stiffness of its impulses p:
 //   -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
-// Only the stiffening part counts (tension, not compression): B = 0 where p = 0.
+// Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
+// depends on a rest shape states its positions, rest(effect, i).
 #pragma once
 
 #include <Eigen/Core>

@@ -21,6 +21,7 @@ namespace pbd {
 template <>
 struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   static Nodes node(const TetStrain& effect, std::size_t i) { return effect.node[i]; }
+  static const Positions& rest(const TetStrain& effect, std::size_t i) { return effect.rest[i]; }
 
   static Square compliance(const TetStrain& effect, std::size_t i) {
     const double nu = effect.material.poisson;

@@ -17,6 +17,7 @@ namespace pbd {
 template <>
 struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
   static Nodes node(const TriangleStrain& effect, std::size_t i) { return effect.node[i]; }
+  static const Positions& rest(const TriangleStrain& effect, std::size_t i) { return effect.rest[i]; }
 
   static Square compliance(const TriangleStrain& effect, std::size_t i) {
     const double nu = effect.material.poisson;

@@ -229,9 +229,12 @@ TEST_CASE("a method survives being written as text and read again") {
   method.outer = "frozen";
   method.tolerance = 0.1 + 0.2;
   method.warm_start = false;
+  method.memory = 7;
   const auto again = parse_method(method_text(method), {}, "--method");
   CHECK(method_text(again) == method_text(method));
   CHECK(again.tolerance == method.tolerance);
+  CHECK(again.memory == 7);
+  CHECK_THROWS_WITH(parse_method("memory=1001", {}, "--method"), Catch::Contains("0 to 1000"));
   CHECK(parse_method("max_outer=3", method, "--method").outer == "frozen");
 }
 

@@ -38,8 +38,8 @@ TEST_CASE("the counter counts") {
 }
 
 TEST_CASE("a step allocates nothing on the heap after the first frame") {
-  const std::string relaxation = GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi");
-  const std::string outer = GENERATE("plain", "incremental", "frozen");
+  const std::string relaxation = GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients");
+  const std::string outer = GENERATE("plain", "incremental", "frozen", "proximal", "auto");
   Scene scene = cantilever(8, {1e5, 0.3}, Strain::corotational);
   const TriangleMesh mesh = grid_sheet({6, 6}, {1, 1});
   const int first = add_sheet_nodes(scene, mesh, 0.2);

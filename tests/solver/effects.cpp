@@ -62,7 +62,74 @@ void check_all(const std::variant<E...>*) {
   (check_if_rows<E>(), ...);
 }
 
+/// Symmetric part of the geometric stiffness -sum_r p_r d2c_r/dx2, by central differences of J^T p.
+template <class E>
+Eigen::MatrixXd geometric_stiffness(const E& effect, const typename Constraint<E>::Positions& x,
+                                    const typename Constraint<E>::Value& impulse) {
+  using C = Constraint<E>;
+  const Eigen::MatrixXd turned = differences<C>(x, [&](const auto& at) -> Eigen::VectorXd {
+    typename C::Value value;
+    typename C::Jacobian jacobian;
+    C::evaluate(effect, 0, at, value, jacobian);
+    return jacobian.transpose() * impulse;
+  });
+  return -(turned + turned.transpose()) / 2;
+}
+
+/// The bound holds for impulses of every sign, is zero where there are none, and is not idle: somewhere the
+/// stiffness reaches a tenth of it.
+template <class E>
+void check_geometric_bound(const E& effect, bool elastic_impulses) {
+  using C = Constraint<E>;
+  double tightest = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    const auto x = bent_positions<C::nodes>(seed);
+    typename C::Value impulse;
+    for (int r = 0; r < C::rows; ++r) impulse[r] = std::sin(3.7 * seed + 1.9 * r + 0.4);
+    if (elastic_impulses)
+      impulse = (seed % 2 ? 1 : -1) * C::compliance(effect, 0).inverse() * value_at(effect, x);
+    const auto bound = C::geometric_bound(effect, 0, x, impulse);
+    Eigen::VectorXd diagonal(3 * C::nodes);
+    for (int k = 0; k < diagonal.size(); ++k) diagonal[k] = bound[k / 3];
+    const Eigen::MatrixXd stiffness = geometric_stiffness(effect, x, impulse);
+    const double rounding = 1e-6 * stiffness.norm();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(
+        Eigen::MatrixXd(diagonal.asDiagonal()) - stiffness, Eigen::EigenvaluesOnly);
+    INFO(effect.name << ", seed " << seed);
+    CHECK(left.eigenvalues().minCoeff() >= -rounding);
+    CHECK(C::geometric_bound(effect, 0, x, C::Value::Zero()).isZero(0));
+    if (bound.minCoeff() > 0) {
+      const Eigen::VectorXd root = diagonal.cwiseSqrt().cwiseInverse();
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> share(
+          root.asDiagonal() * stiffness * root.asDiagonal(), Eigen::EigenvaluesOnly);
+      tightest = std::max(tightest, share.eigenvalues().maxCoeff());
+    }
+  }
+  if constexpr (!std::is_same_v<E, Anchor>) CHECK(tightest > 0.1);
+}
+
+template <class... E>
+void check_all_bounds(const std::variant<E...>*) {
+  const auto check = []<class Each>(const Each* none) {
+    if constexpr (RowEffect<Each>)
+      check_geometric_bound(sample<Each>(), false);
+    else
+      static_cast<void>(none);
+  };
+  (check(static_cast<const E*>(nullptr)), ...);
+}
+
 }  // namespace
+
+TEST_CASE("the geometric bounds of all effects bound their geometric stiffness") {
+  check_all_bounds(static_cast<Effect*>(nullptr));
+}
+
+TEST_CASE("the geometric bound of corotational strain holds for the stresses of its strain") {
+  TetStrain effect = sample<TetStrain>();
+  effect.strain = Strain::corotational;
+  check_geometric_bound(effect, true);
+}
 
 TEST_CASE("Jacobians of all effects equal central differences") {
   check_all(static_cast<Effect*>(nullptr));

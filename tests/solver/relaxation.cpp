@@ -137,6 +137,19 @@ TEST_CASE("accelerated Jacobi needs about the square root of Jacobi's sweeps") {
   CHECK(sweeps_to("jacobi") > 10 * sweeps_to("nesterov_jacobi"));
 }
 
+TEST_CASE("conjugate gradients end after as many sweeps as a chain has links, whatever its masses") {
+  const int links = 20;
+  const Planted problem(chain(links, GENERATE(1.0, 1e3)));
+  CHECK(errors(problem, "conjugate_gradients", links + 2).back() < 1e-8);
+  // Before that the error falls by Chebyshev's bound, 2 ((sqrt(kappa) - 1)/(sqrt(kappa) + 1))^k in the norm
+  // of N.
+  const Planted equal(chain(50, 1, true));
+  const double kappa = 1 / std::pow(std::tan(std::numbers::pi / (2 * 51)), 2);
+  const auto error = errors(equal, "conjugate_gradients", 30);
+  const double bound = 2 * std::sqrt(kappa) * std::pow((std::sqrt(kappa) - 1) / (std::sqrt(kappa) + 1), 30);
+  CHECK(error.back() < bound);
+}
+
 TEST_CASE("direct solves doubled constraints and gives equal motion") {
   Scene doubled = chain(8);
   doubled.effects.push_back(doubled.effects.back());

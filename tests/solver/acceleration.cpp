@@ -1,0 +1,52 @@
+#include "acceleration.h"
+
+#include <catch2/catch.hpp>
+
+using namespace pbd;
+
+namespace {
+
+/// Distance from the fixed point 0 after some iterations that multiply every component by a number of its
+/// own.
+double error_after(int iterations, int memory) {
+  Eigen::Matrix<double, 3, 2> growth;
+  growth << -3, -1.5, 0.5, 0.9, -20, 0.99;
+  Rows rows;
+  rows.inverse_mass = {1, 0.25};
+  Points v = Points::Ones(3, 2);
+  Anderson anderson(memory);
+  for (int k = 0; k < iterations; ++k) {
+    anderson.begin(rows, v);
+    v.array() *= growth.array();
+    anderson.accelerate(rows.inverse_mass, rows, v);
+  }
+  return v.norm();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "with as many differences as unknowns, a linear iteration ends at its fixed point, contracting or not") {
+  CHECK(error_after(8, 6) < 1e-8);
+  CHECK(error_after(8, 0) > 1e9);  // 20^8
+}
+
+TEST_CASE("a rejected acceleration leaves the image") {
+  Rows rows;
+  rows.inverse_mass = {1};
+  Points v = Points::Ones(3, 1);
+  Anderson anderson(5);
+  Points image = v;
+  for (int k = 0; k < 3; ++k) {
+    anderson.begin(rows, v);
+    v = Eigen::Vector3d(0.5, -2, 3).cwiseProduct(Eigen::Vector3d(v.col(0)));
+    image = v;
+    if (k == 2) REQUIRE(anderson.accelerate(rows.inverse_mass, rows, v));
+    if (k < 2) anderson.accelerate(rows.inverse_mass, rows, v);
+  }
+  CHECK(v != image);
+  anderson.reject(rows, v);
+  CHECK(v == image);
+  anderson.begin(rows, v);
+  CHECK_FALSE(anderson.accelerate(rows.inverse_mass, rows, v));  // nothing is left to combine
+}

@@ -21,7 +21,11 @@ StepData::StepData(const Scene& scene, const Method& method)
       seconds(rows.blocks.size(), 0.0),
       inertia(rows.inverse_mass.size(), 0.0),
       anderson(method.memory),
-      quasi_newton(method.memory) {
+      quasi_newton(method.memory),
+      krylov(most_krylov + 1, zero),
+      turned_x(zero),
+      push(zero) {
+  kept.reserve(static_cast<std::size_t>(2 * row_count(rows)));
   for (const double mass : scene.mass)
     if (std::isfinite(mass)) finite_mass += mass;
   if (finite_mass == 0) finite_mass = 1;  // nothing moves, and an unmet constraint still weighs
@@ -198,15 +202,16 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   const double extent = (map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff();
   const double largest = map.d * error.colwise().norm().maxCoeff();
   const double scale = turned * extent / largest;
-  const Points at = map.x0 + map.d * (v + scale * error);
-  Points push = map.v_free;
+  turned_x = map.x0 + map.d * (v + scale * error);
+  push = map.v_free;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    add_push(scene.effects[effect_of_block[b]], at, inverse_mass, rows.blocks[b], push);
+    add_push(scene.effects[effect_of_block[b]], turned_x, inverse_mass, rows.blocks[b], push);
   error = (push - rebuilt) / scale;
   if (on_potential) {
     for (std::size_t node = 0; node < inverse_mass.size(); ++node)
-      error.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
-    quasi_newton.solve(Points(error), error);
+      push.col(static_cast<Eigen::Index>(node)) = (inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0) *
+                                                  error.col(static_cast<Eigen::Index>(node));
+    quasi_newton.solve(push, error);
     return 0;
   }
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
@@ -216,11 +221,10 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
   contraction = bound_contraction(scene);
   if (!(contraction > slow_contraction)) return 0;
-  constexpr int most = 12, fewest = 3;  // vectors, in the first step and later ones
+  constexpr int most = most_krylov, fewest = 3;  // vectors, in the first step and later ones
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
-  const int count = krylov.empty() ? most : fewest;
-  if (krylov.empty()) {
-    krylov.assign(most + 1, v);
+  const int count = mode_known ? fewest : most;
+  if (!mode_known) {
     for (Eigen::Index k = 0; k < v.size(); ++k)
       krylov[0].reshaped()[k] = std::sin(12.9898 * static_cast<double>(k + 1));
     krylov[0] /= norm(krylov[0]);
@@ -259,6 +263,7 @@ std::int64_t StepData::estimate_contraction(const Scene& scene) {
   for (int k = 0; k < used; ++k)
     mode += ritz.eigenvectors()(k, largest).real() * krylov[static_cast<std::size_t>(k)];
   krylov[0] = mode / norm(mode);
+  mode_known = true;
   return sweeps;
 }
 
@@ -316,7 +321,7 @@ void StepData::find_free_components() {
 
 void StepData::forget_prediction() {
   contraction = std::nan("");
-  krylov.clear();
+  mode_known = false;
 }
 
 void StepData::forget_impulses() {

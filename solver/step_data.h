@@ -46,7 +46,10 @@ struct StepData {
 
   double contraction = std::nan("");  // of plain, at the end of the last step
   int slow_changes = 0;               // of v in this step, in a row
-  std::vector<Points> krylov;         // orthonormal in M; the first one is what plain reduces least
+  static constexpr int most_krylov = 12;
+  std::vector<Points> krylov;  // orthonormal in M; the first one is what plain reduces least, if known
+  bool mode_known = false;
+  Points turned_x, push;
   std::vector<double> kept;
 
   StepData(const Scene& scene, const Method& method);

@@ -11,6 +11,8 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "effects/constraint.h"
 #include "effects/polar.h"
@@ -52,8 +54,10 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
       }
   }
 
-  /// green: Y (-P) Y^T with P the impulses as a symmetric matrix. corotational: R turns by no more than
-  /// |dF| 2/(s_i + s_j), s the stretches, and turns -P with it; s_i + s_j counts as 0.1 at least.
+  /// green: Y (-P) Y^T with P the impulses as a symmetric matrix. corotational, where -P has eigenvalues t
+  /// along the axes of the stretches s: the entries (a, b), (b, a) of R^T dF meet [t_b, -(t_a + t_b)/2; ..,
+  /// t_a]/(s_a + s_b), of norm (t_a + t_b + sqrt(2 (t_a^2 + t_b^2)))/(2 (s_a + s_b)). The smallest s_a + s_b,
+  /// at least 0.1, serves for all pairs.
   static NodeBounds geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
                                     const Value& impulse) {
     if (effect.strain == Strain::linear) return NodeBounds::Zero();
@@ -69,10 +73,14 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
     const double pair =
         symmetric.trace() - Eigenvalues(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
     constexpr double least_pair = 0.1;
-    const double tension = Eigenvalues(-stress, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    if (!(tension > 0)) return NodeBounds::Zero();
-    return stress_bound(gradients(inverse), Eigen::Matrix3d(2 * tension / std::max(pair, least_pair) *
-                                                            Eigen::Matrix3d::Identity()));
+    const Vec3 tension = Eigenvalues(-stress, Eigen::EigenvaluesOnly).eigenvalues();
+    double largest = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double one = tension[a], other = tension[(a + 1) % 3];
+      largest = std::max(largest, (one + other + std::sqrt(2 * (one * one + other * other))) / 2);
+    }
+    return stress_bound(gradients(inverse),
+                        Eigen::Matrix3d(largest / std::max(pair, least_pair) * Eigen::Matrix3d::Identity()));
   }
 
  private:

@@ -72,6 +72,7 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
   Scene moved = scene;
   moved.effects.emplace_back(ExternalForce{});
   Method method;
+  method.outer = "plain";
   method.relaxation = "direct";
   method.tolerance = 1e-15;
   method.max_outer = most_iterations;

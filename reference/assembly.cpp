@@ -34,7 +34,8 @@ Assembly::Assembly(const Model& model) : model_(&model), offset_(model.elements.
     for (int a = 0; a < e.nodes; ++a)
       for (int b = 0; b < e.nodes; ++b) {
         const int i = model.unknown(e, a), j = model.unknown(e, b);
-        if (i >= 0 && j >= 0) use(static_cast<std::size_t>(4 * a + b), i / 3, j / 3);
+        if (i >= 0 && j >= 0)
+          use(4 * static_cast<std::size_t>(a) + static_cast<std::size_t>(b), i / 3, j / 3);
       }
   };
   for (int i = 0; i < model.unknowns / 3; ++i) pattern.emplace_back(i, i, 1.0);
@@ -102,7 +103,7 @@ void Assembly::add(const Element& e, std::size_t index, const Multipliers& multi
       if (j < 0) continue;
       Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
       for (int q = 0; q < e.columns; ++q) block += e.weight(b, q) * half.middleCols<3>(3 * q);
-      const int offset = offset_[index][static_cast<std::size_t>(4 * a + b)];
+      const int offset = offset_[index][4 * static_cast<std::size_t>(a) + static_cast<std::size_t>(b)];
       for (int d = 0; d < 3; ++d) Eigen::Map<Vec3>(values + outer[j + d] + offset) += block.col(d);
     }
     if (e.hard()) add_jacobian(e, a, i);

@@ -39,25 +39,25 @@ template <template <int> class Number, class Use>
 void with_value(const Element& element, const Eigen::Matrix3d& f, const Use& use) {
   switch (element.kind) {
     case Kind::anchor: {
-      auto columns = columns_of<typename Number<3>::type, 1>(f);
+      auto columns = columns_of<typename Number<3>::Type, 1>(f);
       for (std::size_t i = 0; i < 3; ++i) columns[0][i] -= element.rest(static_cast<int>(i));
       return use(columns[0]);
     }
     case Kind::distance: {
-      using T = typename Number<3>::type;
+      using T = typename Number<3>::Type;
       return use(std::array<T, 1>{length(columns_of<T, 1>(f)[0]) - T(element.rest(0))});
     }
     case Kind::bending: {
-      using T = typename Number<9>::type;
+      using T = typename Number<9>::Type;
       const auto d = columns_of<T, 3>(f);
       return use(std::array<T, 1>{wrapped(hinge_angle(d[0], d[1], d[2]) - T(element.rest(0)))});
     }
     case Kind::triangle:
-      return use(green_strain(columns_of<typename Number<6>::type, 2>(f)));
+      return use(green_strain(columns_of<typename Number<6>::Type, 2>(f)));
     case Kind::green:
-      return use(green_strain(columns_of<typename Number<9>::type, 3>(f)));
+      return use(green_strain(columns_of<typename Number<9>::Type, 3>(f)));
     case Kind::linear:
-      return use(linear_strain(columns_of<typename Number<9>::type, 3>(f)));
+      return use(linear_strain(columns_of<typename Number<9>::Type, 3>(f)));
     case Kind::corotational:
       return;  // polar.h
   }
@@ -65,11 +65,11 @@ void with_value(const Element& element, const Eigen::Matrix3d& f, const Use& use
 
 template <int D>
 struct Plain {
-  using type = double;
+  using Type = double;
 };
 template <int D>
 struct Differentiated {
-  using type = Jet<D>;
+  using Type = Jet<D>;
 };
 
 }  // namespace

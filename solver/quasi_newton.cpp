@@ -29,7 +29,7 @@ void QuasiNewton::factor(const StepMap& map, const std::vector<double>& inverse_
   Eigen::SparseMatrix<double> matrix(order, order);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factored(matrix);
-  lower_ = factored.matrixL().nestedExpression().cast<float>();
+  lower_ = factored.matrixL().nestedExpression();
   for (int& column : column_)
     if (column >= 0) column = factored.permutationP().indices()(column);
   work_.setZero(4, order);
@@ -45,7 +45,7 @@ void QuasiNewton::solve(const Points& right, Points& result) {
     if (column_[node] >= 0) work_.col(column_[node]).head<3>() = right.col(static_cast<Eigen::Index>(node));
   const int* const start = lower_.outerIndexPtr();
   const int* const row = lower_.innerIndexPtr();
-  const float* const value = lower_.valuePtr();
+  const double* const value = lower_.valuePtr();
   for (int j = 0; j < lower_.cols(); ++j) {
     const Eigen::Vector4d solved = work_.col(j) / value[start[j]];
     work_.col(j) = solved;

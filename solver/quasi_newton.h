@@ -42,9 +42,9 @@ class QuasiNewton {
 
   int memory_;
   int count_ = 0;
-  double d_ = 0, s_ = 0;              // s, of the steps that P is factored for
-  std::vector<int> column_;           // of each node in L, -1 for infinite mass
-  Eigen::SparseMatrix<float> lower_;  // L of P = L L^T, permuted; rounded, which makes it another metric
+  double d_ = 0, s_ = 0;               // s, of the steps that P is factored for
+  std::vector<int> column_;            // of each node in L, -1 for infinite mass
+  Eigen::SparseMatrix<double> lower_;  // L of P = L L^T, permuted
   Columns work_;
   Points q_;
   std::vector<double> alpha_;

@@ -129,12 +129,12 @@ void StepData::descend(const Scene& scene, bool first) {
   constexpr int most_halvings = 30;
   const double before = potential;
   search_from = v;
+  last_gradient = gradient;
   if (first) {
     v = map.v_free;
     evaluate_potential(scene);
     if (potential < before) return;
-    v = search_from;
-    evaluate_potential(scene);
+    gradient = last_gradient;
   }
   const auto along = [this] { return (gradient.array() * direction.array()).sum(); };
   quasi_newton.direction(gradient, direction);
@@ -143,7 +143,6 @@ void StepData::descend(const Scene& scene, bool first) {
     quasi_newton.direction(gradient, direction);
   }
   const double slope = along();
-  last_gradient = gradient;
   double length = 1;
   for (int k = 0; k < most_halvings; ++k, length /= 2) {
     v = search_from + length * direction;
@@ -203,17 +202,12 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     add_push(scene.effects[effect_of_block[b]], at, inverse_mass, rows.blocks[b], push);
   error = (push - rebuilt) / scale;
-  if (on_potential) {
-    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
-      error.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
-    quasi_newton.solve(Points(error), error);
-    return 0;
-  }
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
   return relax_homogeneous(relaxation, rows, error, rough, kept);
 }
 
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
+  if (on_potential) return 0;
   contraction = bound_contraction(scene);
   if (!(contraction > slow_contraction)) return 0;
   constexpr int most = 12, fewest = 3;  // vectors, in the first step and later ones

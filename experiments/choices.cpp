@@ -8,6 +8,7 @@
 #include "names.h"
 #include "outer.h"
 #include "relaxation.h"
+#include "rivals/rival.h"
 #include "scene.h"
 
 namespace pbdcheck {
@@ -81,6 +82,9 @@ std::vector<std::string> outer_choices() {
 }
 std::vector<std::string> relaxation_choices() {
   return strings(pbd::relaxation_names());
+}
+std::vector<std::string> rival_names() {
+  return strings(pbd::names(pbd::rivals::rivals()));
 }
 
 }  // namespace pbdcheck

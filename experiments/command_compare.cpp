@@ -6,12 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "commands.h"
-#include "error.h"
+#include "contender.h"
 #include "files.h"
 #include "interrupt.h"
 #include "judges.h"
@@ -94,30 +92,6 @@ class Comparison {
   Table table_;
 };
 
-/// Refuses a --method without settings, and one that sets a key twice.
-void refuse_repeats(const std::string& text) {
-  std::set<std::string> keys;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::string key = word.substr(0, word.find('='));
-    if (!keys.insert(key).second) throw pbd::SetupError("--method " + key, "`" + text + "`", "each key once");
-  }
-  if (keys.empty()) throw pbd::SetupError("--method", "`" + text + "`", "\"KEY=VALUE ...\"");
-}
-
-std::vector<pbd::Method> parsed_methods(const CompareOptions& options, const pbd::Method& base) {
-  std::vector<pbd::Method> methods;
-  for (const auto& text : options.methods) {
-    refuse_repeats(text);
-    methods.push_back(parse_method(text, base, "--method"));
-  }
-  for (const auto& method : methods)
-    if (method.integrator != "implicit_euler")
-      throw pbd::SetupError("--method integrator", "`" + method.integrator + "`",
-                            "implicit_euler, the step the references solve");
-  return methods;
-}
-
 nlohmann::ordered_json settings_json(const CompareOptions& options, const SceneFile& file,
                                      const std::string& reference) {
   return {{"scene", options.scene.string()}, {"set", options.settings},
@@ -143,7 +117,7 @@ void draw(const std::filesystem::path& directory) {
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const SceneFile file = read_scene_file(options.scene, options.settings);
-  const auto methods = parsed_methods(options, file.method);
+  const auto contenders = parsed_contenders(options.methods, file);
   const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
   require_writable(options.directory);
   Comparison comparison(options, file);
@@ -164,15 +138,16 @@ int compare(const CompareOptions& options) {
     error_message(reason);
   }
   bool all_ok = outcome == Outcome::complete && missed == 0;
-  Progress progress("compare", static_cast<std::int64_t>(methods.size()));
+  Progress progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
-    for (const auto& method : methods) {
+    for (const auto& contender : contenders) {
+      const auto& method = contender.method;
       if (outcome == Outcome::failed) {
         comparison.skip(method, reason);
         continue;
       }
       throw_if_interrupted();
-      const Trace trace = measure(file.scene, state, file.step_s, method, judged.x);
+      const Trace trace = measure([&] { return contender.measure_once(file, state, judged.x); });
       if (!comparison.add_trace(method, trace)) {
         all_ok = false;
         warn(fmt::format("{} {} missed its tolerance: {}", method.outer, method.relaxation,

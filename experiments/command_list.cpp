@@ -70,6 +70,7 @@ const std::vector<Kind>& kinds() {
       {"relaxations", [] { return named(relaxation_choices()); }},
       {"frictions", [] { return std::vector<Item>(); }},
       {"references", reference_items},
+      {"rivals", [] { return named(rival_names()); }},
       {"cases", case_items},
   };
   return list;

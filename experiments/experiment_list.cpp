@@ -19,6 +19,7 @@ const std::vector<Experiment>& experiments() {
        mesh_refinement},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
+      {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},
   };

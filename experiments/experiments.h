@@ -11,6 +11,7 @@ void inner_convergence(Context& context);
 void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
 void work_precision(Context& context);
+void rival_newton(Context& context);
 void effects_cost(Context& context);
 
 std::vector<Case> outer_convergence_cases(bool full);

@@ -79,7 +79,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   add_scene_options(*command, options.scene, options.settings, options.directory);
   command
       ->add_option("--method", options.methods,
-                   "KEY=VALUE ... on top of the scene's [method], in quotes; may be repeated")
+                   "KEY=VALUE ... on top of the scene's [method], or rival=NAME with tolerance=VALUE and\n"
+                   "max_outer=VALUE at most, in quotes; may be repeated")
       ->required()
       ->allow_extra_args(false);
   command->add_option("--reference", options.reference, "One of `list references`; the first if left out")

@@ -3,16 +3,19 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rivals/rival.h"
 #include "scene.h"
 #include "step.h"
 
 namespace pbdcheck {
 
-/// The step after `outer_iterations`. `wall_s` leaves out the observer and is the smallest of the repeats.
+/// The step after `outer_iterations`. `wall_s` begins with the making of workspace or rival, leaves out the
+/// observer and is the smallest of the repeats.
 struct TracePoint {
   int outer_iterations = 0;
   std::int64_t sweeps = 0;
@@ -55,9 +58,16 @@ double relative_error(const pbd::Points& x, const pbd::Points& reference, const 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
                    const pbd::Points& reference_x);
 
-/// Does the step of h seconds from `state` `timed_repeats` times, each with a fresh workspace (no warm
-/// start), against the end positions `reference_x`. Throws SetupError as Workspace does.
-Trace measure(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-              const pbd::Points& reference_x);
+/// The same by a rival. Throws SetupError as its making does.
+Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,
+                   const pbd::rivals::NamedRival& rival, const pbd::rivals::Budget& budget,
+                   const pbd::Points& reference_x);
+
+/// `once` `timed_repeats` times after a discarded run, with the smallest times; a step that misses its
+/// tolerance is done once.
+Trace measure(const std::function<Trace()>& once);
+
+/// A rival's report as our solver would give it.
+pbd::Report report_of(const pbd::rivals::Report& report);
 
 }  // namespace pbdcheck

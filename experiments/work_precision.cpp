@@ -1,13 +1,14 @@
 // What accuracy costs: error against the judge over seconds, row updates and outer iterations, for every
-// outer iteration and relaxation, over tolerance and step; the judges' own times on the same axes.
+// outer iteration and relaxation, over tolerance and step; the judges' and rivals' own times on the same
+// axes.
 #include <algorithm>
 #include <cmath>
 
+#include "error.h"
 #include "experiments.h"
 #include "judge.h"
 #include "judges.h"
 #include "measure.h"
-#include "names.h"
 #include "outer.h"
 #include "relaxation.h"
 #include "scenes/standard.h"
@@ -40,27 +41,56 @@ void judge_points(const Case& each, const State& start, const Points& exact, Tab
   }
 }
 
-void method_points(const Case& each, const State& start, const Points& exact, std::string_view outer,
-                   std::string_view relaxation, bool full, Table& table) {
-  bool failed = false;
+/// One row a tolerance by `solve`; the tighter ones are skipped where one was missed, all of them where the
+/// scene does not allow the method.
+void tolerance_points(const Case& each, std::string_view outer, std::string_view relaxation,
+                      const std::function<Trace(double)>& solve, Table& table) {
+  std::string skipped;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-    if (failed) {
-      add_point(table, each, outer, relaxation, tolerance, {.wall_s = std::nan(""), .error = std::nan("")},
-                "skipped", "a looser tolerance was not reached");
-      continue;
+    TracePoint point{.wall_s = std::nan(""), .error = std::nan("")};
+    std::string_view status = "skipped";
+    std::string reason = skipped;
+    try {
+      if (skipped.empty()) {
+        const Trace trace = measure([&] { return solve(tolerance); });
+        point = trace.points.back();
+        status = status_names[static_cast<std::size_t>(trace.report.status)];
+        reason = trace.report.reason;
+        if (trace.report.status != Status::ok) skipped = "a looser tolerance was not reached";
+      }
+    } catch (const SetupError& error) {
+      reason = skipped = error.what();
     }
-    Method method;
-    method.outer = outer;
-    method.relaxation = relaxation;
-    method.tolerance = tolerance;
-    method.max_outer = full ? 1000 : 200;
-    method.max_sweeps = 20;
-    method.inner_tolerance = 0.1;
-    const Trace trace = measure(each.scene, start, each.h, method, exact);
-    failed = trace.report.status != Status::ok;
-    add_point(table, each, outer, relaxation, tolerance, trace.points.back(),
-              status_names[static_cast<std::size_t>(trace.report.status)], trace.report.reason);
+    add_point(table, each, outer, relaxation, tolerance, point, status, reason);
   }
+}
+
+void method_points(const Case& each, const State& start, const Points& exact, const Outer& outer,
+                   std::string_view relaxation, int max_outer, Table& table) {
+  Method method;
+  method.outer = outer.name;
+  method.max_outer = max_outer;
+  if (outer.potential != OnPotential::always) method.relaxation = relaxation;
+  const auto solve = [&](double tolerance) {
+    method.tolerance = tolerance;
+    return measure_once(each.scene, start, each.h, method, exact);
+  };
+  tolerance_points(each, outer.name, relaxation, solve, table);
+}
+
+void rival_points(const Case& each, const State& start, const Points& exact, int max_iterations,
+                  Table& table) {
+  for (const auto& rival : rivals::rivals()) {
+    const auto solve = [&](double tolerance) {
+      return measure_once(each.scene, start, each.h, rival, {tolerance, max_iterations}, exact);
+    };
+    tolerance_points(each, "rival", rival.name, solve, table);
+  }
+}
+
+/// The relaxations that make a difference to an outer iteration.
+std::vector<std::string_view> relaxations_for(const Outer& outer) {
+  return outer.potential == OnPotential::always ? std::vector<std::string_view>{"none"} : relaxation_names();
 }
 
 }  // namespace
@@ -80,6 +110,7 @@ std::vector<Case> work_precision_cases(bool full) {
 
 void work_precision(Context& context) {
   const auto all = work_precision_cases(context.full());
+  const int budget = context.full() ? 1000 : 200;  // outer iterations
   context.begin(std::ssize(all));
   Table table = context.table(
       "points", {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "tolerance",
@@ -87,9 +118,10 @@ void work_precision(Context& context) {
   for (const auto& each : all) {
     const State start = start_of(each);
     const Points exact = truth(each.scene, start, each.h).x;
-    for (const auto& outer : names(outers()))
-      for (const auto& relaxation : relaxation_names())
-        method_points(each, start, exact, outer, relaxation, context.full(), table);
+    for (const auto& outer : outers())
+      for (const auto& relaxation : relaxations_for(outer))
+        method_points(each, start, exact, outer, relaxation, budget, table);
+    rival_points(each, start, exact, budget, table);
     judge_points(each, start, exact, table);
     context.advance(each.name);
   }

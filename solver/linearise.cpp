@@ -120,19 +120,20 @@ BlockPotential add_potential(const Effect& effect, const StepMap& map, const Poi
         BlockPotential sum;
         if constexpr (RowEffect<E>) {
           auto& block = std::get<BlockOf<E>>(any);
+          typename BlockOf<E>::Value value;
+          typename BlockOf<E>::Jacobian jacobian;
           for (std::size_t i = 0; i < block.size(); ++i) {
-            typename BlockOf<E>::Value value;
             const auto local = positions(block, x, i);
-            Constraint<E>::evaluate(stated, i, local, value, block.jacobian[i]);
+            Constraint<E>::evaluate(stated, i, local, value, jacobian);
             value /= map.d;
             block.impulse[i].noalias() = -block.stiffness[i] * value;
             sum.value -= value.dot(block.impulse[i]) / 2;
             const double size = roundoff * local.cwiseAbs().maxCoeff() / map.d * block.stiffness[i].trace() *
-                                block.jacobian[i].squaredNorm();
+                                jacobian.squaredNorm();
             double inverse = 0;
             for (const int node : block.node[i]) inverse += inverse_mass[static_cast<std::size_t>(node)];
             sum.rounding_squared += size * size * inverse;
-            block.apply(inverse_mass, i, block.impulse[i], v);
+            block.apply(inverse_mass, i, jacobian, block.impulse[i], v);
           }
         }
         return sum;

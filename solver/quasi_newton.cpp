@@ -1,5 +1,6 @@
 #include "quasi_newton.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 
 namespace pbd {
@@ -13,9 +14,9 @@ double dot(const Points& a, const Points& b) {
 
 void QuasiNewton::factor(const StepMap& map, const std::vector<double>& inverse_mass,
                          const std::vector<Eigen::Triplet<double>>& stiffness) {
+  int order = 0;
   column_.clear();
-  order_ = 0;
-  for (const double inverse : inverse_mass) column_.push_back(inverse > 0 ? order_++ : -1);
+  for (const double inverse : inverse_mass) column_.push_back(inverse > 0 ? order++ : -1);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t node = 0; node < column_.size(); ++node)
     if (column_[node] >= 0) entries.emplace_back(column_[node], column_[node], 1 / inverse_mass[node]);
@@ -25,24 +26,40 @@ void QuasiNewton::factor(const StepMap& map, const std::vector<double>& inverse_
     if (row >= 0 && column >= 0)
       entries.emplace_back(std::max(row, column), std::min(row, column), entry.value());
   }
-  Eigen::SparseMatrix<double> matrix(order_, order_);
+  Eigen::SparseMatrix<double> matrix(order, order);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_->compute(matrix);
-  right_.resize(order_, 3);
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factored(matrix);
+  lower_ = factored.matrixL().nestedExpression();
+  for (int& column : column_)
+    if (column >= 0) column = factored.permutationP().indices()(column);
+  work_.setZero(4, order);
   d_ = map.d;
   s_ = map.s;
   forget();
 }
 
+/// Both triangles are passed once for all three axes: the time is that of reading L. The diagonal is the
+/// first entry of each of its columns.
 void QuasiNewton::solve(const Points& right, Points& result) {
   for (std::size_t node = 0; node < column_.size(); ++node)
-    if (column_[node] >= 0)
-      right_.row(column_[node]) = right.col(static_cast<Eigen::Index>(node)).transpose();
-  right_ = factor_->solve(right_);
+    if (column_[node] >= 0) work_.col(column_[node]).head<3>() = right.col(static_cast<Eigen::Index>(node));
+  const int* const start = lower_.outerIndexPtr();
+  const int* const row = lower_.innerIndexPtr();
+  const double* const value = lower_.valuePtr();
+  for (int j = 0; j < lower_.cols(); ++j) {
+    const Eigen::Vector4d solved = work_.col(j) / value[start[j]];
+    work_.col(j) = solved;
+    for (int k = start[j] + 1; k < start[j + 1]; ++k) work_.col(row[k]) -= value[k] * solved;
+  }
+  for (auto j = static_cast<int>(lower_.cols()) - 1; j >= 0; --j) {
+    Eigen::Vector4d rest = work_.col(j);
+    for (int k = start[j] + 1; k < start[j + 1]; ++k) rest -= value[k] * work_.col(row[k]);
+    work_.col(j) = rest / value[start[j]];
+  }
   for (std::size_t node = 0; node < column_.size(); ++node) {
     const auto column = static_cast<Eigen::Index>(node);
     if (column_[node] >= 0)
-      result.col(column) = right_.row(column_[node]).transpose();
+      result.col(column) = work_.col(column_[node]).head<3>();
     else
       result.col(column).setZero();
   }
@@ -66,19 +83,19 @@ void QuasiNewton::learn(const Points& step, const Points& change) {
 
 void QuasiNewton::direction(const Points& gradient, Points& result) {
   const int used = std::min(count_, memory_);
-  std::vector<double> alpha(static_cast<std::size_t>(used));
-  Points q = -gradient;
+  alpha_.resize(static_cast<std::size_t>(used));
+  q_ = -gradient;
   for (int k = 0; k < used; ++k) {  // newest first
     const auto slot = static_cast<std::size_t>((count_ - 1 - k) % memory_);
-    alpha[static_cast<std::size_t>(k)] = dot(steps_[slot], q) / curvature_[slot];
-    q -= alpha[static_cast<std::size_t>(k)] * changes_[slot];
+    alpha_[static_cast<std::size_t>(k)] = dot(steps_[slot], q_) / curvature_[slot];
+    q_ -= alpha_[static_cast<std::size_t>(k)] * changes_[slot];
   }
   result.resizeLike(gradient);
-  solve(q, result);
+  solve(q_, result);
   for (int k = used - 1; k >= 0; --k) {
     const auto slot = static_cast<std::size_t>((count_ - 1 - k) % memory_);
     const double beta = dot(changes_[slot], result) / curvature_[slot];
-    result += (alpha[static_cast<std::size_t>(k)] - beta) * steps_[slot];
+    result += (alpha_[static_cast<std::size_t>(k)] - beta) * steps_[slot];
   }
 }
 

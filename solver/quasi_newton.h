@@ -6,8 +6,7 @@
 // step length (Liu, Bouaziz, Kavan 2017). L-BFGS on top (Nocedal 1980), backtracking on phi.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <memory>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "integrators.h"
@@ -39,16 +38,16 @@ class QuasiNewton {
   void solve(const Points& right, Points& result);
 
  private:
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  using Columns = Eigen::Matrix<double, 4, Eigen::Dynamic>;  // x, y, z, and 0 for whole vector registers
 
   int memory_;
   int count_ = 0;
-  int order_ = 0;
-  double d_ = 0, s_ = 0;     // s, of the steps that P is factored for
-  std::vector<int> column_;  // of each node in P, -1 for infinite mass
-  using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
-  std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();
-  Columns right_;
+  double d_ = 0, s_ = 0;               // s, of the steps that P is factored for
+  std::vector<int> column_;            // of each node in L, -1 for infinite mass
+  Eigen::SparseMatrix<double> lower_;  // L of P = L L^T, permuted
+  Columns work_;
+  Points q_;
+  std::vector<double> alpha_;
   std::vector<Points> steps_, changes_;
   std::vector<double> curvature_;  // of each pair, change . step
 };

@@ -49,7 +49,7 @@ struct EffectCost {
   std::int64_t bytes = 0;  // of its rows
   double seconds = 0;      // linearising, and relaxing as the first of each outer iteration's sweeps took;
                            // what `direct` spends in its common factorisation is in no effect's share
-  double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step; 1
+  double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step
 };
 
 /// What a step reached. Residuals are absolute, in sqrt(J).
@@ -62,8 +62,8 @@ struct Report {
   double primal = 0;
   double dual = 0;
   double scale = 0;
-  double contraction =
-      std::nan("");  // of plain at the step's end: what it multiplies an error by; an estimate
+  double contraction = std::nan("");  // of plain at the step's end: what it multiplies an error by; an
+                                      // estimate, for quasi_newton an upper bound
 
   /// Largest residual relative to `scale`; 0 if both vanish.
   double residual() const;

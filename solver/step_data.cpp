@@ -133,12 +133,12 @@ void StepData::descend(const Scene& scene, bool first) {
   constexpr int most_halvings = 30;
   const double before = potential;
   search_from = v;
+  last_gradient = gradient;
   if (first) {
     v = map.v_free;
     evaluate_potential(scene);
     if (potential < before) return;
-    v = search_from;
-    evaluate_potential(scene);
+    gradient = last_gradient;
   }
   const auto along = [this] { return (gradient.array() * direction.array()).sum(); };
   quasi_newton.direction(gradient, direction);
@@ -147,7 +147,6 @@ void StepData::descend(const Scene& scene, bool first) {
     quasi_newton.direction(gradient, direction);
   }
   const double slope = along();
-  last_gradient = gradient;
   double length = 1;
   for (int k = 0; k < most_halvings; ++k, length /= 2) {
     v = search_from + length * direction;
@@ -207,20 +206,13 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     add_push(scene.effects[effect_of_block[b]], turned_x, inverse_mass, rows.blocks[b], push);
   error = (push - rebuilt) / scale;
-  if (on_potential) {
-    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
-      push.col(static_cast<Eigen::Index>(node)) = (inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0) *
-                                                  error.col(static_cast<Eigen::Index>(node));
-    quasi_newton.solve(push, error);
-    return 0;
-  }
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
   return relax_homogeneous(relaxation, rows, error, rough, kept);
 }
 
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
   contraction = bound_contraction(scene);
-  if (!(contraction > slow_contraction)) return 0;
+  if (on_potential || !(contraction > slow_contraction)) return 0;
   constexpr int most = most_krylov, fewest = 3;  // vectors, in the first step and later ones
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
   const int count = mode_known ? fewest : most;

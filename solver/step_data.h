@@ -85,7 +85,7 @@ struct StepData {
   std::int64_t relax(bool fresh, const InnerBudget& budget);
 
   /// Estimates at v what plain would multiply its error by: the bound where that is small, else Arnoldi's
-  /// method on the error's map. Returns the number of sweeps it took.
+  /// method on the error's map; nothing where plain is no choice. Returns the number of sweeps it took.
   std::int64_t estimate_contraction(const Scene& scene);
 
   /// A proximal term moves momentum from one iterate to the next, which vanishes as they converge. Gives

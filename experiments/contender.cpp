@@ -1,0 +1,76 @@
+#include "contender.h"
+
+#include <map>
+#include <sstream>
+
+#include "builder.h"
+#include "choices.h"
+#include "error.h"
+#include "names.h"
+
+namespace pbdcheck {
+namespace {
+
+/// The words KEY=VALUE of a --method, by key; refuses none, and a key that stands twice.
+std::map<std::string, std::string> words_of(const std::string& text) {
+  std::map<std::string, std::string> found;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string key = word.substr(0, word.find('='));
+    if (!found.emplace(key, word).second)
+      throw pbd::SetupError("--method " + key, "`" + text + "`", "each key once");
+  }
+  if (found.empty()) throw pbd::SetupError("--method", "`" + text + "`", "\"KEY=VALUE ...\"");
+  return found;
+}
+
+/// "rival=NAME", with a tolerance and a number of iterations (`max_outer`) at most.
+Contender parsed_rival(std::map<std::string, std::string> words, const pbd::Method& base) {
+  const std::string option = "--method", word = words.extract("rival").mapped();
+  const std::string name = word.substr(std::min(word.find('='), word.size() - 1) + 1);
+  require_name(option + " rival", name, rival_names());
+  std::string settings;
+  for (const auto& [key, setting] : words) {
+    if (key != "tolerance" && key != "max_outer")
+      throw pbd::SetupError(option + " " + key, "`" + setting + "` for a rival", "tolerance, max_outer");
+    settings += setting + " ";
+  }
+  Contender contender{parse_method(settings, base, option)};
+  contender.method.outer = "rival";
+  contender.method.relaxation = name;
+  contender.rival = &pbd::find_named(pbd::rivals::rivals(), "rival", name);
+  return contender;
+}
+
+/// Refuses what the scene does not allow, and steps that the references do not solve.
+void require_possible(const Contender& contender, const SceneFile& file) {
+  if (contender.method.integrator != "implicit_euler")
+    throw pbd::SetupError("--method integrator", "`" + contender.method.integrator + "`",
+                          "implicit_euler, the step the references solve");
+  if (contender.rival)
+    contender.rival->make(file.scene, file.step_s);
+  else
+    pbd::Workspace(file.scene, contender.method);
+}
+
+}  // namespace
+
+Trace Contender::measure_once(const SceneFile& file, const pbd::State& state,
+                              const pbd::Points& exact) const {
+  return rival ? pbdcheck::measure_once(file.scene, state, file.step_s, *rival,
+                                        {method.tolerance, method.max_outer}, exact)
+               : pbdcheck::measure_once(file.scene, state, file.step_s, method, exact);
+}
+
+std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, const SceneFile& file) {
+  std::vector<Contender> contenders;
+  for (const auto& text : texts) {
+    const auto words = words_of(text);
+    contenders.push_back(words.contains("rival") ? parsed_rival(words, file.method)
+                                                 : Contender{parse_method(text, file.method, "--method")});
+    located("--method \"" + text + "\"", [&] { require_possible(contenders.back(), file); });
+  }
+  return contenders;
+}
+
+}  // namespace pbdcheck

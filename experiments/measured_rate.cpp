@@ -28,6 +28,13 @@ ExternalForce compensation(const Scene& scene, const Points& change, double h) {
   return effect;
 }
 
+Points without_symmetry(const Scene& scene) {
+  Points direction(3, scene.nodes());
+  for (Eigen::Index k = 0; k < direction.size(); ++k)
+    direction.reshaped()[k] = std::sin(3 * static_cast<double>(k) + 1);
+  return direction;
+}
+
 double change_of(const State& start, const reference::Judgement& solved) {
   return (solved.v - start.v).norm();
 }
@@ -60,8 +67,8 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
   constexpr int most_restarts = 40, most_iterations = 400;
   const Method method = plain(most_iterations, 1e-15);
   const double scale = change_of(start, solved);
-  Points direction = start.v - solved.v;
-  double rate = 0;
+  Points direction = without_symmetry(scene);
+  double last_rate = 0, last_mean = 0;
   for (int restart = 0; restart < most_restarts; ++restart) {
     Moved moved = beside(scene, start, h, solved, direction);
     Workspace workspace(moved.scene, method);
@@ -75,10 +82,12 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
       ++iterations;
     });
     if (!(last < begin)) return std::nan("");
-    const double next = std::pow(last / begin, 1.0 / iterations);
-    if (next <= begin) return 0;
-    if (std::abs(next / rate - 1) < settled) return next;
-    rate = next;
+    const double rate = std::pow(last / begin, 1.0 / iterations);
+    if (rate < least_rate) return 0;
+    const double mean = std::sqrt(rate * last_rate);
+    if (std::abs(mean / last_mean - 1) < settled) return mean;
+    last_rate = rate;
+    last_mean = mean;
   }
   return std::nan("");
 }
@@ -86,7 +95,7 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
 bool plain_returns(const Scene& scene, const State& start, double h, const reference::Judgement& solved,
                    int iterations) {
   const Method method = plain(iterations, 1e-12);
-  Moved moved = beside(scene, start, h, solved, start.v - solved.v);
+  Moved moved = beside(scene, start, h, solved, without_symmetry(scene));
   Workspace workspace(moved.scene, method);
   return step(moved.scene, method, h, moved.start, workspace).status == Status::ok;
 }

@@ -9,11 +9,14 @@
 
 namespace pbdcheck {
 
+/// Below this a rate cannot be told from what curvature makes of the error.
+inline constexpr double least_rate = 1e-3;
+
 /// Asymptotic contraction an iteration of `plain`, linear problems solved by `direct`, at the solved step of
 /// h seconds from `start`. An iteration that contracts well reaches rounding before its slowest mode stands
 /// alone, so the error is followed from 1e-6 to 1e-10 of the step and then started anew along its last
-/// direction. 0 if the rate is no larger than the error itself, which leaves nothing to measure; NaN if the
-/// error does not fall or the rate does not settle.
+/// direction; where modes of opposite signs contract alike, two runs in turn give the rate as their mean. 0
+/// below `least_rate`; NaN if the error does not fall or the rate does not settle.
 double measured_rate(const pbd::Scene& scene, const pbd::State& start, double h,
                      const pbd::reference::Judgement& solved);
 

@@ -83,8 +83,8 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
     });
     if (!(last < begin)) return std::nan("");
     const double rate = std::pow(last / begin, 1.0 / iterations);
-    if (rate < least_rate) return 0;
     const double mean = std::sqrt(rate * last_rate);
+    if (last == 0 || (restart > 0 && mean < least_rate)) return 0;
     if (std::abs(mean / last_mean - 1) < settled) return mean;
     last_rate = rate;
     last_mean = mean;

@@ -32,7 +32,7 @@ def rates(frame):
     absent = sorted(set(name(*key) for key in zip(frame["effect"], frame["strain"])) -
                     set(name(*key) for key, _ in groups))
     still = f"Always below {LEAST:g}: {', '.join(absent)}. " if absent else ""
-    footnote(fig, f"{len(frame) - len(drawn)} cases with a radius below {LEAST:g} are not drawn. " + still
+    footnote(fig, f"{len(frame) - len(drawn)} cases with a radius below {LEAST:g} are not drawn, other values below stand on the lower edge. " + still
              + reasons_note(failed(drawn, "measured_rate")))
     return fig
 

@@ -35,15 +35,16 @@ def maps(frame, value):
     for ax, ((outer, memory), rows) in zip(axes, chosen):
         mesh = map_panel(ax, rows, value, most)
         ax.set_title(method_name(outer, memory))
-        draw_limit(ax, frame, value)
     fig.supxlabel("step", fontsize=8)
     fig.supylabel(AXES[value], fontsize=8)
     fig.colorbar(mesh, ax=axes, label="outer iterations to an error of 1e-8", extend="max")
     met = [status for status in MARKS if unsolved(frame)["status"].eq(status).any()]
     handles = [plt.Line2D([], [], color=BLACK, marker=MARKS[status], linestyle="", markerfacecolor="none") for status in met]
-    handles.append(plt.Line2D([], [], color=RED, linestyle="--"))
-    fig.legend(handles, [*(MEANING.get(status, status) for status in met), "predicted contraction of plain = 1"],
-               loc="upper center", bbox_to_anchor=(0.5, 0), ncol=5)
+    labels = [MEANING.get(status, status) for status in met]
+    if draw_limit(axes[0], frame, value):
+        handles.append(plt.Line2D([], [], color=RED, linestyle="--"))
+        labels.append("predicted contraction of plain = 1")
+    fig.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=5)
     footnote(fig, f"{frame['scene'].iloc[0]}, error against Newton. " + reasons_note(failed(frame, "iterations")))
     return fig
 
@@ -72,12 +73,15 @@ def map_panel(ax, rows, value, most):
 
 
 def draw_limit(ax, frame, value):
-    """The line where the solver predicts that plain stops converging, by an iteration that solves by the same rows."""
+    """The line where the solver predicts that plain stops converging, by an iteration that solves by the same rows; false
+    if it does not run through the map."""
     rows = frame[(frame["outer"] == "proximal") & (frame["memory"] > 0)]
     predicted = rows.pivot_table("predicted_contraction", value, "step_s", dropna=False)
     known = predicted.where((predicted > 0) & (predicted <= LARGEST))
-    if min(known.shape) > 1 and (known < 1).any(axis=None) and (known > 1).any(axis=None):
+    crosses = min(known.shape) > 1 and (known < 1).any(axis=None) and (known > 1).any(axis=None)
+    if crosses:
         ax.contour(known.columns, known.index, np.log(known), levels=[0.0], colors=RED, linestyles="--", linewidths=1.2)
+    return crosses
 
 
 @figure("stability_map", "predictions", table="predictions")

@@ -64,7 +64,7 @@ Method plain(int iterations, double tolerance) {
 
 double measured_rate(const Scene& scene, const State& start, double h, const reference::Judgement& solved) {
   constexpr double end = 1e-10, settled = 1e-3;
-  constexpr int most_restarts = 40, most_iterations = 400;
+  constexpr int fewest_restarts = 8, most_restarts = 40, most_iterations = 400;
   const Method method = plain(most_iterations, 1e-15);
   const double scale = change_of(start, solved);
   Points direction = without_symmetry(scene);
@@ -84,8 +84,9 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
     if (!(last < begin)) return std::nan("");
     const double rate = std::pow(last / begin, 1.0 / iterations);
     const double mean = std::sqrt(rate * last_rate);
-    if (last == 0 || (restart > 0 && mean < least_rate)) return 0;
-    if (std::abs(mean / last_mean - 1) < settled) return mean;
+    if (last == 0) return 0;
+    if (restart >= fewest_restarts && mean < least_rate) return 0;
+    if (restart >= fewest_restarts && std::abs(mean / last_mean - 1) < settled) return mean;
     last_rate = rate;
     last_mean = mean;
   }

@@ -15,8 +15,9 @@ inline constexpr double least_rate = 1e-3;
 /// Asymptotic contraction an iteration of `plain`, linear problems solved by `direct`, at the solved step of
 /// h seconds from `start`. An iteration that contracts well reaches rounding before its slowest mode stands
 /// alone, so the error is followed from 1e-6 to 1e-10 of the step and then started anew along its last
-/// direction; where modes of opposite signs contract alike, two runs in turn give the rate as their mean. 0
-/// below `least_rate`; NaN if the error does not fall or the rate does not settle.
+/// direction, several times over, as that mode may begin small; where modes of opposite signs contract alike,
+/// two runs in turn give the rate as their mean. 0 below `least_rate`; NaN if the error does not fall or the
+/// rate does not settle.
 double measured_rate(const pbd::Scene& scene, const pbd::State& start, double h,
                      const pbd::reference::Judgement& solved);
 

@@ -185,7 +185,7 @@ def effects_table(frame):
         rows.append([f"`{effect}`" + (f", {strain}" if strain else ""), f"{len(tense)} of {len(group)}",
                      span(tense["measured_rate"] / tense["predicted_rate"]), span(tense["bound"] / tense["measured_rate"]),
                      span(computed["predicted_contraction"] / computed["measured_rate"])])
-    return Table("Rates under tension.", ["effect", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)
+    return Table("Rates where stiffening decides.", ["effect", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)
 
 
 def inner_convergence(results):

@@ -39,7 +39,7 @@ def rates(frame):
 
 def panel(ax, rows):
     """Filled markers: stiffening decides the rate; open ones: compression does."""
-    stiff = rows["stiffening"] >= rows["predicted_rate"] * (1 - 1e-9)
+    stiff = rows["stiffening"] >= rows["predicted_rate"]
     for column, label, look in SHOWN:
         for filled in (True, False):
             points = good(rows[stiff == filled], column) if column == "measured_rate" else \

@@ -130,6 +130,14 @@ struct Found {
   double predicted = 0, bound = 0, measured = 0;
 };
 
+constexpr double rounding = 1e-6;
+
+/// Whether the stiffening part of the geometric stiffness decides the rate; where both parts are as large, it
+/// does.
+bool stiffens(const reference::Contraction& dense) {
+  return -dense.smallest >= (1 - rounding) * dense.largest;
+}
+
 /// By an outer iteration that finds the step also where plain does not, and predicts by the same rows.
 Found find(const Problem& problem) {
   const State& start = problem.scene.initial;
@@ -162,14 +170,13 @@ void write_rates(Context& context, const std::vector<Problem>& all, const std::v
 }
 
 void verdicts(Context& context, const std::vector<Found>& all) {
-  constexpr double rounding = 1e-6, worth_estimating = 0.7, measurable = 0.95;
+  constexpr double worth_estimating = 0.7, measurable = 0.95;
   Worst above, stiffened, softened;
   for (const auto& [dense, predicted, bound, measured] : all) {
     if (!(measured > 0)) continue;
-    const bool stiffens = -dense.smallest >= dense.largest;
-    if (stiffens) above.add(measured / bound - 1);
+    if (stiffens(dense)) above.add(measured / bound - 1);
     if (measured > worth_estimating && measured < measurable)
-      (stiffens ? stiffened : softened).add(std::abs(predicted / measured - 1));
+      (stiffens(dense) ? stiffened : softened).add(std::abs(predicted / measured - 1));
   }
   context.verdict("contraction.bound",
                   "no measured rate exceeds the effect's bound where stiffening decides it",

@@ -6,7 +6,7 @@ A function gets the results and returns a Section without its verdicts, which ar
 import numpy as np
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import CONTRACTING, failed, good, step_text
+from reading import CONTRACTING, failed, good, step_text, stiffens
 
 NO_TABLE = "The run left no table."
 
@@ -167,7 +167,7 @@ def measured_rates(frame, stiffening):
     """The rows with a rate, those where the stiffening part decides it or the others."""
     rows = good(frame, "measured_rate")
     rows = rows[rows["measured_rate"] > 0]
-    return rows[(rows["stiffening"] >= rows["predicted_rate"]) == stiffening]
+    return rows[stiffens(rows) == stiffening]
 
 
 def compression_text(frame):

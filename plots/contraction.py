@@ -3,7 +3,7 @@
 import numpy as np
 
 from common import BLACK, BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
-from reading import drawable, failed, good, reasons_note
+from reading import drawable, failed, good, reasons_note, stiffens
 
 LEAST = 1e-3  # rates that are measured
 SHOWN = (("bound", "bound of the effect", {"color": GREEN, "marker": "^"}),
@@ -32,14 +32,15 @@ def rates(frame):
     absent = sorted(set(name(*key) for key in zip(frame["effect"], frame["strain"])) -
                     set(name(*key) for key, _ in groups))
     still = f"Always below {LEAST:g}: {', '.join(absent)}. " if absent else ""
-    footnote(fig, f"{len(frame) - len(drawn)} cases with a radius below {LEAST:g} are not drawn, other values below stand on the lower edge. " + still
+    footnote(fig, f"{len(frame) - len(drawn)} cases with a radius below {LEAST:g} are not drawn, other values below stand on "
+             "the lower edge. " + still
              + reasons_note(failed(drawn, "measured_rate")))
     return fig
 
 
 def panel(ax, rows):
     """Filled markers: stiffening decides the rate; open ones: compression does."""
-    stiff = rows["stiffening"] >= rows["predicted_rate"]
+    stiff = stiffens(rows)
     for column, label, look in SHOWN:
         for filled in (True, False):
             points = good(rows[stiff == filled], column) if column == "measured_rate" else \

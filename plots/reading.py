@@ -177,6 +177,11 @@ def failed(frame, *columns):
     return frame.drop(good(frame, *columns).index)
 
 
+def stiffens(frame):
+    """The rows whose rate the stiffening part of the geometric stiffness decides, also where both parts are as large."""
+    return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]
+
+
 def why(row):
     """Short text of what is wrong with a row of `failed`."""
     status = row.get("status", "ok")

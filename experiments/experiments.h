@@ -7,6 +7,8 @@ namespace pbdcheck {
 
 void judges(Context& context);
 void outer_convergence(Context& context);
+void stability_map(Context& context);
+void contraction(Context& context);
 void inner_convergence(Context& context);
 void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
@@ -15,6 +17,8 @@ void rival_newton(Context& context);
 void effects_cost(Context& context);
 
 std::vector<Case> outer_convergence_cases(bool full);
+std::vector<Case> stability_map_cases(bool full);
+std::vector<Case> contraction_cases(bool full);
 std::vector<Case> inner_convergence_cases(bool full);
 std::vector<Case> dual_vs_primal_cases(bool full);
 std::vector<Case> work_precision_cases(bool full);

@@ -10,6 +10,7 @@
 #include "experiments.h"
 #include "judges.h"
 #include "measure.h"
+#include "measured_rate.h"
 #include "scenes/standard.h"
 
 namespace pbdcheck {
@@ -49,64 +50,8 @@ std::string behaviour(const std::vector<double>& error) {
   return last < 1e-3 * error.front() ? "converging" : "oscillating";
 }
 
-/// Forces that keep v_free where it is although the old velocities become those of `start` + `change`.
-ExternalForce compensation(const Scene& scene, const Points& change, double h) {
-  ExternalForce effect;
-  for (int node = 0; node < scene.nodes(); ++node)
-    if (const double mass = scene.mass[static_cast<std::size_t>(node)]; std::isfinite(mass)) {
-      effect.node.push_back(node);
-      effect.force.emplace_back(-mass / h * change.col(node));
-    }
-  return effect;
-}
-
-/// Asymptotic contraction an iteration of the plain outer iteration at the solved step. An iteration that
-/// contracts well reaches rounding before its slowest mode stands alone, so the error is followed from 1e-6
-/// to 1e-10 of the step and then started anew along its last direction. The first iterate is the old
-/// velocity: it is put beside the solution, and forces make up for that, so the step's problem stays the
-/// same. NaN if the error does not fall
-/// or the rate does not settle.
-double measured_rate(const Scene& scene, const State& start, double h, const reference::Judgement& solved) {
-  constexpr double begin = 1e-6, end = 1e-10, settled = 1e-3;
-  constexpr int most_restarts = 40, most_iterations = 400;
-  Scene moved = scene;
-  moved.effects.emplace_back(ExternalForce{});
-  Method method;
-  method.outer = "plain";
-  method.relaxation = "direct";
-  method.tolerance = 1e-15;
-  method.max_outer = most_iterations;
-  method.warm_start = false;
-
-  const double scale = (solved.v - start.v).norm();
-  Points direction = start.v - solved.v;
-  double rate = 0;
-  for (int restart = 0; restart < most_restarts; ++restart) {
-    State beside = start;
-    beside.v = solved.v + begin * scale / direction.norm() * direction;
-    for (int node = 0; node < scene.nodes(); ++node)
-      if (!std::isfinite(scene.mass[static_cast<std::size_t>(node)])) beside.v.col(node) = start.v.col(node);
-    moved.effects.back() = compensation(scene, beside.v - start.v, h);
-    Workspace workspace(moved, method);
-    double last = begin;
-    int iterations = 0;
-    step(moved, method, h, beside, workspace, [&](const Iterate& iterate) {
-      const Points error = iterate.v - solved.v;
-      if (iterate.outer_iteration == 0 || last < end) return;
-      last = error.norm() / scale;
-      direction = error;
-      ++iterations;
-    });
-    if (!(last < begin)) return std::nan("");
-    const double next = std::pow(last / begin, 1.0 / iterations);
-    if (std::abs(next / rate - 1) < settled) return next;
-    rate = next;
-  }
-  return std::nan("");
-}
-
 constexpr double lead_step = 1.0 / 100;  // s
-constexpr int lead_steps = 30;           // to the middle of the swing
+constexpr int lead_steps = 30;
 
 std::vector<Case> pendulums() {
   std::vector<Case> all;
@@ -114,24 +59,9 @@ std::vector<Case> pendulums() {
   return all;
 }
 
-Case chain_case(double ratio, double h) {
-  return {fmt::format("chain20 tip x{:g}", ratio), chain(20, ratio), h, lead_step, lead_steps};
-}
-
 Case cantilever_case(double young) {
   return {fmt::format("cantilever E={:g} Pa", young), cantilever(8, {young, 0.3}, Strain::green), 1.0 / 60,
           lead_step, lead_steps};
-}
-
-std::vector<double> map_ratios(bool full) {
-  if (full) return {1, 2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000};
-  return {1, 3, 10, 30, 100, 300, 1000};
-}
-
-std::vector<double> map_steps(bool full) {
-  if (full)
-    return {1.0 / 30, 1.0 / 42, 1.0 / 60, 1.0 / 85, 1.0 / 120, 1.0 / 170, 1.0 / 240, 1.0 / 340, 1.0 / 480};
-  return {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480};
 }
 
 void write_course(Table& table, const std::string& scene, double h, double ratio, std::string_view outer,
@@ -167,7 +97,8 @@ void error_curves(Context& context, Table& errors) {
   };
   std::vector<Curve> curves;
   for (const double ratio : {1.0, 100.0})
-    for (const double h : {1.0 / 240, 1.0 / 60}) curves.push_back({"chain20", ratio, chain_case(ratio, h)});
+    for (const double h : {1.0 / 240, 1.0 / 60})
+      curves.push_back({"chain20", ratio, swinging_chain(ratio, h)});
   for (const double young : {1e5, 1e6}) {
     Case step = cantilever_case(young);
     curves.push_back({step.name, 1, std::move(step)});
@@ -192,14 +123,14 @@ struct Cell {
 };
 
 void chain_map(Context& context, Table& map) {
-  const auto ratios = map_ratios(context.full());
-  const auto steps = map_steps(context.full());
+  const auto ratios = chain_ratios(context.full());
+  const auto steps = chain_steps(context.full());
   std::vector<Cell> cells(ratios.size() * steps.size());
   context.parallel(std::ssize(ratios), [&](std::int64_t r) {
     const double ratio = ratios[static_cast<std::size_t>(r)];
-    const State start = start_of(chain_case(ratio, 0));
+    const State start = start_of(swinging_chain(ratio, 0));
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto [name, scene, h, lead, lead_count] = chain_case(ratio, steps[s]);
+      const auto [name, scene, h, lead, lead_count] = swinging_chain(ratio, steps[s]);
       const auto judged = truth(scene, start, h);
       Cell& cell = cells[static_cast<std::size_t>(r) * steps.size() + s];
       cell = {h, ratio, reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius(),
@@ -231,8 +162,8 @@ void chain_map(Context& context, Table& map) {
 
 std::vector<Case> outer_convergence_cases(bool full) {
   std::vector<Case> all = pendulums();
-  for (const double ratio : map_ratios(full))
-    for (const double h : map_steps(full)) all.push_back(chain_case(ratio, h));
+  for (const double ratio : chain_ratios(full))
+    for (const double h : chain_steps(full)) all.push_back(swinging_chain(ratio, h));
   for (const double young : {1e5, 1e6}) all.push_back(cantilever_case(young));
   return all;
 }

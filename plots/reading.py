@@ -19,12 +19,12 @@ VERDICTS = ("holds", "fails")
 COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
-            "sweeps", "outer_iterations", "row_updates"}  # chosen or counted, not measured: always numbers
+            "sweeps", "outer_iterations", "row_updates", "memory"}  # chosen or counted, not measured: always numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
-        "verdict", "method", "case", "name"}
+        "verdict", "method", "case", "name", "unit"}
 
 
 class InputError(Exception):
@@ -175,6 +175,11 @@ def good(frame, *columns):
 def failed(frame, *columns):
     """The rows `good` leaves out."""
     return frame.drop(good(frame, *columns).index)
+
+
+def stiffens(frame):
+    """The rows whose rate the stiffening part of the geometric stiffness decides, also where both parts are as large."""
+    return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]
 
 
 def why(row):

@@ -46,6 +46,55 @@ def outer_convergence(directory):
           "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason", rates)
 
 
+MAP_METHODS = (("plain", 20), ("proximal", 0), ("proximal", 20), ("quasi_newton", 20), ("auto", 20), ("incremental", 20),
+               ("frozen", 20))
+
+
+def map_row(outer, memory, rate, hard):
+    """Integrator to reason of one cell, with a status of every kind among them."""
+    method = ("implicit_euler", outer, "direct", memory)
+    if outer == "quasi_newton" and hard:
+        return (*method, float("nan"), float("nan"), float("nan"), 0, 0, "skipped", "hard rows")
+    if outer in ("incremental", "frozen") or outer == "plain" and rate >= 1:
+        wild = rate > 30
+        return (*method, float("nan") if wild else rate, float("nan"), float("nan") if wild else 1e-3, 200, 200,
+                "diverged" if wild else "not_converged", "not finite" if wild else "outer iterations spent")
+    close = outer != "quasi_newton" or rate < 3
+    count = int(4 + 10 * rate ** 0.5)
+    return (*method, rate, float(count) if close else float("nan"), 1e-13 if close else 1e-7, count, count, "ok", "")
+
+
+def stability_map(directory):
+    columns = ("integrator outer relaxation memory predicted_contraction iterations error_final outer_iterations sweeps "
+               "status reason")
+    steps = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480)
+    for table, value, values in (("chain20", "mass_ratio", (1, 10, 100, 1000)),
+                                 ("cantilever", "young_pa", (1e4, 1e6, 1e8))):
+        write(directory, "stability_map", table, f"scene step_s {value} {columns}",
+              [(table, h, v, *map_row(outer, memory, (60 * h) ** 2 * (v / values[0]) ** 0.4, table == "chain20"))
+               for v in values for h in steps for outer, memory in MAP_METHODS])
+    write(directory, "stability_map", "predictions",
+          "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
+          [("chain20", h, r, k, 1.01 * k, "converged" if k < 1 else "oscillating")
+           for r in (1, 10, 100) for h in steps for k in [(60 * h) ** 2 * r ** 0.4]])
+
+
+def contraction(directory):
+    kinds = (("distance", "", "N/m"), ("bending", "", "N m/rad"), ("triangle_strain", "", "Pa"),
+             ("tet_strain", "green", "Pa"), ("tet_strain", "corotational", "Pa"), ("anchor", "", "N/m"))
+    rows = []
+    for effect, strain, unit in kinds:
+        for load in (-50, 50, 500):
+            for h in (1 / 15, 1 / 30, 1 / 60):
+                rate = 0.0 if effect == "anchor" else abs(load) * 5 * h ** 2
+                tense, bad = load > 0, rate >= 1
+                rows.append((effect, strain, h, 1e4, unit, load, rate, rate if tense else 0.0, rate if tense else 0.0,
+                             1.5 * rate if tense else 0.0, float("nan") if bad else 0.99 * rate,
+                             "not_converged" if bad else "ok", "the error does not fall" if bad else ""))
+    write(directory, "contraction", "rates", "effect strain step_s stiffness unit load_n predicted_rate stiffening "
+          "predicted_contraction bound measured_rate status reason", rows)
+
+
 def inner_convergence(directory):
     scenes = ("chain20", "cantilever", "cloth")
     errors = [(s, r, k, 1e-5 * k * (4 if r == "direct" else 1), max(1e-15, RATES[r] ** k), "ok", "")
@@ -151,8 +200,8 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 
 def write_all(directory):
-    for experiment in (outer_convergence, inner_convergence, dual_vs_primal, mesh_refinement, work_precision,
-                       effects_cost, judges):
+    for experiment in (outer_convergence, stability_map, contraction, inner_convergence, dual_vs_primal, mesh_refinement,
+                       work_precision, effects_cost, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

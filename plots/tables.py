@@ -1,11 +1,18 @@
 """The columns that figures and report read from each table; a table may have more."""
 
+MAP = (" integrator outer relaxation memory predicted_contraction iterations error_final outer_iterations sweeps "
+       "status reason")
 METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
 
 TABLES = {
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
     ("outer_convergence", "map"):
         "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason",
+    ("stability_map", "chain20"): "scene step_s mass_ratio" + MAP,
+    ("stability_map", "cantilever"): "scene step_s young_pa" + MAP,
+    ("stability_map", "predictions"): "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
+    ("contraction", "rates"): "effect strain step_s stiffness unit load_n predicted_rate stiffening "
+                              "predicted_contraction bound measured_rate status reason",
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
     ("dual_vs_primal", "errors"):

@@ -1,0 +1,207 @@
+// Where does each outer iteration find the step, over step and mass ratio of a swinging chain and over step
+// and stiffness of a cantilever? And does the solver predict where the plain one converges?
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "contraction.h"
+#include "error.h"
+#include "experiments.h"
+#include "judges.h"
+#include "measure.h"
+#include "measured_rate.h"
+#include "scenes/standard.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+constexpr double reached = 1e-8;  // error that iterations are counted to
+constexpr std::string_view relaxation = "direct";
+
+struct Map {
+  std::string scene, value_column;
+  std::vector<double> values, steps;
+  Case (*make)(double value, double h);
+};
+
+Case stiff_cantilever(double young, double h) {
+  return {fmt::format("cantilever corotational E={:g} Pa", young),
+          cantilever(8, {young, 0.3}, Strain::corotational), h};
+}
+
+Map chain_map(bool full) {
+  return {"chain20", "mass_ratio", chain_ratios(full), chain_steps(full), swinging_chain};
+}
+
+Map cantilever_map(bool full) {
+  std::vector<double> steps{1.0 / 30, 1.0 / 120, 1.0 / 480};
+  if (full) steps = {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480};
+  return {"cantilever", "young_pa", {1e4, 1e5, 1e6, 1e7, 1e8, 1e9}, steps, stiff_cantilever};
+}
+
+std::vector<Method> methods(bool full) {
+  std::vector<Method> all;
+  for (const auto& [outer, memory] : {std::pair{"plain", 20},
+                                      {"proximal", 0},
+                                      {"proximal", 20},
+                                      {"quasi_newton", 20},
+                                      {"auto", 20},
+                                      {"incremental", 20},
+                                      {"frozen", 20}}) {
+    Method method;
+    method.outer = outer;
+    method.memory = memory;
+    method.relaxation = relaxation;
+    method.tolerance = 1e-12;
+    method.max_outer = full ? 1000 : 200;
+    all.push_back(method);
+  }
+  return all;
+}
+
+struct Solve {
+  Method method;
+  double iterations = std::nan("");  // until the error is first `reached`
+  double error = std::nan("");       // at the step's end
+  Report report{};
+  std::string status{}, reason{};
+};
+
+Solve solve(const Case& each, const State& start, const Points& exact, const Method& method) {
+  Solve found{.method = method};
+  try {
+    const Trace trace = measure_once(each.scene, start, each.h, method, exact);
+    const auto first = std::find_if(trace.points.begin(), trace.points.end(),
+                                    [](const TracePoint& point) { return point.error <= reached; });
+    if (first != trace.points.end()) found.iterations = first->outer_iterations;
+    found.error = trace.points.back().error;
+    found.report = trace.report;
+    found.status = status_names[static_cast<std::size_t>(trace.report.status)];
+    found.reason = trace.report.reason;
+  } catch (const SetupError& refused) {
+    found.status = "skipped";
+    found.reason = refused.what();
+  }
+  return found;
+}
+
+struct MapCell {
+  double value = 0;
+  Case step;
+  State start{};
+  reference::Judgement exact{};
+  std::vector<Solve> solves{};
+};
+
+std::vector<MapCell> run_map(const Context& context, const Map& map) {
+  std::vector<MapCell> cells;
+  for (const double value : map.values)
+    for (const double h : map.steps) cells.push_back({.value = value, .step = map.make(value, h)});
+  context.parallel(std::ssize(cells), [&](std::int64_t index) {
+    MapCell& cell = cells[static_cast<std::size_t>(index)];
+    cell.start = start_of(cell.step);
+    cell.exact = truth(cell.step.scene, cell.start, cell.step.h);
+    for (const auto& method : methods(context.full()))
+      cell.solves.push_back(solve(cell.step, cell.start, cell.exact.x, method));
+  });
+  return cells;
+}
+
+void write_map(Context& context, const Map& map, const std::vector<MapCell>& cells) {
+  Table table = context.table(map.scene, {"scene", "step_s", map.value_column, "integrator", "outer",
+                                          "relaxation", "memory", "predicted_contraction", "iterations",
+                                          "error_final", "outer_iterations", "sweeps", "status", "reason"});
+  for (const auto& cell : cells)
+    for (const auto& [method, iterations, error, report, status, reason] : cell.solves)
+      table.row({map.scene, cell.step.h, cell.value, method.integrator, method.outer, method.relaxation,
+                 std::int64_t{method.memory}, report.contraction, iterations, error,
+                 std::int64_t{report.outer_iterations}, report.sweeps, status, reason});
+  table.close();
+}
+
+const Solve& solve_by_auto(const MapCell& cell) {
+  return *std::find_if(cell.solves.begin(), cell.solves.end(),
+                       [](const Solve& solve) { return solve.method.outer == "auto"; });
+}
+
+void auto_verdict(Context& context, const std::vector<MapCell>& chain,
+                  const std::vector<MapCell>& cantilever) {
+  Worst worst;
+  for (const auto* cells : {&chain, &cantilever})
+    for (const auto& cell : *cells) worst.add(solve_by_auto(cell).error);
+  context.verdict("stability.auto", "auto finds the step in every cell of both maps", "largest error",
+                  worst.value(), 1e-10);
+}
+
+struct Prediction {
+  double radius = 0;     // of the dense matrices
+  double predicted = 0;  // by the solver, at the end of the step by auto
+  bool returns = false;  // plain does to the solution, from beside it
+
+  /// NaN agrees with nothing.
+  bool agrees() const { return returns ? predicted < 1 : predicted >= 1; }
+};
+
+std::vector<Prediction> predictions(const Context& context, const std::vector<MapCell>& cells) {
+  std::vector<Prediction> all(cells.size());
+  context.parallel(std::ssize(cells), [&](std::int64_t index) {
+    const auto& cell = cells[static_cast<std::size_t>(index)];
+    const auto& [name, scene, h, lead, lead_steps] = cell.step;
+    const auto dense = reference::plain_contraction(scene, cell.exact.x, cell.exact.multiplier, h);
+    all[static_cast<std::size_t>(index)] = {dense.radius(), solve_by_auto(cell).report.contraction,
+                                            plain_returns(scene, cell.start, h, cell.exact, 1000)};
+  });
+  return all;
+}
+
+void prediction_verdicts(Context& context, const std::vector<MapCell>& cells) {
+  constexpr double undecided = 0.05, worth_estimating = 0.7;
+  const auto all = predictions(context, cells);
+  Table table = context.table("predictions", {"scene", "step_s", "mass_ratio", "predicted_rate",
+                                              "predicted_contraction", "behaviour"});
+  Worst rate;
+  double decided = 0, wrong = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const Prediction& found = all[k];
+    table.row({"chain20", cells[k].step.h, cells[k].value, found.radius, found.predicted,
+               found.returns ? "converged" : "oscillating"});
+    if (std::abs(found.radius - 1) > undecided) ++decided, wrong += found.agrees() ? 0 : 1;
+    if (found.radius > worth_estimating) rate.add(std::abs(found.predicted / found.radius - 1));
+  }
+  context.verdict("stability.predicted_convergence",
+                  "predicted and measured convergence of plain agree where the radius is not within 5 % of 1",
+                  "share of cells of the chain's map where they do not", wrong / decided, 0.01);
+  context.verdict("stability.predicted_rate",
+                  "the solver's prediction equals the dense spectral radius where that exceeds 0.7",
+                  "largest |predicted/radius - 1|", rate.value(), 0.05);
+  table.close();
+}
+
+}  // namespace
+
+std::vector<Case> stability_map_cases(bool full) {
+  std::vector<Case> all;
+  for (const auto& map : {chain_map(full), cantilever_map(full)})
+    for (const double value : map.values)
+      for (const double h : map.steps) all.push_back(map.make(value, h));
+  return all;
+}
+
+void stability_map(Context& context) {
+  context.begin(3);
+  const Map chain = chain_map(context.full()), cantilever = cantilever_map(context.full());
+  const auto chain_cells = run_map(context, chain);
+  write_map(context, chain, chain_cells);
+  context.advance(chain.scene);
+  const auto cantilever_cells = run_map(context, cantilever);
+  write_map(context, cantilever, cantilever_cells);
+  context.advance(cantilever.scene);
+  auto_verdict(context, chain_cells, cantilever_cells);
+  prediction_verdicts(context, chain_cells);
+  context.advance("predictions");
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,105 @@
+"""Where does each outer iteration find the step, and does the solver predict where `plain` converges?"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from common import BLACK, BLUE, RED, figure, footnote, on_log, panels
+from outer_convergence import edges
+from reading import CONTRACTING, LARGEST, failed, good, reasons_note, step_text, text_number
+
+MARKS = {"not_converged": "x", "diverged": "^", "skipped": "_", "ok": "o"}  # of a cell that is not solved, by status
+MEANING = {"ok": "ok, but farther than 1e-8"}
+AXES = {"mass_ratio": "mass ratio, tip to other nodes", "young_pa": "Young's modulus (Pa)"}
+
+
+def method_name(outer, memory):
+    return f"{outer}, not accelerated" if outer == "proximal" and memory == 0 else outer
+
+
+@figure("stability_map", "chain", table="chain20")
+def chain(frame):
+    return maps(frame, "mass_ratio")
+
+
+@figure("stability_map", "cantilever", table="cantilever")
+def cantilever(frame):
+    return maps(frame, "young_pa")
+
+
+def maps(frame, value):
+    """A panel for each method; the cells' colour and number are iterations, a mark stands where it does not solve."""
+    chosen = list(frame.groupby(["outer", "memory"], sort=False))
+    fig, axes = panels(len(chosen), columns=4, width=7.5, height=1.95, sharex=True, sharey=True)
+    most = max(10, frame["iterations"].where(frame["iterations"] <= LARGEST).max(skipna=True) or 0)
+    for ax, ((outer, memory), rows) in zip(axes, chosen):
+        mesh = map_panel(ax, rows, value, most)
+        ax.set_title(method_name(outer, memory))
+    fig.supxlabel("step", fontsize=8)
+    fig.supylabel(AXES[value], fontsize=8)
+    fig.colorbar(mesh, ax=axes, label="outer iterations to an error of 1e-8", extend="max")
+    met = [status for status in MARKS if unsolved(frame)["status"].eq(status).any()]
+    handles = [plt.Line2D([], [], color=BLACK, marker=MARKS[status], linestyle="", markerfacecolor="none") for status in met]
+    labels = [MEANING.get(status, status) for status in met]
+    if draw_limit(axes[0], frame, value):
+        handles.append(plt.Line2D([], [], color=RED, linestyle="--"))
+        labels.append("predicted contraction of plain = 1")
+    fig.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=5)
+    footnote(fig, f"{frame['scene'].iloc[0]}, error against Newton. " + reasons_note(failed(frame, "iterations")))
+    return fig
+
+
+def unsolved(rows):
+    return rows[~(rows["iterations"] <= LARGEST)]
+
+
+def map_panel(ax, rows, value, most):
+    counts = rows.pivot_table("iterations", value, "step_s", dropna=False)
+    x, y = counts.columns.to_numpy(), counts.index.to_numpy()
+    counts = counts.where(counts <= LARGEST).to_numpy()
+    mesh = ax.pcolormesh(edges(x), edges(y), np.maximum(counts, 1), norm=LogNorm(1, most), cmap="cividis")
+    ax.set(xscale="log", yscale="log", facecolor="#dddddd")
+    ax.set_xticks(x, [step_text(step).removesuffix(" s") for step in x], rotation=90)
+    ax.set_yticks(y, [text_number(number) for number in y])
+    ax.minorticks_off()
+    ax.grid(False)
+    for (i, j), count in np.ndenumerate(counts):
+        if np.isfinite(count):
+            ax.text(x[j], y[i], f"{count:.0f}", ha="center", va="center", fontsize=5.5,
+                    color="white" if count < most ** 0.55 else BLACK)
+    for status, bad in unsolved(rows).groupby("status"):
+        ax.plot(bad["step_s"], bad[value], MARKS[status], color=BLACK, markersize=4, markeredgewidth=0.8, markerfacecolor="none")
+    return mesh
+
+
+def draw_limit(ax, frame, value):
+    """The line where the solver predicts that plain stops converging, by an iteration that solves by the same rows; false
+    if it does not run through the map."""
+    rows = frame[(frame["outer"] == "proximal") & (frame["memory"] > 0)]
+    predicted = rows.pivot_table("predicted_contraction", value, "step_s", dropna=False)
+    known = predicted.where((predicted > 0) & (predicted <= LARGEST))
+    crosses = min(known.shape) > 1 and (known < 1).any(axis=None) and (known > 1).any(axis=None)
+    if crosses:
+        ax.contour(known.columns, known.index, np.log(known), levels=[0.0], colors=RED, linestyles="--", linewidths=1.2)
+    return crosses
+
+
+@figure("stability_map", "predictions", table="predictions")
+def predictions(frame):
+    """The solver's own prediction against the dense spectral radius, filled where plain converges."""
+    fig, (ax,) = panels(1, height=2.9)
+    rows = good(frame, "predicted_rate", "predicted_contraction")
+    for converges, color, marker, label in ((True, BLUE, "o", "plain converges"), (False, RED, "s", "plain does not converge")):
+        group = rows[rows["behaviour"].isin(CONTRACTING) == converges]
+        ax.plot(on_log(group["predicted_rate"]), on_log(group["predicted_contraction"]), marker, color=color, label=label,
+                markerfacecolor=color if converges else "white")
+    line = np.array([0.1, 1000.0])
+    ax.plot(line, line, color=BLACK, linewidth=0.5, label="both are equal")
+    ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.8)
+    ax.axhline(1, color=BLACK, linestyle="--", linewidth=0.8)
+    ax.set(xscale="log", yscale="log", xlabel="dense spectral radius", ylabel="solver's predicted contraction",
+           title="Swinging chain, every cell of the map")
+    fig.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3)
+    missing = len(frame) - len(rows)
+    footnote(fig, f"{missing} cells without a prediction are not drawn." if missing else "")
+    return fig

@@ -21,6 +21,9 @@ const std::vector<Experiment>& experiments() {
        work_precision, work_precision_cases},
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},
+      {"point_hard_cases", "Does one method without settings survive the scenes that solvers fail on?",
+       point_hard_cases},
+      {"generated_scenes", "Does a step that says ok tell the truth, whatever the scene?", generated_scenes},
   };
   return list;
 }

@@ -12,6 +12,8 @@ void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
 void work_precision(Context& context);
 void effects_cost(Context& context);
+void point_hard_cases(Context& context);
+void generated_scenes(Context& context);
 
 std::vector<Case> outer_convergence_cases(bool full);
 std::vector<Case> inner_convergence_cases(bool full);

@@ -127,7 +127,7 @@ void steps(std::vector<HardCase>& all, int cells) {
 /// Moves the nodes of a unit cube from where they rest.
 HardCase distorted(const std::string& name, int cells, Vec3 (*place)(const Vec3&, std::mt19937_64&)) {
   std::mt19937_64 random(seed);
-  HardCase each{"cube from " + name, {}, 0.05, 1};
+  HardCase each{"cube from " + name, {}, 10, 1};
   add_solid(each.scene, kuhn_grid({cells, cells, cells}, Vec3::Ones()), density, {1e5, 0.3},
             Strain::corotational);
   each.rest = each.scene.initial.x;
@@ -203,8 +203,11 @@ HardCase compressed(int cells) {
 int settling_steps(const HardCase& each, double h) {
   if (each.slowest == 0) return -1;
   if (std::isinf(each.slowest)) return 0;
-  const double fall = std::log(1e6) * (each.rest.size() > 0 ? 2 : 1);  // of the energy
-  return static_cast<int>(std::ceil(2 * fall / std::log1p(std::pow(each.slowest * h, 2))));
+  const bool spins = each.rest.size() > 0;
+  const double fall = std::log(1e6) * (spins ? 2 : 1);  // of the energy
+  const double vibration = 2 * fall / std::log1p(std::pow(each.slowest * h, 2));
+  const double spin = spins ? each.length / (24 * gravity * 1e-6 * h * h) : 0;
+  return static_cast<int>(std::ceil(vibration + spin));
 }
 
 std::vector<HardCase> hard_cases(bool full) {

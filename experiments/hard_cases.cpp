@@ -93,10 +93,10 @@ HardCase joint_grid(int cells) {
   return each;
 }
 
-/// First bending frequency (rad/s) of a clamped beam of 1 x 1/4 x 1/4 m (Euler and Bernoulli), and no more
-/// than that of a pendulum of its length, which it becomes when soft.
+/// First bending frequency (rad/s) of a clamped beam of 1 x 1/4 x 1/4 m (Euler and Bernoulli), and no less
+/// than that of a pendulum of its length: a soft one hangs.
 double beam_frequency(double young) {
-  return std::min(0.1615 * 2 * std::numbers::pi * 0.25 * std::sqrt(young / density), std::sqrt(gravity));
+  return std::max(0.1615 * 2 * std::numbers::pi * 0.25 * std::sqrt(young / density), std::sqrt(gravity));
 }
 
 void stiffness(std::vector<HardCase>& all, int cells) {
@@ -206,7 +206,7 @@ int settling_steps(const HardCase& each, double h) {
   const bool spins = each.rest.size() > 0;
   const double fall = std::log(1e6) * (spins ? 2 : 1);  // of the energy
   const double vibration = 2 * fall / std::log1p(std::pow(each.slowest * h, 2));
-  const double spin = spins ? each.length / (24 * gravity * 1e-6 * h * h) : 0;
+  const double spin = spins ? each.length / (8 * gravity * 1e-6 * h * h) : 0;
   return static_cast<int>(std::ceil(vibration + spin));
 }
 

@@ -317,11 +317,21 @@ def generated_scenes(results):
                                   "allows: " + "; ".join(f"`{r['relaxation']}` {number(r['claim_largest'])} ({r['steps']:.0f} steps)"
                                                          for _, r in ok.iterrows()) + ".")
     if sample is not None:
-        both = good(sample[sample["reference_status"] == "ok"], "claim", "error")
-        section.paragraphs.append(f"Of {counted(len(sample), 'step')} in the sample, {len(both)} are ok and were solved by Newton's "
-                                  f"method, too; the median of their relative errors is {number(both['error'].median())}, "
-                                  f"{int((both['error'] > 1e-3).sum())} are larger than 1e-3.")
+        section.paragraphs.append(sample_text(sample))
     return section
+
+
+def sample_text(sample):
+    """What became of the sampled steps that Newton's method could solve, and of those that it could not."""
+    sample = sample[sample["reference_status"] != ""]
+    solvable = sample[sample["reference_status"] == "ok"]
+    both = good(solvable, "claim", "error")
+    other = sample[sample["reference_status"] != "ok"]
+    return (f"Newton's method solved {len(solvable)} of {counted(len(sample), 'sampled step')} (each relaxation counts); of these "
+            f"{len(both)} end as ok, {int((solvable['status'] == 'not_converged').sum())} as not converged, "
+            f"{int((solvable['status'] == 'diverged').sum())} as diverged. The median of the relative errors of those that are ok "
+            f"is {number(both['error'].median())}; {int((both['error'] > 1e-3).sum())} are larger than 1e-3. Of the "
+            f"{len(other)} that Newton's method did not solve, {int((other['status'] == 'ok').sum())} end as ok.")
 
 
 SECTIONS = {function.__name__: function for function in (

@@ -143,7 +143,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
-  constexpr int patience = 5;
+  constexpr int patience = 10;
   int without_fall = 0;  // iterations since the primal residual was lowest
   double lowest_primal = std::numeric_limits<double>::infinity();
   double first_residual = 0;

@@ -101,7 +101,7 @@ double beam_frequency(double young) {
 
 void stiffness(std::vector<HardCase>& all, int cells) {
   for (const double young : {1e2, 1e4, 1e6, 1e8})
-    all.push_back({fmt::format("Young's modulus {:g} Pa", young),
+    all.push_back({fmt::format("Young's modulus {:.0e} Pa", young),
                    cantilever(cells, {young, 0.3}, Strain::corotational), 0.025, 1,
                    young < 1e4 ? 0 : beam_frequency(young)});
 }

@@ -46,7 +46,7 @@ struct Outcome {
 /// Largest step and fewest sweeps at which all gates hold, and at all milder ones.
 Frontier frontier_of(const HardCase& each, const Method& method, bool full) {
   Frontier frontier;
-  const Watch watch{full ? 50 : 10, full ? 500 : 150, 1};
+  const Watch watch{full ? 20 : 10, full ? 500 : 150, 1};
   const auto run = [&](const Method& tried, double h) {
     const auto simulated = simulate(each, tried, h, watch);
     ++frontier.tried;
@@ -87,7 +87,7 @@ double parity(const HardCase& each, Method method, int budget, const Watch& watc
 }
 
 std::vector<Outcome> outcomes_of(const HardCase& each, bool full) {
-  const Watch watch{full ? 200 : 20, full ? 5000 : 800, full ? 10 : 3};
+  const Watch watch{full ? 100 : 20, full ? 5000 : 800, full ? 10 : 3};
   std::vector<Outcome> outcomes;
   for (const std::string relaxation : {"gauss_seidel", "direct"}) {
     const Method method = with_relaxation(relaxation);

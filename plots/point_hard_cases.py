@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from common import BLUE, GREEN, RED, crossed, figure, footnote, panels, shared_legend, style
-from reading import drawable, failed, reasons_note, text_number
+from reading import drawable, text_number
 
 HOLDS, FAILS, SKIPPED = 1.0, 0.0, 0.5
 LOOK = {"gauss_seidel": (BLUE, "o"), "direct": ("#000000", "D")}
@@ -37,8 +37,10 @@ def gates(frame):
     ax.set_yticks(range(len(rows)), [name + unsolved_mark(frame[frame["row"] == name]) for name in rows], fontsize=5.5)
     ax.tick_params(top=True, labeltop=True)
     ax.grid(False)
-    footnote(fig, "Red: the gate fails. * some steps say that they are not solved. "
-             + reasons_note(failed(frame.drop_duplicates(["row", "status", "reason"]), "measured")))
+    runs = frame[frame["status"] != "skipped"].drop_duplicates("row")
+    skipped = frame[frame["status"] == "skipped"]["reason"].str.partition(" in ")[0].value_counts()
+    footnote(fig, f"Red: the gate fails. * some steps say that they are not solved, in {(runs['status'] != 'ok').sum()} of {len(runs)} "
+             "simulations. Skipped: " + ("; ".join(f"{count} x {reason}" for reason, count in skipped.items()) or "none") + ".")
     return fig
 
 
@@ -59,7 +61,7 @@ def frontier(frame):
         points(axes[0], group, rows, "largest_solved_step_s", GREEN, "|", "and every step is solved")
         points(axes[1], group, rows, "fewest_sweeps", color, marker, f"{relaxation}: gates hold")
     axes[0].set(xscale="log", xlabel="largest step (s)")
-    axes[1].set(xscale="symlog", xlabel="fewest sweeps an outer iteration")
+    axes[1].set(xscale="symlog", xlabel="fewest sweeps an outer iteration", xlim=(-0.5, 2000))
     axes[0].set_yticks(range(len(rows)), rows, fontsize=5.5)
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
     shared_legend(fig, axes[:1])

@@ -7,10 +7,12 @@ from functools import partial
 import contraction  # noqa: F401  (each of these registers its figures)
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
+import generated_scenes  # noqa: F401
 import inner_convergence  # noqa: F401
 import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
+import point_hard_cases  # noqa: F401
 import stability_map  # noqa: F401
 import work_precision  # noqa: F401
 from command import command

@@ -27,12 +27,20 @@ TABLES = {
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",
+    ("point_hard_cases", "gates"):
+        "scene step_s integrator outer relaxation steps gate measured bound holds status reason",
+    ("point_hard_cases", "frontier"): "scene outer relaxation largest_step_s largest_solved_step_s fewest_sweeps "
+                                      "runs_passed runs status reason",
+    ("generated_scenes", "outcomes"): "relaxation steps claim_largest status reason",
+    ("generated_scenes", "sample"): "scene nodes step_s outer relaxation outer_iterations sweeps residual "
+                                    "residual_judged claim error reference_status status reason",
     (".", "compare"): METHOD,
 }
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",
     ("inner_convergence", "errors"): "scene relaxation",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
+    ("point_hard_cases", "gates"): "scene relaxation",
 }
 VERDICTS = "id statement quantity measured bound verdict"
 OWN_TABLES = ("verdicts",)  # shown by the report, never a figure

@@ -103,7 +103,7 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
     if (settled) break;
   }
   constexpr double safety = 1.05;
-  return std::max(1.0, std::min(constraints_at_a_node_, safety * estimate));
+  return std::max(least_, std::min(constraints_at_a_node_, safety * estimate));
 }
 
 void Jacobi::begin(Rows& rows, const Points& v, bool) {
@@ -135,8 +135,7 @@ void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
   omega_ = 1 / bound_.update(rows, v);
   previous_v_ = v;
   if (fresh) {
-    theta_ = 1;
-    beta_ = 0;
+    restart();
     previous_.resize(static_cast<std::size_t>(row_count(rows)));
   }
   // The velocities of the previous impulses along the new directions; a fresh start has no previous impulses.
@@ -153,13 +152,31 @@ void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
   });
 }
 
+/// Compares q^T N q / q^T D q of the change q of the impulses, that gave `v` from the extrapolated
+/// velocities, with the bound 1/omega. `compliant` is q^T Sigma q.
+bool NesterovJacobi::bound_holds(const Rows& rows, const Points& v, double residual_squared,
+                                 double compliant) {
+  double stiff = compliant;
+  for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
+    if (rows.inverse_mass[node] > 0) {
+      const auto column = static_cast<Eigen::Index>(node);
+      stiff += (v.col(column) - extrapolated_.col(column)).squaredNorm() / rows.inverse_mass[node];
+    }
+  constexpr double safety = 1.05;
+  const double lengths = omega_ * omega_ * residual_squared;  // q^T D q
+  if (!(stiff > safety * lengths / omega_) || !std::isfinite(stiff)) return true;
+  bound_.met(safety * stiff / lengths);
+  omega_ = lengths / (safety * stiff);
+  return false;
+}
+
 double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   // v belongs to the impulses p; everything is linear, so v + beta (v - v_previous) belongs to the
   // extrapolated ones.
   extrapolated_ = v + beta_ * (v - previous_v_);
   previous_v_ = v;
   v = extrapolated_;
-  double squared = 0;
+  double squared = 0, compliant = 0;
   double gradient_along_step = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -168,15 +185,15 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       const typename Block::Value r = block.residual(extrapolated_, i, start);
       const typename Block::Value change = -omega_ * (block.inverse_diagonal[i] * r);
       squared -= r.dot(change) / omega_;
+      compliant += change.dot(block.compliance[i] * change);
       previous = block.impulse[i];
       block.impulse[i] = start + change;
       gradient_along_step += r.dot(block.impulse[i] - previous);
       block.apply(rows.inverse_mass, i, change, v);
     }
   });
-  if (gradient_along_step > 0) {
-    theta_ = 1;
-    beta_ = 0;
+  if (!bound_holds(rows, v, squared, compliant) || gradient_along_step > 0) {
+    restart();
   } else {
     const double square = theta_ * theta_;
     const double next = (std::sqrt(square * square + 4 * square) - square) / 2;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -32,6 +33,10 @@ struct GaussSeidel {
 class SpectralBound {
  public:
   double update(const Rows& rows, const Points& like);
+
+  /// Takes note of a Rayleigh quotient of D^-1 N that was met: the eigenvalue is no smaller.
+  void met(double quotient) { least_ = std::max(least_, quotient); }
+
   std::int64_t sweeps() const { return sweeps_; }  // of power iteration, in the last update
 
  private:
@@ -39,6 +44,7 @@ class SpectralBound {
   std::vector<double> vector_;  // one entry a row
   Points velocity_;
   double constraints_at_a_node_ = 0;
+  double least_ = 1;
   std::int64_t sweeps_ = 0;
 };
 
@@ -61,7 +67,9 @@ class Jacobi {
 };
 
 /// Nesterov's acceleration of block Jacobi with step 1/bound and restart by the gradient test (Nesterov 1983;
-/// O'Donoghue, Candes 2015). The momentum is kept from one linearisation of a step to the next.
+/// O'Donoghue, Candes 2015). The momentum is kept from one linearisation of a step to the next. Every change
+/// of the impulses gives a Rayleigh quotient; where it exceeds the bound, the bound is raised and the
+/// momentum begins anew (the backtracking of Beck, Teboulle 2009).
 class NesterovJacobi {
  public:
   static constexpr std::string_view name = "nesterov_jacobi";
@@ -70,6 +78,9 @@ class NesterovJacobi {
   std::int64_t setup_sweeps() const { return bound_.sweeps(); }
 
  private:
+  bool bound_holds(const Rows& rows, const Points& v, double residual_squared, double compliant);
+  void restart() { theta_ = 1, beta_ = 0; }
+
   SpectralBound bound_;
   double omega_ = 1;
   double theta_ = 1;

@@ -143,6 +143,9 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
+  constexpr int patience = 10;
+  int without_fall = 0;  // iterations since the primal residual was lowest
+  double lowest_primal = std::numeric_limits<double>::infinity();
   double first_residual = 0;
   StepIteration iteration(scene, method, w, report);
 
@@ -155,12 +158,18 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     if (observer)
       observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,
                 report.scale, w.x, w.v});
-    const double rounding = velocity_rounding + std::sqrt(found.rounding_squared);
-    if (finished(method, w.on_potential ? rounding : velocity_rounding, rounding, first_residual, report))
-      break;
     w.last_change = w.change;
     w.change = w.distance(w.v, w.previous);
-    if (report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v)) {
+    const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v);
+    without_fall = report.primal < lowest_primal ? 0 : without_fall + 1;
+    lowest_primal = std::min(lowest_primal, report.primal);
+    // The rounding of a potential's gradient is an upper bound: it ends the step only where nothing falls.
+    const bool settled =
+        !w.on_potential || stalled || without_fall >= patience || report.outer_iterations >= method.max_outer;
+    const double rounding = velocity_rounding + (settled ? std::sqrt(found.rounding_squared) : 0.0);
+    if (finished(method, w.on_potential ? rounding : velocity_rounding, rounding, first_residual, report))
+      break;
+    if (stalled) {
       report.reason = "stalled away from the solution";
       break;
     }

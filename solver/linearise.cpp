@@ -181,15 +181,15 @@ bool all_compliant(const Effect& effect) {
       effect);
 }
 
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, const AnyBlock& any,
-                           std::vector<double>& inertia) {
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, int sign,
+                           const AnyBlock& any, std::vector<double>& inertia) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
           const auto& block = std::get<BlockOf<E>>(any);
           for (std::size_t i = 0; i < block.size(); ++i) {
             const auto bound =
-                Constraint<E>::geometric_bound(stated, i, positions(block, x, i), block.impulse[i]);
+                Constraint<E>::geometric_bound(stated, i, positions(block, x, i), sign * block.impulse[i]);
             for (int a = 0; a < block.nodes; ++a)
               inertia[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] +=
                   map.d / 2 * bound[a];
@@ -199,17 +199,20 @@ void add_geometric_inertia(const Effect& effect, const StepMap& map, const Point
       effect);
 }
 
-void add_push(const Effect& effect, const Points& x, const std::vector<double>& inverse_mass,
-              const AnyBlock& any, Points& v) {
+void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
+             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& any, Points& push) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
-          const auto& block = std::get<BlockOf<E>>(any);
+          auto& block = std::get<BlockOf<E>>(any);
           typename BlockOf<E>::Value value;
           typename BlockOf<E>::Jacobian jacobian;
           for (std::size_t i = 0; i < block.size(); ++i) {
-            Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
-            block.apply(inverse_mass, i, jacobian, block.impulse[i], v);
+            Constraint<E>::evaluate(stated, i, positions(block, turned, i), value, jacobian);
+            block.apply(inverse_mass, i, jacobian, block.impulse[i], push);
+            const typename BlockOf<E>::Value before = block.bias[i] + block.jacobian[i] * block.gather(v, i);
+            block.bias[i] = (value / map.d - before) / scale - block.jacobian[i] * block.gather(error, i);
+            block.impulse[i].setZero();
           }
         }
       },

@@ -48,13 +48,15 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBl
 bool all_compliant(const Effect& effect);
 
 /// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
-/// D that the proximal outer iteration adds, and half a bound of the geometric stiffness.
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, const AnyBlock& block,
-                           std::vector<double>& inertia);
+/// D that the proximal outer iteration adds, and half a bound of the geometric stiffness. With sign -1, of
+/// the opposite impulses.
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, int sign,
+                           const AnyBlock& block, std::vector<double>& inertia);
 
-/// Adds W J(x)^T p to `v`, with the block's impulses along the directions at other positions x.
-void add_push(const Effect& effect, const Points& x, const std::vector<double>& inverse_mass,
-              const AnyBlock& block, Points& v);
+/// Rows of the error's map: adds W J(turned)^T p to `push`, then sets the impulses to zero and the biases to
+/// what the values at `turned` = x(v + scale * error) have beyond J, (c(turned) - c(x))/(d scale) - J error.
+void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
+             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& block, Points& push);
 
 /// Refreshes N_ii^-1 for other inverse masses than `linearise` was given.
 void refresh_inverse_diagonal(Rows& rows);

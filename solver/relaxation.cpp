@@ -271,27 +271,6 @@ std::int64_t relax(Relaxation& any, Rows& rows, Points& v, bool fresh, const Inn
       any);
 }
 
-std::int64_t relax_homogeneous(Relaxation& relaxation, Rows& rows, Points& v, const InnerBudget& budget,
-                               std::vector<double>& kept) {
-  kept.clear();
-  for_each_block(rows.blocks, [&](auto& block) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      kept.insert(kept.end(), block.bias[i].begin(), block.bias[i].end());
-      kept.insert(kept.end(), block.impulse[i].begin(), block.impulse[i].end());
-      block.bias[i].setZero();
-      block.impulse[i].setZero();
-    }
-  });
-  const std::int64_t sweeps = relax(relaxation, rows, v, true, budget, nullptr);
-  const double* next = kept.data();
-  for_each_block(rows.blocks, [&](auto& block) {
-    for (std::size_t i = 0; i < block.size(); ++i)
-      for (auto* values : {&block.bias[i], &block.impulse[i]})
-        for (double& value : *values) value = *next++;
-  });
-  return sweeps;
-}
-
 namespace {
 
 template <class>

@@ -152,11 +152,6 @@ struct InnerBudget {
 std::int64_t relax(Relaxation& relaxation, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
                    BlockSeconds first_sweep);
 
-/// Solves the rows without their biases, J u + Sigma p = 0 and u = v + W J^T p, from p = 0: v becomes u.
-/// The rows' biases and impulses, `kept` meanwhile, are as before afterwards. Returns the number of sweeps.
-std::int64_t relax_homogeneous(Relaxation& relaxation, Rows& rows, Points& v, const InnerBudget& budget,
-                               std::vector<double>& kept);
-
 /// Names of all relaxations, and a fresh one by name (SetupError if unknown).
 std::vector<std::string_view> relaxation_names();
 Relaxation make_relaxation(std::string_view name);

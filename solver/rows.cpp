@@ -13,6 +13,25 @@ std::int64_t row_count(const Rows& rows) {
   return count;
 }
 
+void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept) {
+  kept.clear();
+  for_each_block(rows.blocks, [&](const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      kept.insert(kept.end(), block.bias[i].begin(), block.bias[i].end());
+      kept.insert(kept.end(), block.impulse[i].begin(), block.impulse[i].end());
+    }
+  });
+}
+
+void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows) {
+  const double* next = kept.data();
+  for_each_block(rows.blocks, [&](auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (auto* values : {&block.bias[i], &block.impulse[i]})
+        for (double& value : *values) value = *next++;
+  });
+}
+
 void apply_impulses(const Rows& rows, Points& v) {
   for_each_block(rows.blocks, [&](const auto& block) {
     for (std::size_t i = 0; i < block.size(); ++i) block.apply(rows.inverse_mass, i, block.impulse[i], v);

@@ -93,6 +93,10 @@ void for_each_block(Blocks&& blocks, F&& f) {
 std::int64_t row_count(const Rows& rows);
 std::int64_t row_count(const AnyBlock& block);
 
+/// The impulses and biases of all rows, to be put back later.
+void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept);
+void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows);
+
 /// v += W J^T p with the impulses stored in the rows.
 void apply_impulses(const Rows& rows, Points& v);
 

@@ -87,7 +87,7 @@ class StepIteration final : public OuterIteration {
     }
     last_residual_ = residual();
     data_.anderson.begin(data_.rows, data_.v);
-    data_.bound_contraction(scene_);
+    data_.bound_contraction(scene_, 1);
     data_.add_inertia();
   }
   void accelerate() override {
@@ -102,7 +102,7 @@ class StepIteration final : public OuterIteration {
     if (report_.outer_iterations >= 2)
       data_.slow_changes = data_.change > slow * data_.last_change ? data_.slow_changes + 1 : 0;
     if (data_.slow_changes >= patience) data_.contraction = 1;  // whatever was predicted
-    return data_.contraction <= slow_contraction || data_.bound_contraction(scene_) <= slow_contraction;
+    return data_.contraction <= slow_contraction || data_.bound_contraction(scene_, 1) <= slow_contraction;
   }
 
   void relax() override {

@@ -157,16 +157,16 @@ void StepData::descend(const Scene& scene, bool first) {
   quasi_newton.learn(v - search_from, gradient - last_gradient);
 }
 
-double StepData::bound_contraction(const Scene& scene) {
+double StepData::bound_contraction(const Scene& scene, int sign) {
   std::fill(inertia.begin(), inertia.end(), 0.0);
   double bound = 0;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const double before = bound;
-    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, rows.blocks[b], inertia);
+    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, sign, rows.blocks[b], inertia);
     bound = 0;
     for (std::size_t node = 0; node < inertia.size(); ++node)
       bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
-    costs[b].contraction = bound - before;
+    costs[b].contraction = std::max(sign < 0 ? costs[b].contraction : 0.0, bound - before);
   }
   return bound;
 }
@@ -193,25 +193,28 @@ std::int64_t StepData::relax(bool fresh, const InnerBudget& budget) {
   return sweeps;
 }
 
-/// What one plain iteration makes of a small error at v: error <- -(M + material)^-1 K error on the motions
-/// that the rows allow. With the rows linearised at v, the impulses' push along the turned directions is the
-/// source.
+/// What one plain iteration makes of a small error at v, with the rows linearised at v: the impulses push
+/// along turned directions, and the rows miss what their value does beyond J.
 std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   constexpr double turned = 1e-6;  // of the scene's extent
   const double extent = (map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff();
-  const double largest = map.d * error.colwise().norm().maxCoeff();
-  const double scale = turned * extent / largest;
+  const double scale = turned * extent / (map.d * error.colwise().norm().maxCoeff());
   turned_x = map.x0 + map.d * (v + scale * error);
   push = map.v_free;
+  keep_impulses_and_biases(rows, kept);
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    add_push(scene.effects[effect_of_block[b]], turned_x, inverse_mass, rows.blocks[b], push);
+    perturb(scene.effects[effect_of_block[b]], map, turned_x, v, scale, error, inverse_mass, rows.blocks[b],
+            push);
   error = (push - rebuilt) / scale;
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
-  return relax_homogeneous(relaxation, rows, error, rough, kept);
+  const std::int64_t sweeps = pbd::relax(relaxation, rows, error, true, rough, nullptr);
+  restore_impulses_and_biases(kept, rows);
+  return sweeps;
 }
 
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
-  contraction = bound_contraction(scene);
+  const double tension = bound_contraction(scene, 1);
+  contraction = std::max(tension, bound_contraction(scene, -1));
   if (on_potential || !(contraction > slow_contraction)) return 0;
   constexpr int most = most_krylov, fewest = 3;  // vectors, in the first step and later ones
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
@@ -219,6 +222,8 @@ std::int64_t StepData::estimate_contraction(const Scene& scene) {
   if (!mode_known) {
     for (Eigen::Index k = 0; k < v.size(); ++k)
       krylov[0].reshaped()[k] = std::sin(12.9898 * static_cast<double>(k + 1));
+    for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+      if (!(inverse_mass[node] > 0)) krylov[0].col(static_cast<Eigen::Index>(node)).setZero();
     krylov[0] /= norm(krylov[0]);
   }
   std::int64_t sweeps = 0;

@@ -74,9 +74,10 @@ struct StepData {
   /// where the potential is lower, at the old velocity or at v_free.
   void descend(const Scene& scene, bool first);
 
-  /// Fills `inertia` by the effects' geometric bounds at v. Returns the bound that they give of plain's
-  /// contraction, the largest 2 D/M; each effect's own goes into `costs`.
-  double bound_contraction(const Scene& scene);
+  /// Fills `inertia` by the effects' geometric bounds at v, of the impulses (sign 1: what stiffens) or their
+  /// opposites (-1: what softens). Returns the bound of plain's contraction that they give, the largest 2
+  /// D/M; each effect's own goes into `costs`.
+  double bound_contraction(const Scene& scene, int sign);
 
   /// Replaces M by M + D and v_free by (M + D)^-1 (M v_free + D v), D the `inertia`.
   void add_inertia();

@@ -79,7 +79,7 @@ class Report(unittest.TestCase):
             text = self.html()
         for absent in (sections.NO_TABLE, "Not drawn", "incomplete", "stem from different"):
             self.assertNotIn(absent, text)
-        self.assertIn("7 of 14 verdicts hold", text)
+        self.assertIn("8 of 16 verdicts hold", text)
         self.assertIn("theory predicts contraction in 4; 4 of these converge", text)
         self.assertNotIn("http://", text)
 

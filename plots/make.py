@@ -10,6 +10,7 @@ import inner_convergence  # noqa: F401
 import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
+import rival_newton  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
 from common import FIGURES, KINDS, literal, save

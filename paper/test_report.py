@@ -114,7 +114,7 @@ class Report(unittest.TestCase):
             text = self.html()
         self.assertIn("This report is incomplete. No result is shown of <code>judges</code> (failed: out of memory), "
                       "<code>effects_cost</code> (no run.json, the run did not come to its end)", text)
-        self.assertIn("5 of 10 verdicts hold", text)
+        self.assertIn("6 of 12 verdicts hold", text)
         for shown in ("could be compared", "Agreement of the judges", "judges/agreement"):
             self.assertNotIn(shown, text)
         self.assertNotIn("<img", text)

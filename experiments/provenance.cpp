@@ -11,6 +11,7 @@
 #include "build_info.h"
 #include "experiment.h"
 #include "judge.h"
+#include "rivals/blas.h"
 
 namespace pbdcheck {
 namespace {
@@ -31,6 +32,7 @@ nlohmann::ordered_json libraries() {
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"cli11", CLI11_VERSION}};
   for (const auto& [name, version] : pbd::reference::library_versions()) used[name] = version;
+  used["blas"] = pbd::rivals::blas_library();
   return used;
 }
 

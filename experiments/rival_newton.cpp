@@ -161,7 +161,9 @@ class Duel {
            reached          ? "ok"
            : status == "ok" ? "not_converged"
                             : status,
-           reached ? "" : "ended above the target: " + reason});
+           reached          ? ""
+           : reason.empty() ? "ended above the target"
+                            : reason});
       seconds_[{&problem, target}].push_back(reached ? point.wall_s : std::nan(""));
     }
     if (&contestant == &contestants[0]) ends_.add(measured.trace.points.back().error);

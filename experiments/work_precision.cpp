@@ -110,7 +110,7 @@ std::vector<Case> work_precision_cases(bool full) {
 
 void work_precision(Context& context) {
   const auto all = work_precision_cases(context.full());
-  const int budget = context.full() ? 1000 : 200;  // outer iterations
+  const int budget = context.full() ? 1000 : 50;  // outer iterations
   context.begin(std::ssize(all));
   Table table = context.table(
       "points", {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "tolerance",

@@ -26,7 +26,7 @@ STYLES = {
     "direct": (BLACK, "D", ":"),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
-    "judge": (BLACK, "*", ":"),
+    "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),
     "pendulum": (BLUE, "o", "-"), "chain20": (RED, "s", "--"), "cantilever": (GREEN, "^", "-."),
     "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }

@@ -13,6 +13,7 @@ import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
 import point_hard_cases  # noqa: F401
+import rival_newton  # noqa: F401
 import stability_map  # noqa: F401
 import work_precision  # noqa: F401
 from command import command

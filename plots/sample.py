@@ -159,6 +159,7 @@ def method_points(tolerance):
     for scene in ("chain20", "cantilever"):
         for outer, relaxation, speed in (("plain", "gauss_seidel", 1), ("plain", "nesterov_jacobi", 0.5),
                                          ("proximal", "gauss_seidel", 1.5), ("incremental", "gauss_seidel", 0.8),
+                                         ("quasi_newton", "none", 0.4), ("rival", "newton", 0.1),
                                          ("judge", "primal_newton", 0.3)):
             for t in (1e-2, 1e-4, 1e-6, 1e-8):
                 bad = outer == "plain" and t < 1e-5 and scene == "chain20"
@@ -172,6 +173,27 @@ def method_points(tolerance):
 
 def work_precision(directory):
     write(directory, "work_precision", "points", METHOD_COLUMNS, method_points(True))
+
+
+def rival_newton(directory):
+    times, traces = [], []
+    for elements in (192, 1536, 31944):
+        for young in (1e5, 1e6, 1e7):
+            for poisson in (0.3, 0.49):
+                for method, seconds, rate, most in (("quasi_newton", 3e-7, 0.7 if poisson < 0.4 else 0.95, 200),
+                                                    ("newton", 3e-7 * elements ** 0.3, 1e-3, 4)):
+                    key = ("cantilever", elements, young, poisson, method)
+                    bad = young == 1e7 and method == "quasi_newton" and poisson > 0.4
+                    status, reason = ("not_converged", "outer iterations spent") if bad else ("ok", "")
+                    traces += [(*key, k, seconds * elements * k, rate ** k, status, reason) for k in range(most)]
+                    for target in (1e-3, 1e-6, 1e-10):
+                        count = int(np.ceil(np.log(target) / np.log(rate)))
+                        times.append((*key, target, count, 1e-5 * elements, seconds * elements * count, target / 2,
+                                      *((status, reason) if target < 1e-8 else ("ok", ""))))
+    write(directory, "rival_newton", "times", "scene elements young_pa poisson method error_target iterations setup_s wall_s "
+          "error status reason", times)
+    write(directory, "rival_newton", "traces", "scene elements young_pa poisson method iteration wall_s error status reason",
+          traces)
 
 
 def effects_cost(directory):
@@ -235,7 +257,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, dual_vs_primal, mesh_refinement,
-                       work_precision, effects_cost, point_hard_cases, generated_scenes, judges):
+                       work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

@@ -23,6 +23,8 @@ TABLES = {
                                  "error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
     ("work_precision", "points"): METHOD + " tolerance",
+    ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
+    ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
@@ -41,6 +43,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("inner_convergence", "errors"): "scene relaxation",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("point_hard_cases", "gates"): "scene relaxation",
+    ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id statement quantity measured bound verdict"
 OWN_TABLES = ("verdicts",)  # shown by the report, never a figure

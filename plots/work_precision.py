@@ -1,17 +1,21 @@
 """Which method gives which accuracy for which work?"""
 
-from common import BLACK, ORANGE, SKY, curve_points, figure, footnote, panels, shared_legend, style
-from reading import failed, reasons_note, step_text
+from common import BLACK, BLUE, GREEN, ORANGE, SKY, curve_points, figure, footnote, panels, shared_legend, style
+from reading import failed, good, reasons_note, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "conjugate_gradients": "P", "direct": "D"}
-FILLINGS = {"incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
+LEAST_ERROR = 1e-9  # differences in accuracy below are not worth work
+FILLINGS = {"auto": {"markerfacecolor": BLUE}, "proximal": {"markerfacecolor": GREEN, "fillstyle": "full"}, "rival": {"markerfacecolor": BLACK},
+            "incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
             "frozen": {"markerfacecolor": ORANGE}}
 
 
 def method_name(row):
-    """`outer, relaxation`; judges by the name of the reference."""
-    if row["outer"] == "judge":
-        return f"judge {row['relaxation']}"
+    """`outer, relaxation`; judges and rivals by their names, outer iterations that relax nothing alone."""
+    if row["outer"] in ("judge", "rival"):
+        return f"{row['outer']} {row['relaxation']}"
+    if row["relaxation"] == "none":
+        return row["outer"]
     return f"{row['outer']}, {row['relaxation']}"
 
 
@@ -19,6 +23,18 @@ def method_style(row):
     """Colour, line and filling tell the outer iteration, the marker the relaxation."""
     look = style(row["outer"])
     return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])} | FILLINGS.get(row["outer"], {})
+
+
+def quickest(frame, x):
+    """Of each scene and outer iteration the relaxation that comes with least work to within ten times the least error that any
+    reaches; one that reaches nothing only where all others do not either."""
+    kept = []
+    for (outer, *_), rows in frame.groupby(["outer", "scene", "step_s", "integrator", "friction"], sort=False):
+        reached = good(rows, x, "error")
+        near = reached[reached["error"] <= max(10 * reached["error"].min(), LEAST_ERROR)] if len(reached) else rows
+        best = near.sort_values(x)["relaxation"].iloc[0]
+        kept.append(rows if outer in ("judge", "rival") else rows[rows["relaxation"] == best])
+    return frame.loc[sorted(index for rows in kept for index in rows.index)]
 
 
 def is_reference(points):
@@ -56,7 +72,7 @@ def draw_methods(frame, x, label):
     fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
     shared_legend(fig, axes, columns=3)
     bad = failed(frame, x, "error")
-    beside = "Beside the right edge: methods whose tighter tolerances were skipped. " if \
+    beside = "Beside the right edge: methods that were skipped at tighter tolerances, or altogether. " if \
         bad["status"].eq("skipped").any() else ""
     footnote(fig, beside + reasons_note(bad))
     return fig
@@ -64,14 +80,14 @@ def draw_methods(frame, x, label):
 
 @figure("work_precision", "seconds", table="points")
 def seconds(frame):
-    return draw_methods(frame, "wall_s", "wall time (s)")
+    return draw_methods(quickest(frame, "wall_s"), "wall_s", "wall time (s)")
 
 
 @figure("work_precision", "row_updates", table="points")
 def row_updates(frame):
-    return draw_methods(frame, "row_updates", "row updates")
+    return draw_methods(quickest(frame, "row_updates"), "row_updates", "row updates")
 
 
 @figure("work_precision", "outer_iterations", table="points")
 def outer_iterations(frame):
-    return draw_methods(frame, "outer_iterations", "outer iterations")
+    return draw_methods(quickest(frame, "outer_iterations"), "outer_iterations", "outer iterations")

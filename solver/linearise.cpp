@@ -76,6 +76,20 @@ BlockResidual linearise_block(const E& effect, const StepMap& map, const Points&
   return sums;
 }
 
+/// c, and J^T p of the p that `respond` makes of c, for effects that need no J for it, and for the others.
+template <class E, class Value, class Positions, class Respond>
+Positions push_of(const E& effect, std::size_t i, const Positions& x, const Respond& respond) {
+  if constexpr (requires { typename Constraint<E>::Deformation; }) {
+    const auto at = Constraint<E>::deformation(effect, i, x);
+    return Constraint<E>::push(at, respond(Constraint<E>::strain(effect, at)));
+  } else {
+    Value value;
+    typename Constraint<E>::Jacobian jacobian;
+    Constraint<E>::evaluate(effect, i, x, value, jacobian);
+    return (jacobian.transpose() * respond(value)).reshaped(3, Positions::ColsAtCompileTime);
+  }
+}
+
 template <class E>
 using BlockOf = RowBlock<Constraint<E>::rows, Constraint<E>::nodes>;
 
@@ -113,30 +127,28 @@ BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& 
       effect);
 }
 
-BlockPotential add_potential(const Effect& effect, const StepMap& map, const Points& x,
-                             const std::vector<double>& inverse_mass, AnyBlock& any, Points& v) {
+double add_potential(const Effect& effect, const StepMap& map, const Points& x,
+                     const std::vector<double>& inverse_mass, AnyBlock& any, Points& v) {
   return std::visit(
       [&]<class E>(const E& stated) {
-        BlockPotential sum;
+        double potential = 0;
         if constexpr (RowEffect<E>) {
           auto& block = std::get<BlockOf<E>>(any);
-          typename BlockOf<E>::Value value;
-          typename BlockOf<E>::Jacobian jacobian;
+          using Value = typename BlockOf<E>::Value;
           for (std::size_t i = 0; i < block.size(); ++i) {
-            const auto local = positions(block, x, i);
-            Constraint<E>::evaluate(stated, i, local, value, jacobian);
-            value /= map.d;
-            block.impulse[i].noalias() = -block.stiffness[i] * value;
-            sum.value -= value.dot(block.impulse[i]) / 2;
-            const double size = roundoff * local.cwiseAbs().maxCoeff() / map.d * block.stiffness[i].trace() *
-                                jacobian.squaredNorm();
-            double inverse = 0;
-            for (const int node : block.node[i]) inverse += inverse_mass[static_cast<std::size_t>(node)];
-            sum.rounding_squared += size * size * inverse;
-            block.apply(inverse_mass, i, jacobian, block.impulse[i], v);
+            const auto push =
+                push_of<E, Value>(stated, i, positions(block, x, i), [&](const Value& value) -> const Value& {
+                  block.impulse[i].noalias() = block.stiffness[i] * (value / -map.d);
+                  potential -= value.dot(block.impulse[i]) / (2 * map.d);
+                  return block.impulse[i];
+                });
+            for (int a = 0; a < block.nodes; ++a) {
+              const int node = block.node[i][static_cast<std::size_t>(a)];
+              v.col(node) += inverse_mass[static_cast<std::size_t>(node)] * push.col(a);
+            }
           }
         }
-        return sum;
+        return potential;
       },
       effect);
 }

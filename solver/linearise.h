@@ -26,17 +26,10 @@ struct BlockResidual {
 BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
                         const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
 
-/// A block's 1/2 (c/d)^T Sigma^-1 (c/d) in J, and the squared rounding of its share of the gradient in the
-/// norm of W: what the rounding of c(x), as in BlockResidual, makes of J^T p.
-struct BlockPotential {
-  double value = 0;
-  double rounding_squared = 0;
-};
-
-/// The step's potential as one block of compliant rows gives it: sets impulses p = -Sigma^-1 c/d at positions
-/// x and adds W J^T p to `v`.
-BlockPotential add_potential(const Effect& effect, const StepMap& map, const Points& x,
-                             const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
+/// The step's potential as one block of compliant rows gives it, 1/2 (c/d)^T Sigma^-1 (c/d) in J: sets
+/// impulses p = -Sigma^-1 c/d at positions x and adds W J^T p to `v`.
+double add_potential(const Effect& effect, const StepMap& map, const Points& x,
+                     const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
 
 /// Appends the block's share s d L of the quasi-Newton metric, L_ab = 1/3 trace(J_a^T A^-1 J_b) at rest,
 /// at positions x where an effect has no rest shape: entries (node a, node b, kg), each pair once. Fills the

@@ -58,7 +58,10 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   evaluated = false;
   slow_changes = 0;
   heavier = false;
-  if (on_potential) factor_metric(scene);
+  if (on_potential) {
+    factor_metric(scene);
+    bound_rounding(state.x);
+  }
 }
 
 double StepData::distance(const Points& a, const Points& b) const {
@@ -104,13 +107,10 @@ void StepData::evaluate_potential(const Scene& scene) {
   x = map.x0 + map.d * v;
   rebuilt = map.v_free;
   potential = std::pow(distance(v, map.v_free), 2) / 2;
-  potential_rounding_squared = 0;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const auto start = std::chrono::steady_clock::now();
-    const BlockPotential share =
+    potential +=
         add_potential(scene.effects[effect_of_block[b]], map, x, inverse_mass, rows.blocks[b], rebuilt);
-    potential += share.value;
-    potential_rounding_squared += share.rounding_squared;
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   gradient = v - rebuilt;
@@ -124,7 +124,20 @@ void StepData::factor_metric(const Scene& scene) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     add_metric(scene.effects[effect_of_block[b]], map, scene.initial.x, rows.blocks[b], entries);
+  stiffness.assign(inverse_mass.size(), 0.0);
+  for (const auto& entry : entries)
+    if (entry.row() == entry.col()) stiffness[static_cast<std::size_t>(entry.row())] += entry.value();
   quasi_newton.factor(map, inverse_mass, entries);
+}
+
+void StepData::bound_rounding(const Points& at) {
+  constexpr double roundoff =
+      4 * std::numeric_limits<double>::epsilon();  // of x, and in sums over neighbours
+  potential_rounding_squared = 0;
+  for (std::size_t node = 0; node < stiffness.size(); ++node)
+    potential_rounding_squared +=
+        inverse_mass[node] *
+        (at.col(static_cast<Eigen::Index>(node)) * (roundoff / map.d * stiffness[node])).squaredNorm();
 }
 
 void StepData::descend(const Scene& scene, bool first) {

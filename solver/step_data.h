@@ -40,7 +40,8 @@ struct StepData {
 
   QuasiNewton quasi_newton;
   double potential = 0;                   // J, at v
-  double potential_rounding_squared = 0;  // of its gradient, J
+  double potential_rounding_squared = 0;  // of its gradient, J, by what rounding makes of x
+  std::vector<double> stiffness;          // kg, of each node in the metric
   bool evaluated = false;                 // the potential and the impulses are those of v
   Points gradient, last_gradient, direction, search_from;
 
@@ -67,7 +68,7 @@ struct StepData {
   BlockResidual linearise_at(const Scene& scene, const Points& at);
 
   /// Sets the rows' own impulses at v, `rebuilt`, the potential and its gradient, unless they are. The dual
-  /// residual is zero; returns the rounding of the primal one.
+  /// residual is zero; returns the rounding of the primal one, as known from the step's begin.
   BlockResidual potential_at_v(const Scene& scene);
 
   /// One line search down the potential along the quasi-Newton direction; the first one of a step starts
@@ -100,6 +101,7 @@ struct StepData {
  private:
   void find_free_components();
   void factor_metric(const Scene& scene);
+  void bound_rounding(const Points& at);
   void evaluate_potential(const Scene& scene);
   std::int64_t apply_plain(const Scene& scene, Points& error);
 };

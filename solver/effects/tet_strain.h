@@ -33,17 +33,40 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
     return inverse / (effect.material.young * tet_volume(effect.rest[i]));
   }
 
-  static void evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
-                       Jacobian& jacobian) {
+  /// Dm^-1, F and T at positions x, and from them c and J^T p without J.
+  struct Deformation {
+    Eigen::Matrix3d inverse, f, t;
+  };
+
+  static Deformation deformation(const TetStrain& effect, std::size_t i, const Positions& x) {
     const Eigen::Matrix3d inverse = inverse_rest(effect, i);
     const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
-    const Eigen::Matrix3d t = directions(effect.strain, f);
-    const Eigen::Matrix3d stretch = t.transpose() * f;
+    return {inverse, f, directions(effect.strain, f)};
+  }
+
+  static Value strain(const TetStrain& effect, const Deformation& at) {
+    const Eigen::Matrix3d stretch = at.t.transpose() * at.f;
     const Eigen::Matrix3d twice = stretch + stretch.transpose();
+    Value value;
     value << twice.diagonal() / 2, twice(0, 1), twice(1, 2), twice(2, 0);
     if (effect.strain == Strain::green) value /= 2;
     value.head<3>().array() -= effect.strain == Strain::green ? 0.5 : 1.0;
+    return value;
+  }
 
+  /// T S Y^T, S the impulses as a symmetric matrix.
+  static Positions push(const Deformation& at, const Value& impulse) {
+    const Eigen::Matrix3d stress = symmetric(impulse);
+    Positions pushed;
+    pushed.rightCols<3>().noalias() = at.t * stress * at.inverse.transpose();
+    pushed.col(0) = -pushed.rightCols<3>().rowwise().sum();
+    return pushed;
+  }
+
+  static void evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
+                       Jacobian& jacobian) {
+    const auto [inverse, f, t] = deformation(effect, i, x);
+    value = strain(effect, {inverse, f, t});
     const Eigen::Matrix<double, 4, 3> y = gradients(inverse);
     for (int node_index = 0; node_index < 4; ++node_index)
       for (int a = 0; a < 3; ++a) {
@@ -61,9 +84,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   static NodeBounds geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
                                     const Value& impulse) {
     if (effect.strain == Strain::linear) return NodeBounds::Zero();
-    Eigen::Matrix3d stress;
-    stress << impulse[0], impulse[3], impulse[5], impulse[3], impulse[1], impulse[4], impulse[5], impulse[4],
-        impulse[2];
+    const Eigen::Matrix3d stress = symmetric(impulse);
     const Eigen::Matrix3d inverse = inverse_rest(effect, i);
     if (effect.strain == Strain::green) return stress_bound(gradients(inverse), Eigen::Matrix3d(-stress));
     const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
@@ -84,6 +105,12 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   }
 
  private:
+  static Eigen::Matrix3d symmetric(const Value& p) {
+    Eigen::Matrix3d matrix;
+    matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
+    return matrix;
+  }
+
   static Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
     const auto& rest = effect.rest[i];
     return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();

@@ -97,7 +97,7 @@ TEST_CASE("VTK frames hold the scene's cells and the collection names every fram
 TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");
-  CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 9);
+  CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);
   CHECK_THAT(run_program({"list", "scenes"}).out, Catch::Contains("pendulum.toml"));
   CHECK_THAT(run_program({"--version"}).out, Catch::Contains("pbdcheck ") && Catch::Contains("eigen 3."));
   for (const auto* command : {"list", "simulate", "compare", "run", "completion"}) {
@@ -128,6 +128,24 @@ TEST_CASE("compare writes the reference's row and every iterate of every method,
   }
   CHECK(rows[2][4] == "direct");
   CHECK(rows.back()[4] == "jacobi");
+}
+
+TEST_CASE("compare measures a rival as it does a method") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"compare", scenes / "cantilever.toml", "--method", "outer=quasi_newton",
+                                "--method", "rival=newton tolerance=1e-10 max_outer=50", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto rows = rows_of(folder.path / "compare.csv");
+  REQUIRE(rows.size() > 4);
+  CHECK(rows.back()[3] == "rival");
+  CHECK(rows.back()[4] == "newton");
+  CHECK(rows.back()[11] == "ok");
+  CHECK(std::stod(rows.back()[10]) < 1e-8);
+  CHECK(std::stod(rows.back()[9]) > 0);
+  const auto spent = run_program(
+      {"compare", scenes / "cantilever.toml", "--method", "rival=newton max_outer=1", "-o", folder.path});
+  CHECK(spent.exit_code == 1);
+  CHECK(rows_of(folder.path / "compare.csv").back()[12] == "iterations spent");
 }
 
 namespace {
@@ -292,6 +310,17 @@ TEST_CASE("what the command line does not allow is refused with option, value an
       {{"compare", chain, "--method", ""}, "--method: got ``; allowed: \"KEY=VALUE ...\""},
       {{"compare", chain, "--method", "tolerance=1e-3 tolerance=1e-6"},
        "--method tolerance: got `tolerance=1e-3 tolerance=1e-6`; allowed: each key once"},
+      {{"compare", chain, "--method", "rival=newtown"},
+       "--method rival: got `newtown`; allowed: only newton; did you mean `newton`?"},
+      {{"compare", chain, "--method", "rival"}, "--method rival: got ``; allowed: only newton"},
+      {{"compare", chain, "--method", "rival=newton relaxation=direct"},
+       "--method relaxation: got `relaxation=direct` for a rival; allowed: tolerance, max_outer"},
+      {{"compare", chain, "--method", "rival=newton rival=newton"}, "--method rival: got"},
+      {{"compare", chain, "--method", "rival=newton tolerance=-1"}, "--method tolerance: got -1; allowed: "},
+      {{"compare", chain, "--method", "rival=newton"},
+       "--method \"rival=newton\": newton: distance compliance[0]: got 0; allowed: a number > 0"},
+      {{"compare", chain, "--method", "outer=quasi_newton"},
+       "--method \"outer=quasi_newton\": outer: got quasi_newton with hard rows"},
       {{"simulate", chain, "--export", ""}, "--export: got ``; allowed: only vtk"},
       {{"list", "--json=abc"}, "--json: got `abc`; allowed: only true"}};
   for (const auto& [arguments, message] : refused) {

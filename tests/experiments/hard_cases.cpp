@@ -7,6 +7,7 @@
 #include "gates.h"
 #include "generated.h"
 #include "scenes/standard.h"
+#include "units.h"
 #include "validate.h"
 
 using namespace pbdcheck;

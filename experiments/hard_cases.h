@@ -31,7 +31,4 @@ int settling_steps(const HardCase& each, double h);
 /// All of them; the quick tier has smaller ones of the same kinds.
 std::vector<HardCase> hard_cases(bool full);
 
-/// The scene in other units: lengths times `length`, masses times `mass`, the same times.
-pbd::Scene in_units(pbd::Scene scene, double length, double mass);
-
 }  // namespace pbdcheck

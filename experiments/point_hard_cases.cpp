@@ -14,6 +14,7 @@
 #include "measure.h"
 #include "mesh.h"
 #include "scenes/standard.h"
+#include "units.h"
 
 namespace pbdcheck {
 namespace {

@@ -38,7 +38,7 @@ def gates(frame):
     ax.tick_params(top=True, labeltop=True)
     ax.grid(False)
     runs = frame[frame["status"] != "skipped"].drop_duplicates("row")
-    skipped = frame[frame["status"] == "skipped"]["reason"].str.partition(" in ")[0].value_counts()
+    skipped = frame[frame["status"] == "skipped"]["reason"].map(lambda reason: reason.partition(" in ")[0]).value_counts()
     footnote(fig, f"Red: the gate fails. * some steps say that they are not solved, in {(runs['status'] != 'ok').sum()} of {len(runs)} "
              "simulations. Skipped: " + ("; ".join(f"{count} x {reason}" for reason, count in skipped.items()) or "none") + ".")
     return fig

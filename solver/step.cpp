@@ -166,7 +166,11 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     // The rounding of a potential's gradient is an upper bound: it ends the step only where nothing falls.
     const bool settled =
         !w.on_potential || stalled || without_fall >= patience || report.outer_iterations >= method.max_outer;
-    const double rounding = velocity_rounding + (settled ? std::sqrt(found.rounding_squared) : 0.0);
+    constexpr double lost = 1e-4;  // of the scale: what rounds worse is not solved
+    const double value_rounding = std::sqrt(found.rounding_squared);
+    const double rounding =
+        velocity_rounding +
+        (settled && !(w.on_potential && value_rounding > lost * report.scale) ? value_rounding : 0.0);
     if (finished(method, w.on_potential ? rounding : velocity_rounding, rounding, first_residual, report))
       break;
     if (stalled) {

@@ -70,6 +70,7 @@ void method_points(const Case& each, const State& start, const Points& exact, co
   Method method;
   method.outer = outer.name;
   method.max_outer = max_outer;
+  method.max_sweeps = std::min(method.max_sweeps, 4 * max_outer);  // so that hopeless ones end early
   if (outer.potential != OnPotential::always) method.relaxation = relaxation;
   const auto solve = [&](double tolerance) {
     method.tolerance = tolerance;

@@ -116,8 +116,7 @@ class StepIteration final : public OuterIteration {
     const InnerBudget budget{
         .max_sweeps = method_.max_sweeps,
         .absolute = std::max(inner_share * method_.tolerance * report_.scale, forcing_ * residual())};
-    const auto sweeps = data_.relax(!relaxed_, budget);
-    relaxed_ = true;
+    const auto sweeps = data_.relax(first(), budget);
     report_.sweeps += sweeps;
     report_.row_updates += sweeps * row_count(data_.rows);
   }
@@ -129,7 +128,6 @@ class StepIteration final : public OuterIteration {
   const Method& method_;
   StepData& data_;
   Report& report_;
-  bool relaxed_ = false;
   double last_residual_ = 0;
   double forcing_ = method_.inner_tolerance;  // share of the residual that the linear problem is solved to
   double relaxed_residual_ = std::numeric_limits<double>::infinity();
@@ -178,13 +176,6 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;
-    }
-    constexpr int trial = 50;
-    constexpr double poor = 1e-2;
-    if (w.on_potential && w.outer.potential == OnPotential::where_possible &&
-        report.outer_iterations == trial && lowest_primal > poor * first_residual) {
-      w.on_potential = false;  // the metric fits this scene badly: on with the rows, in later steps, too
-      continue;
     }
     w.previous = w.v;
     w.outer.iterate(iteration);

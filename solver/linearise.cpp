@@ -193,6 +193,15 @@ bool all_compliant(const Effect& effect) {
       effect);
 }
 
+bool fills_space(const Effect& effect) {
+  return std::visit(
+      []<class E>(const E& stated) {
+        if constexpr (RowEffect<E>) return Constraint<E>::fills_space || stated.node.empty();
+        return true;
+      },
+      effect);
+}
+
 void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, int sign,
                            const AnyBlock& any, std::vector<double>& inertia) {
   std::visit(

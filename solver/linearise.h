@@ -40,6 +40,10 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBl
 /// True if every row of the effect gives way: A is positive definite.
 bool all_compliant(const Effect& effect);
 
+/// True if the effect has no rows, or rows that are stiff in every direction: one number a pair of nodes is
+/// then a good metric of them.
+bool fills_space(const Effect& effect);
+
 /// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
 /// D that the proximal outer iteration adds, and half a bound of the geometric stiffness. With sign -1, of
 /// the opposite impulses.

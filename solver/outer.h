@@ -4,10 +4,9 @@
 //   plain        v <- v_free + W J_k^T p, then relax
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
-//   auto         quasi_newton where every row is compliant; else plain where that contracts, proximal where
-//   not quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are
-//   eliminated proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free;
-//   accelerated
+//   auto         quasi_newton for compliant solids; else plain where that contracts, else proximal
+//   quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are eliminated
+//   proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free; accelerated
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
 // the solutions of the step. In incremental earlier impulses keep the directions they were found with, as in
@@ -46,8 +45,8 @@ class OuterIteration {
   ~OuterIteration() = default;
 };
 
-/// Whether impulses are the compliant rows' own, p = -Sigma^-1 c/d: `where_possible` if every row is
-/// compliant.
+/// Whether impulses are the compliant rows' own, p = -Sigma^-1 c/d: `where_possible` if every
+/// row is compliant and stiff in every direction.
 enum class OnPotential { never, where_possible, always };
 
 struct Outer {

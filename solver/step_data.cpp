@@ -37,7 +37,9 @@ StepData::StepData(const Scene& scene, const Method& method)
   find_free_components();
   on_potential = outer.potential != OnPotential::never && !rows.blocks.empty();
   for (std::size_t index = 0; index < scene.effects.size() && on_potential; ++index)
-    if (!all_compliant(scene.effects[index])) {
+    if (outer.potential == OnPotential::where_possible && !fills_space(scene.effects[index]))
+      on_potential = false;
+    else if (!all_compliant(scene.effects[index])) {
       if (outer.potential == OnPotential::always)
         throw SetupError("outer",
                          std::string(outer.name) + " with hard rows in effect " + std::to_string(index),

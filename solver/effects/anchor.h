@@ -7,6 +7,8 @@ namespace pbd {
 
 template <>
 struct Constraint<Anchor> : ConstraintShape<3, 1> {
+  static constexpr bool fills_space = true;
+
   static Nodes node(const Anchor& effect, std::size_t i) { return {effect.node[i]}; }
 
   static Square compliance(const Anchor& effect, std::size_t i) {

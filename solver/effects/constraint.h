@@ -20,6 +20,8 @@ template <int R, int K>
 struct ConstraintShape {
   static constexpr int rows = R;
   static constexpr int nodes = K;
+  static constexpr bool fills_space =
+      false;  // its rows are stiff in every direction, as those of a solid are
   using Positions = Eigen::Matrix<double, 3, K>;     // one column a node, m
   using Value = Eigen::Matrix<double, R, 1>;         // c
   using Jacobian = Eigen::Matrix<double, R, 3 * K>;  // three columns a node

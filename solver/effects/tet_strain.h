@@ -22,6 +22,8 @@ namespace pbd {
 
 template <>
 struct Constraint<TetStrain> : ConstraintShape<6, 4> {
+  static constexpr bool fills_space = true;
+
   static Nodes node(const TetStrain& effect, std::size_t i) { return effect.node[i]; }
   static const Positions& rest(const TetStrain& effect, std::size_t i) { return effect.rest[i]; }
 

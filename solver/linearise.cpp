@@ -153,8 +153,8 @@ double add_potential(const Effect& effect, const StepMap& map, const Points& x,
       effect);
 }
 
-void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBlock& any,
-                std::vector<Eigen::Triplet<double>>& entries) {
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape shape, AnyBlock& any,
+                std::vector<MetricEntry>& entries) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
@@ -163,21 +163,36 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBl
           for (std::size_t i = 0; i < block.size(); ++i) {
             typename BlockOf<E>::Value value;
             typename BlockOf<E>::Jacobian jacobian;
+            auto local = positions(block, x, i);
             if constexpr (requires { Constraint<E>::rest(stated, i); })
-              Constraint<E>::evaluate(stated, i, Constraint<E>::rest(stated, i), value, jacobian);
-            else
-              Constraint<E>::evaluate(stated, i, positions(block, x, i), value, jacobian);
+              if (shape == Shape::rest) local = Constraint<E>::rest(stated, i);
+            Constraint<E>::evaluate(stated, i, local, value, jacobian);
             block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();
             for (int a = 0; a < block.nodes; ++a)
-              for (int b = 0; b <= a; ++b)
-                entries.emplace_back(block.node[i][static_cast<std::size_t>(a)],
-                                     block.node[i][static_cast<std::size_t>(b)],
-                                     (jacobian.template middleCols<3>(3 * a).transpose() *
-                                      block.stiffness[i] * jacobian.template middleCols<3>(3 * b))
-                                             .trace() /
-                                         3);
+              for (int b = 0; b <= a; ++b) {
+                Eigen::Matrix3d pair = jacobian.template middleCols<3>(3 * a).transpose() *
+                                       block.stiffness[i] * jacobian.template middleCols<3>(3 * b);
+                if (!Constraint<E>::fills_space)
+                  pair = Eigen::Matrix3d(Vec3::Constant(pair.trace() / 3).asDiagonal());
+                entries.push_back({block.node[i][a], block.node[i][b], pair});
+              }
           }
         }
+      },
+      effect);
+}
+
+void add_deformation(const Effect& effect, const Points& x, std::vector<Eigen::Matrix3d>& deformation) {
+  std::visit(
+      [&]<class E>(const E& stated) {
+        if constexpr (requires { Constraint<E>::turning(stated, 0, {}); })
+          for (std::size_t i = 0; i < stated.node.size(); ++i) {
+            const auto nodes = Constraint<E>::node(stated, i);
+            typename Constraint<E>::Positions local;
+            for (int a = 0; a < Constraint<E>::nodes; ++a) local.col(a) = x.col(nodes[a]);
+            const Eigen::Matrix3d own = Constraint<E>::turning(stated, i, local);
+            for (const int node : nodes) deformation[node] += own;
+          }
       },
       effect);
 }

@@ -1,9 +1,7 @@
 // From effects to rows: b = c(x_k)/d - J v_k, Sigma = A/(s d), N_ii^-1, at the positions x_k = x0 + d v_k.
 #pragma once
 
-#include <Eigen/SparseCore>
-
-#include "integrators.h"
+#include "metric.h"
 #include "rows.h"
 
 namespace pbd {
@@ -31,11 +29,16 @@ BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& 
 double add_potential(const Effect& effect, const StepMap& map, const Points& x,
                      const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
 
-/// Appends the block's share s d L of the quasi-Newton metric, L_ab = 1/3 trace(J_a^T A^-1 J_b) at rest,
-/// at positions x where an effect has no rest shape: entries (node a, node b, kg), each pair once. Fills the
-/// block's `stiffness`.
-void add_metric(const Effect& effect, const StepMap& map, const Points& x, AnyBlock& block,
-                std::vector<Eigen::Triplet<double>>& entries);
+/// Of the effects, for the quasi-Newton metric: at rest, or as it is.
+enum class Shape { rest, current };
+
+/// Appends the effect's share of the quasi-Newton metric (metric.h), J at positions x or, with Shape::rest,
+/// at the effect's rest shape if it states one. Fills the block's `stiffness`.
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape shape, AnyBlock& block,
+                std::vector<MetricEntry>& entries);
+
+/// Adds the volumes times the deformation gradients (m^3) of the elements about each node at positions x.
+void add_deformation(const Effect& effect, const Points& x, std::vector<Eigen::Matrix3d>& deformation);
 
 /// True if every row of the effect gives way: A is positive definite.
 bool all_compliant(const Effect& effect);

@@ -1,6 +1,5 @@
 #include "quasi_newton.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 
 namespace pbd {
@@ -10,58 +9,47 @@ double dot(const Points& a, const Points& b) {
   return (a.array() * b.array()).sum();
 }
 
-}  // namespace
-
-void QuasiNewton::factor(const StepMap& map, const std::vector<double>& inverse_mass,
-                         const std::vector<Eigen::Triplet<double>>& stiffness) {
-  int order = 0;
-  column_.clear();
-  for (const double inverse : inverse_mass) column_.push_back(inverse > 0 ? order++ : -1);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t node = 0; node < column_.size(); ++node)
-    if (column_[node] >= 0) entries.emplace_back(column_[node], column_[node], 1 / inverse_mass[node]);
-  for (const auto& entry : stiffness) {
-    const int row = column_[static_cast<std::size_t>(entry.row())];
-    const int column = column_[static_cast<std::size_t>(entry.col())];
-    if (row >= 0 && column >= 0)
-      entries.emplace_back(std::max(row, column), std::min(row, column), entry.value());
-  }
-  Eigen::SparseMatrix<double> matrix(order, order);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factored(matrix);
-  lower_ = factored.matrixL().nestedExpression();
-  for (int& column : column_)
-    if (column >= 0) column = factored.permutationP().indices()(column);
-  work_.setZero(4, order);
-  d_ = map.d;
-  s_ = map.s;
-  forget();
+/// |force|_W over the nodes that can move.
+double weighted_norm(const Points& force, const std::vector<double>& inverse_mass) {
+  double sum = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    sum += inverse_mass[node] * force.col(node).squaredNorm();
+  return std::sqrt(sum);
 }
 
-/// Both triangles are passed once for all three axes: the time is that of reading L. The diagonal is the
-/// first entry of each of its columns.
-void QuasiNewton::solve(const Points& right, Points& result) {
-  for (std::size_t node = 0; node < column_.size(); ++node)
-    if (column_[node] >= 0) work_.col(column_[node]).head<3>() = right.col(static_cast<Eigen::Index>(node));
-  const int* const start = lower_.outerIndexPtr();
-  const int* const row = lower_.innerIndexPtr();
-  const double* const value = lower_.valuePtr();
-  for (int j = 0; j < lower_.cols(); ++j) {
-    const Eigen::Vector4d solved = work_.col(j) / value[start[j]];
-    work_.col(j) = solved;
-    for (int k = start[j] + 1; k < start[j + 1]; ++k) work_.col(row[k]) -= value[k] * solved;
-  }
-  for (auto j = static_cast<int>(lower_.cols()) - 1; j >= 0; --j) {
-    Eigen::Vector4d rest = work_.col(j);
-    for (int k = start[j] + 1; k < start[j + 1]; ++k) rest -= value[k] * work_.col(row[k]);
-    work_.col(j) = rest / value[start[j]];
-  }
-  for (std::size_t node = 0; node < column_.size(); ++node) {
-    const auto column = static_cast<Eigen::Index>(node);
-    if (column_[node] >= 0)
-      result.col(column) = work_.col(column_[node]).head<3>();
-    else
-      result.col(column).setZero();
+}  // namespace
+
+void QuasiNewton::solve_rows(double accuracy, const Points& gradient, Rows& rows, Points& v) {
+  constexpr int most_iterations = 50;
+  rest_ = -gradient;
+  metric_.solve(rest_, q_);
+  along_ = q_;
+  double product = dot(rest_, q_);
+  for (int k = 0; k < most_iterations && weighted_norm(rest_, rows.inverse_mass) > accuracy; ++k) {
+    pushed_.setZero(3, v.cols());
+    for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
+      if (rows.inverse_mass[node] > 0) pushed_.col(node) = along_.col(node) / rows.inverse_mass[node];
+    for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const typename Block::Velocities push =
+            block.jacobian[i].transpose() *
+            (block.stiffness[i] * (block.jacobian[i] * block.gather(along_, i)));
+        for (int a = 0; a < Block::nodes; ++a)
+          if (rows.inverse_mass[block.node[i][a]] > 0)
+            pushed_.col(block.node[i][a]) += push.template segment<3>(3 * a);
+      }
+    });
+    const double length = product / dot(along_, pushed_);
+    v += length * along_;
+    rest_ -= length * pushed_;
+    for_each_block(rows.blocks, [&]<class Block>(Block& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        block.impulse[i] -= block.stiffness[i] * (block.jacobian[i] * block.gather(length * along_, i));
+    });
+    metric_.solve(rest_, q_);
+    const double next = dot(rest_, q_);
+    along_ = q_ + next / product * along_;
+    product = next;
   }
 }
 
@@ -91,7 +79,7 @@ void QuasiNewton::direction(const Points& gradient, Points& result) {
     q_ -= alpha_[static_cast<std::size_t>(k)] * changes_[slot];
   }
   result.resizeLike(gradient);
-  solve(q_, result);
+  metric_.solve(q_, result);
   for (int k = used - 1; k >= 0; --k) {
     const auto slot = static_cast<std::size_t>((count_ - 1 - k) % memory_);
     const double beta = dot(changes_[slot], result) / curvature_[slot];

@@ -143,17 +143,23 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   Report report;
   const double free_change = w.distance(w.map.v_free, state.v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
-  constexpr int patience = 10;
-  int without_fall = 0;  // iterations since the primal residual was lowest
-  double lowest_primal = std::numeric_limits<double>::infinity();
   double first_residual = 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  int without_fall = 0;  // iterations since the primal residual was `lowest`
   StepIteration iteration(scene, method, w, report);
-
-  for (;; ++report.outer_iterations) {
-    const BlockResidual found = w.on_potential ? w.potential_at_v(scene) : w.linearise_at(scene, w.v);
+  double rounding = velocity_rounding;  // of the residuals
+  const auto measure = [&](const BlockResidual& found) {
     report.dual = std::sqrt(found.squared);
     report.primal = w.distance(w.v, w.rebuilt);
     report.scale = w.distance(w.v, state.v) + free_change;
+    rounding = velocity_rounding + std::sqrt(found.rounding_squared);
+  };
+
+  for (;; ++report.outer_iterations) {
+    if (w.on_potential)
+      w.potential_at_v(scene), measure({});
+    else
+      measure(w.linearise_at(scene, w.v));
     if (report.outer_iterations == 0) first_residual = std::max(report.primal, report.dual);
     if (observer)
       observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,
@@ -161,18 +167,22 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     w.last_change = w.change;
     w.change = w.distance(w.v, w.previous);
     const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v);
-    without_fall = report.primal < lowest_primal ? 0 : without_fall + 1;
-    lowest_primal = std::min(lowest_primal, report.primal);
-    // The rounding of a potential's gradient is an upper bound: it ends the step only where nothing falls.
-    const bool settled =
-        !w.on_potential || stalled || without_fall >= patience || report.outer_iterations >= method.max_outer;
-    constexpr double lost = 1e-4;  // of the scale: what rounds worse is not solved
-    const double value_rounding = std::sqrt(found.rounding_squared);
-    const double rounding =
-        velocity_rounding +
-        (settled && !(w.on_potential && value_rounding > lost * report.scale) ? value_rounding : 0.0);
-    if (finished(method, w.on_potential ? rounding : velocity_rounding, rounding, first_residual, report))
-      break;
+    if (finished(method, velocity_rounding, rounding, first_residual, report)) break;
+    if (w.on_potential && report.outer_iterations > 0) {
+      constexpr int patience = 5;
+      constexpr double near = 10;  // times the tolerance
+      without_fall = report.primal < lowest ? 0 : without_fall + 1;
+      lowest = std::min(lowest, report.primal);
+      const bool solved = w.find_direction() <= near * method.tolerance * report.scale;
+      if (stalled || (solved && without_fall >= patience) ||
+          report.outer_iterations + 1 >= method.max_outer) {
+        constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows
+        measure(w.settle(scene, inner_share * method.tolerance * report.scale));
+        if (finished(method, velocity_rounding, rounding, first_residual, report)) break;
+        without_fall = 0;
+        w.unsettle(scene);
+      }
+    }
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;

@@ -59,10 +59,11 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   quasi_newton.forget();
   evaluated = false;
   slow_changes = 0;
+  since_factor = 0;
   heavier = false;
   if (on_potential) {
-    factor_metric(scene);
-    bound_rounding(state.x);
+    if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, Shape::rest);
+    turn_metric(scene, map.x0 + map.d * v);
   }
 }
 
@@ -100,9 +101,8 @@ BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   return sums;
 }
 
-BlockResidual StepData::potential_at_v(const Scene& scene) {
+void StepData::potential_at_v(const Scene& scene) {
   if (!evaluated) evaluate_potential(scene);
-  return {.rounding_squared = potential_rounding_squared};
 }
 
 void StepData::evaluate_potential(const Scene& scene) {
@@ -121,55 +121,111 @@ void StepData::evaluate_potential(const Scene& scene) {
   evaluated = true;
 }
 
-void StepData::factor_metric(const Scene& scene) {
-  if (quasi_newton.factored_for(map)) return;
-  std::vector<Eigen::Triplet<double>> entries;
+void StepData::factor_metric(const Scene& scene, Shape shape) {
+  std::vector<MetricEntry> entries;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    add_metric(scene.effects[effect_of_block[b]], map, scene.initial.x, rows.blocks[b], entries);
-  stiffness.assign(inverse_mass.size(), 0.0);
-  for (const auto& entry : entries)
-    if (entry.row() == entry.col()) stiffness[static_cast<std::size_t>(entry.row())] += entry.value();
-  quasi_newton.factor(map, inverse_mass, entries);
+    add_metric(scene.effects[effect_of_block[b]], map, shape == Shape::rest ? scene.initial.x : x, shape,
+               rows.blocks[b], entries);
+  deformation.assign(inverse_mass.size(), Eigen::Matrix3d::Zero());
+  if (shape == Shape::current)
+    for (const auto& effect : scene.effects) add_deformation(effect, x, deformation);
+  quasi_newton.metric().factor(map, inverse_mass, entries, deformation);
+  quasi_newton.forget();
+  since_factor = 0;
 }
 
-void StepData::bound_rounding(const Points& at) {
-  constexpr double roundoff =
-      4 * std::numeric_limits<double>::epsilon();  // of x, and in sums over neighbours
-  potential_rounding_squared = 0;
-  for (std::size_t node = 0; node < stiffness.size(); ++node)
-    potential_rounding_squared +=
-        inverse_mass[node] *
-        (at.col(static_cast<Eigen::Index>(node)) * (roundoff / map.d * stiffness[node])).squaredNorm();
+void StepData::turn_metric(const Scene& scene, const Points& at) {
+  deformation.assign(inverse_mass.size(), Eigen::Matrix3d::Zero());
+  for (const auto& effect : scene.effects) add_deformation(effect, at, deformation);
+  quasi_newton.metric().turn(deformation);
+}
+
+double StepData::find_direction() {
+  const auto find = [this] {
+    quasi_newton.direction(gradient, direction);
+    slope = (gradient.array() * direction.array()).sum();
+  };
+  find();
+  if (!(slope < 0)) {
+    quasi_newton.forget();
+    find();
+  }
+  return std::sqrt(-slope);
+}
+
+/// Goes where the potential is lowest: the old velocity, the free one or rest. Not above rest, a step gains
+/// no energy but what the given forces bring: 1/2 |v - v_free|^2 + U <= 1/2 |v_free|^2 + U_old. True if it
+/// moved.
+bool StepData::start_low(const Scene& scene) {
+  search_from = v;
+  last_gradient = gradient;
+  double lowest = potential;
+  const Points* last = &search_from;
+  for (const Points* start : {&map.v_free, &zero}) {
+    if (start == &zero && lowest <= inner_product(map.v_free, map.v_free) / 2) break;
+    v = *start;
+    evaluate_potential(scene);
+    if (potential < lowest) {
+      lowest = potential;
+      search_from = v;
+      last_gradient = gradient;
+      last = start;
+    }
+  }
+  const bool moved = last != &search_from;
+  if (moved && potential > lowest) {
+    v = search_from;
+    evaluate_potential(scene);
+  }
+  v = search_from;
+  gradient = last_gradient;
+  potential = lowest;
+  return moved;
 }
 
 void StepData::descend(const Scene& scene, bool first) {
   constexpr double sufficient = 1e-4;
   constexpr double flat = 1e-10, flatter = 0.8;  // where the potential's change is lost in its rounding
   constexpr int most_halvings = 30;
+  if (first) {
+    if (start_low(scene)) return;
+    find_direction();
+  }
+  constexpr int most_iterations = 30;
+  if (++since_factor > most_iterations) {
+    factor_metric(scene, Shape::current);
+    find_direction();
+  }
   const double before = potential;
   search_from = v;
   last_gradient = gradient;
-  if (first) {
-    v = map.v_free;
-    evaluate_potential(scene);
-    if (potential < before) return;
-    gradient = last_gradient;
-  }
-  const auto along = [this] { return (gradient.array() * direction.array()).sum(); };
-  quasi_newton.direction(gradient, direction);
-  if (!(along() < 0)) {
-    quasi_newton.forget();
-    quasi_newton.direction(gradient, direction);
-  }
-  const double slope = along();
   double length = 1;
   for (int k = 0; k < most_halvings; ++k, length /= 2) {
     v = search_from + length * direction;
     evaluate_potential(scene);
-    if (potential <= before + sufficient * length * slope) break;
-    if (potential <= (1 + flat) * before && along() <= flatter * std::abs(slope)) break;
+    const double along = (gradient.array() * direction.array()).sum();
+    if (potential <= before + sufficient * length * slope ||
+        (potential <= (1 + flat) * before && along <= flatter * std::abs(slope))) {
+      quasi_newton.learn(v - search_from, gradient - last_gradient);
+      return;
+    }
   }
-  quasi_newton.learn(v - search_from, gradient - last_gradient);
+  v = search_from;
+  evaluate_potential(scene);
+  quasi_newton.forget();
+}
+
+BlockResidual StepData::settle(const Scene& scene, double accuracy) {
+  search_from = v;
+  linearise_at(scene, v);
+  quasi_newton.solve_rows(accuracy, gradient, rows, v);
+  evaluated = false;
+  return linearise_at(scene, v);
+}
+
+void StepData::unsettle(const Scene& scene) {
+  v = search_from;
+  evaluate_potential(scene);
 }
 
 double StepData::bound_contraction(const Scene& scene, int sign) {

@@ -39,10 +39,11 @@ struct StepData {
   bool accelerated = false;               // v is not an image of the iteration, but its acceleration
 
   QuasiNewton quasi_newton;
-  double potential = 0;                   // J, at v
-  double potential_rounding_squared = 0;  // of its gradient, J, by what rounding makes of x
-  std::vector<double> stiffness;          // kg, of each node in the metric
-  bool evaluated = false;                 // the potential and the impulses are those of v
+  double potential = 0;                      // J, at v
+  int since_factor = 0;                      // iterations
+  double slope = 0;                          // of the potential along `direction`, J
+  std::vector<Eigen::Matrix3d> deformation;  // m^3, about each node, whose rotation turns the metric
+  bool evaluated = false;                    // the potential and the impulses are those of v
   Points gradient, last_gradient, direction, search_from;
 
   double contraction = std::nan("");  // of plain, at the end of the last step
@@ -68,12 +69,21 @@ struct StepData {
   BlockResidual linearise_at(const Scene& scene, const Points& at);
 
   /// Sets the rows' own impulses at v, `rebuilt`, the potential and its gradient, unless they are. The dual
-  /// residual is zero; returns the rounding of the primal one, as known from the step's begin.
-  BlockResidual potential_at_v(const Scene& scene);
+  /// residual is zero.
+  void potential_at_v(const Scene& scene);
 
-  /// One line search down the potential along the quasi-Newton direction; the first one of a step starts
-  /// where the potential is lower, at the old velocity or at v_free.
+  /// Finds the quasi-Newton direction at v; returns Newton's decrement, sqrt(-gradient . direction), an
+  /// estimate of the distance from the solution (sqrt(J)).
+  double find_direction();
+
+  /// One line search down the potential along the direction found. Stays where no length gains anything. The
+  /// first iteration of a step goes where the potential is lowest: the old velocity, v_free or rest.
   void descend(const Scene& scene, bool first);
+
+  /// The rows' own impulses answer for what rounding makes of x, times the stiffness. So takes v and them to
+  /// the solution of the linear rows at v. `unsettle` comes back.
+  BlockResidual settle(const Scene& scene, double accuracy);
+  void unsettle(const Scene& scene);
 
   /// Fills `inertia` by the effects' geometric bounds at v, of the impulses (sign 1: what stiffens) or their
   /// opposites (-1: what softens). Returns the bound of plain's contraction that they give, the largest 2
@@ -100,8 +110,9 @@ struct StepData {
 
  private:
   void find_free_components();
-  void factor_metric(const Scene& scene);
-  void bound_rounding(const Points& at);
+  void factor_metric(const Scene& scene, Shape shape);
+  bool start_low(const Scene& scene);
+  void turn_metric(const Scene& scene, const Points& at);
   void evaluate_potential(const Scene& scene);
   std::int64_t apply_plain(const Scene& scene, Points& error);
 };

@@ -65,6 +65,12 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
     return pushed;
   }
 
+  /// Volume times what its material's rotation is the polar part of, m^3.
+  static Eigen::Matrix3d turning(const TetStrain& effect, std::size_t i, const Positions& x) {
+    const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse_rest(effect, i);
+    return tet_volume(effect.rest[i]) * (effect.strain == Strain::linear ? Eigen::Matrix3d::Identity() : f);
+  }
+
   static void evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {
     const auto [inverse, f, t] = deformation(effect, i, x);

@@ -1,0 +1,67 @@
+// The constant metric of quasi_newton,
+//   P = R (M + s d K) R^T,   K_ab = J_a^T A^-1 J_b at rest (N/m),
+// with R a rotation a node, that of the material about it at the step's start: P follows a solid that turns,
+// as warped stiffness does (Mueller, Gross 2004), and its factor stays. Effects whose rows leave directions
+// free enter with one number a pair of nodes, trace(K_ab)/3, which no rotation changes (Liu, Bouaziz, Kavan
+// 2017); so does everything where a factor of full blocks would take too long.
+#pragma once
+
+#include <Eigen/Core>
+#include <variant>
+#include <vector>
+
+#include "integrators.h"
+
+namespace pbd {
+
+/// A block of s d K, kg, row >= column in the order of nodes or not; each pair of nodes once.
+struct MetricEntry {
+  int row, column;
+  Eigen::Matrix3d block;
+};
+
+/// Pattern of the Cholesky factor L of a permuted matrix, by block columns, the diagonal first.
+struct FactorPattern {
+  std::vector<int> column;  // of each node in L, -1 for infinite mass
+  std::vector<int> start, row;
+
+  int columns() const { return static_cast<int>(start.size()) - 1; }
+  /// Multiplications of blocks that the factorisation takes.
+  double products() const;
+};
+
+/// L of B x B blocks. With B = 1 the same L serves x, y and z.
+template <int B, class Real>
+struct MetricFactor {
+  std::vector<Eigen::Matrix<Real, B, B>> lower;  // the inverse in the place of diagonal blocks
+
+  /// Solves L L^T x = b in place, one column a block column of L.
+  void solve(const FactorPattern& pattern, Points& x) const;
+};
+
+class Metric {
+ public:
+  /// `deformation` as in `turn`, of the shape that the entries are of; zero where that is the rest shape.
+  void factor(const StepMap& map, const std::vector<double>& inverse_mass,
+              const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation);
+
+  bool factored_for(const StepMap& map) const { return d_ == map.d && s_ == map.s; }
+
+  /// Sets R to the rotations nearest to the given deformation gradients, one a node, from the shape that P is
+  /// factored for; to 1 where a matrix is zero.
+  void turn(const std::vector<Eigen::Matrix3d>& deformation);
+
+  /// result = P^-1 right; zero where a node cannot move.
+  void solve(const Points& right, Points& result);
+
+ private:
+  bool turns() const { return factor_.index() > 0; }
+
+  double d_ = 0, s_ = 0;  // s, of the steps that P is factored for
+  FactorPattern pattern_;
+  std::variant<MetricFactor<1, double>, MetricFactor<3, float>, MetricFactor<3, double>> factor_;
+  std::vector<Eigen::Matrix3d> rotation_, factored_;  // R, and the rotations of the shape factored
+  Points work_;
+};
+
+}  // namespace pbd

@@ -16,6 +16,7 @@
 #include "judges.h"
 #include "progress.h"
 #include "provenance.h"
+#include "rivals/blas.h"
 
 namespace {
 
@@ -149,6 +150,13 @@ int run_command(int argc, char** argv) {
     return usage_error(app, error, argc, argv);
   }
   catch_interrupts();
+  pbd::rivals::use_one_blas_thread();
+  if (app.got_subcommand("run") && run_options.threads > 1 && !pbd::rivals::blas_is_thread_safe()) {
+    error_message("--threads: got " + std::to_string(run_options.threads) + " with " +
+                  pbd::rivals::blas_library() +
+                  ", which is not safe in threads; runs in 1 (allowed: more with " + "libopenblas0-pthread)");
+    run_options.threads = 1;
+  }
   try {
     if (app.got_subcommand("list")) return list(list_options);
     if (app.got_subcommand("simulate")) return simulate(simulate_options);

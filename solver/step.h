@@ -30,7 +30,7 @@ namespace pbd {
 struct Method {
   std::string integrator = "implicit_euler";
   std::string outer = "auto";
-  std::string relaxation = "gauss_seidel";
+  std::string relaxation = "conjugate_gradients";
   double tolerance = 1e-8;         // on the residuals, relative to `scale`
   int max_outer = 100;             // outer iterations a step
   int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration

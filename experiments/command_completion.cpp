@@ -1,7 +1,8 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "choices.h"
 #include "commands.h"
+#include "judges.h"
 
 namespace pbdcheck {
 namespace {
@@ -14,7 +15,7 @@ _pbdcheck() {
     -o|--output) COMPREPLY=($(compgen -d -- "$word")); return ;;
     --tier) words="quick full" ;;
     --export) words="vtk" ;;
-    --reference) words=$("$program" list references 2>/dev/null) ;;
+    --reference) words="@REFERENCES@" ;;
     *)
       if ((COMP_CWORD == 1)); then
         words="list simulate compare run completion --help --version"
@@ -41,11 +42,12 @@ complete -F _pbdcheck pbdcheck
 
 int completion(const std::string& shell) {
   require_name("completion", shell, std::vector<std::string>{"bash"});
-  std::string kinds;
-  for (const auto& kind : list_kinds()) kinds += (kinds.empty() ? "" : " ") + kind;
   std::string script = bash_script;
-  const std::string placeholder = "@KINDS@";
-  script.replace(script.find(placeholder), placeholder.size(), kinds);
+  const auto fill = [&](const std::string& placeholder, const std::vector<std::string>& words) {
+    script.replace(script.find(placeholder), placeholder.size(), fmt::format("{}", fmt::join(words, " ")));
+  };
+  fill("@KINDS@", list_kinds());
+  fill("@REFERENCES@", reference_names());
   fmt::print("{}", script);
   return exit_done;
 }

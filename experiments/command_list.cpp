@@ -44,6 +44,7 @@ std::vector<Item> scene_items() {
 
 std::vector<Item> reference_items() {
   std::vector<Item> items = named(reference_names());
+  items.push_back({"ode", "trajectories of compliant scenes and planar hard chains in continuous time"});
   items.push_back({"closed_form", "formulas and their checks, see `list cases`"});
   return items;
 }

@@ -1,5 +1,6 @@
 // pbdcheck: the command line. Everything it does is in command_*.cpp.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -84,7 +85,9 @@ void add_compare(CLI::App& app, CompareOptions& options) {
                    "max_outer=VALUE at most, in quotes; may be repeated")
       ->required()
       ->allow_extra_args(false);
-  command->add_option("--reference", options.reference, "One of `list references`; the first if left out")
+  command
+      ->add_option("--reference", options.reference,
+                   fmt::format("{}; the first if left out", fmt::join(reference_names(), " or ")))
       ->check(one_of(reference_names()));
   command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
       ->check(integer_from(0, std::numeric_limits<int>::max()))

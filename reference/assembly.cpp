@@ -119,6 +119,20 @@ void Assembly::add_jacobian(const Element& e, int a, int unknown) {
     }
 }
 
+Vector energy_gradient(const Model& model, const Points& x) {
+  Vector gradient = Vector::Zero(model.unknowns);
+  Local local;
+  for (const Element& e : model.elements) {
+    if (e.hard()) continue;
+    differentiate_once(e, x, local);
+    const LocalVector by_f = local.jacobian.transpose() * stress(e, local.value, {});
+    for (int a = 0; a < e.nodes; ++a)
+      if (const int i = model.unknown(e, a); i >= 0)
+        for (int q = 0; q < e.columns; ++q) gradient.segment<3>(i) += e.weight(a, q) * by_f.segment<3>(3 * q);
+  }
+  return gradient;
+}
+
 Rows all_rows(const Model& model, const Points& x, const Vector& gamma) {
   Rows r;
   r.first = {0};

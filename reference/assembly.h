@@ -42,6 +42,9 @@ class Assembly {
   std::vector<Eigen::Triplet<double>> jacobian_;
 };
 
+/// dU/dx of the compliant constraints by the unknowns, N.
+Vector energy_gradient(const Model& model, const Points& x);
+
 /// Constraint rows of all elements, hard and compliant, in the scene's order: c, J (rows x unknowns), force
 /// multipliers (gamma, or -A^-1 c), and the geometric stiffness sum_i multiplier_i d2c_i/dx2 (N/m).
 struct Rows {

@@ -5,6 +5,7 @@
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_elljac.h>
+#include <gsl/gsl_sf_gamma.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -12,6 +13,8 @@
 #include <numbers>
 #include <stdexcept>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "numerics.h"
 
 namespace pbd::reference {
 namespace {
@@ -43,6 +46,42 @@ Angle pendulum_motion(double length, double g, double amplitude, double time) {
   return {2 * std::asin(k * sn), -2 * k * w * cn};
 }
 
+double conical_pendulum_period(double length, double g, double angle) {
+  return 2 * pi * std::sqrt(length * std::cos(angle) / g);
+}
+double tautochrone_period(double radius, double g) {
+  return 4 * pi * std::sqrt(radius / g);
+}
+
+double double_pendulum_frequency(const DoublePendulum& p, double g, int mode) {
+  const double mass = p.upper_mass + p.lower_mass;
+  const double a = p.upper_mass * p.upper_length * p.lower_length;
+  const double b = mass * (p.upper_length + p.lower_length) * g, c = mass * g * g;
+  const double larger = b + std::sqrt(b * b - 4 * a * c);
+  return std::sqrt(mode == 1 ? 2 * c / larger : larger / (2 * a)) / (2 * pi);
+}
+
+double folded_chain_time(double length, double g) {
+  return gsl_sf_beta(0.75, 0.5) / 2 * std::sqrt(length / g);
+}
+double implicit_euler_fall_lag(double g, double h, double time) {
+  return g * h * time / 2;
+}
+
+PlanarState kepler_orbit(double mu, double a, double e, double time) {
+  const double rate = std::sqrt(mu / (a * a * a)), anomaly = rate * time, flat = std::sqrt(1 - e * e);
+  const double at =
+      find_root([&](double s) { return s - e * std::sin(s) - anomaly; }, anomaly - 1, anomaly + 1);
+  const double speed = rate * a / (1 - e * std::cos(at));
+  return {a * (std::cos(at) - e), a * flat * std::sin(at), -speed * std::sin(at),
+          speed * flat * std::cos(at)};
+}
+
+DampedSpring damped_spring(double stiffness, double mass, double damping) {
+  const double ratio = damping / (2 * std::sqrt(stiffness * mass)), root = std::sqrt(1 - ratio * ratio);
+  return {ratio, std::sqrt(stiffness / mass) * root, 2 * pi * ratio / root};
+}
+
 Discrete implicit_euler_oscillator(double wh) {
   return {1 / std::sqrt(1 + wh * wh), std::atan(wh)};
 }
@@ -56,6 +95,13 @@ Discrete bdf2_oscillator(double wh) {
 }
 Discrete symplectic_euler_oscillator(double wh) {
   return {1, 2 * std::asin(wh / 2)};
+}
+Discrete implicit_euler_damped_oscillator(double wh, double ratio) {
+  return {1 / std::sqrt(1 + 2 * ratio * wh + wh * wh),
+          std::atan2(wh * std::sqrt(1 - ratio * ratio), 1 + ratio * wh)};
+}
+double logarithmic_decrement(const Discrete& oscillator) {
+  return -2 * pi * std::log(oscillator.growth) / oscillator.phase;
 }
 
 double spring_chain_stretch(int n, double stiffness, double mass, double g) {

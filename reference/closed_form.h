@@ -4,20 +4,7 @@
 // parameter m = k^2.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 namespace pbd::reference {
-
-/// Root of f in [low, high] by Brent's method to rounding. Throws std::runtime_error if f has the same sign
-/// at both ends.
-double find_root(const std::function<double(double)>& f, double low, double high);
-/// Integral over [low, high] to about 1e-12 relative (adaptive Gauss-Kronrod). Throws std::runtime_error if
-/// not reached.
-double integrate(const std::function<double(double)>& f, double low, double high);
-/// State at time `end` of y' = f(t, y) from y(0), by Dormand-Prince 8(7) with tolerance 1e-14.
-std::vector<double> solve_ode(const std::function<std::vector<double>(double, const std::vector<double>&)>& f,
-                              std::vector<double> y, double end);
 
 /// Pendulum released at rest at `amplitude` (rad): T = 4 sqrt(l/g) K(sin(amplitude/2)), s.
 double pendulum_period(double length, double g, double amplitude);
@@ -27,6 +14,39 @@ struct Angle {
 };
 /// Its motion: sin(angle/2) = k sn(K - t sqrt(g/l)), k = sin(amplitude/2).
 Angle pendulum_motion(double length, double g, double amplitude, double time);
+/// Circling at `angle` (rad) from the vertical: T = 2 pi sqrt(l cos(angle)/g), s.
+double conical_pendulum_period(double length, double g, double angle);
+/// Bead on the cycloid of a rolling circle: T = 4 pi sqrt(r/g) for every amplitude, s.
+double tautochrone_period(double radius, double g);
+
+/// Two bobs (kg) on massless links (m), the upper ones first.
+struct DoublePendulum {
+  double upper_mass, lower_mass, upper_length, lower_length;
+};
+/// Its slow (1) or fast (2) small mode: root of m1 l1 l2 w^4 - (m1 + m2) (l1 + l2) g w^2 + (m1 + m2) g^2 = 0,
+/// Hz.
+double double_pendulum_frequency(const DoublePendulum& pendulum, double g, int mode);
+
+/// A uniform chain held at one end, the other released beside it: time until the chain hangs straight, energy
+/// conserved. y'^2 = g y (2L - y)/(L - y) gives B(3/4, 1/2)/2 sqrt(L/g), s.
+double folded_chain_time(double length, double g);
+/// How much farther than g t^2/2 implicit Euler falls: g h t/2, m.
+double implicit_euler_fall_lag(double g, double h, double time);
+
+struct PlanarState {
+  double x, y, vx, vy;  // m, m/s
+};
+/// Orbit about the origin with gravitational parameter mu (m^3/s^2), semi-major axis a (m) and eccentricity e
+/// < 1, at the pericentre (a (1 - e), 0) at time 0 and anticlockwise: E - e sin E = sqrt(mu/a^3) t.
+PlanarState kepler_orbit(double mu, double a, double e, double time);
+
+/// m x'' = -k x - c x', underdamped.
+struct DampedSpring {
+  double ratio;      // zeta = c/(2 sqrt(k m))
+  double frequency;  // sqrt(k/m (1 - zeta^2)), rad/s
+  double decrement;  // of the amplitude per period, 2 pi zeta/sqrt(1 - zeta^2)
+};
+DampedSpring damped_spring(double stiffness, double mass, double damping);
 
 /// One step of x'' = -w^2 x multiplies the amplitude by `growth` and turns the phase by `phase` (rad); wh is
 /// w times h.
@@ -38,6 +58,11 @@ Discrete implicit_euler_oscillator(double wh);    // 1/sqrt(1 + (wh)^2), atan(wh
 Discrete newmark_oscillator(double wh);           // beta 1/4, gamma 1/2: 1, 2 atan(wh/2)
 Discrete bdf2_oscillator(double wh);              // principal root of (3 - 2 i wh) z^2 - 4 z + 1 = 0
 Discrete symplectic_euler_oscillator(double wh);  // 1, 2 asin(wh/2), wh < 2
+/// A constraint c = x of compliance A with c + tau c' + A gamma = 0, c' = (x1 - x0)/h, ratio = w tau/2 < 1: w
+/// = 1/sqrt(A m). Growth 1/sqrt(1 + 2 ratio wh + (wh)^2).
+Discrete implicit_euler_damped_oscillator(double wh, double ratio);
+/// Logarithmic decrement per turn of the phase.
+double logarithmic_decrement(const Discrete& oscillator);
 
 /// Chain of n masses and springs hung from a support: stretch m g n (n+1)/(2k) (m) and its lowest frequency
 /// (Hz).

@@ -28,8 +28,8 @@ double wrapped(double angle) {
   angle = std::remainder(angle, 2 * std::numbers::pi);
   return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
-template <int D>
-Jet<D> wrapped(Jet<D> angle) {
+template <int D, int Order>
+Jet<D, Order> wrapped(Jet<D, Order> angle) {
   angle.value = wrapped(angle.value);
   return angle;
 }
@@ -68,9 +68,28 @@ struct Plain {
   using Type = double;
 };
 template <int D>
+struct DifferentiatedOnce {
+  using Type = Jet<D, 1>;
+};
+template <int D>
 struct Differentiated {
   using Type = Jet<D>;
 };
+
+/// Value and derivatives to the order of Number; `use` gets the index of each row and its jet.
+template <template <int> class Number, class Use>
+void differentiate_rows(const Element& element, const Eigen::Matrix3d& f, Local& local, const Use& use) {
+  local.value.resize(element.rows);
+  local.jacobian.resize(element.rows, element.variables());
+  with_value<Number>(element, f, [&](const auto& value) {
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const int i = static_cast<int>(k);
+      local.value(i) = value[k].value;
+      local.jacobian.row(i) = value[k].gradient;
+      use(k, value[k]);
+    }
+  });
+}
 
 }  // namespace
 
@@ -99,16 +118,19 @@ void differentiate(const Element& element, const Points& x, Local& local) {
     for (std::size_t k = 0; k < 6; ++k) local.hessian[k] = d.hessian[k];
     return;
   }
-  local.value.resize(element.rows);
-  local.jacobian.resize(element.rows, element.variables());
-  with_value<Differentiated>(element, f, [&](const auto& value) {
-    for (std::size_t k = 0; k < value.size(); ++k) {
-      const int i = static_cast<int>(k);
-      local.value(i) = value[k].value;
-      local.jacobian.row(i) = value[k].gradient;
-      local.hessian[k] = value[k].hessian;
-    }
-  });
+  differentiate_rows<Differentiated>(element, f, local,
+                                     [&](std::size_t k, const auto& row) { local.hessian[k] = row.hessian; });
+}
+
+void differentiate_once(const Element& element, const Points& x, Local& local) {
+  const Eigen::Matrix3d f = local_matrix(element, x);
+  if (element.kind == Kind::corotational) {
+    const StrainSlope d = corotational_slope(f);
+    local.value = d.value;
+    local.jacobian = d.jacobian;
+    return;
+  }
+  differentiate_rows<DifferentiatedOnce>(element, f, local, [](std::size_t, const auto&) {});
 }
 
 RowVector stress(const Element& e, const RowVector& c, const Multipliers& m) {

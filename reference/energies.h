@@ -80,6 +80,8 @@ Eigen::Matrix3d local_matrix(const Element& element, const Points& x);
 /// Constraint value c(x), R entries.
 RowVector constraint_value(const Element& element, const Points& x);
 void differentiate(const Element& element, const Points& x, Local& local);
+/// Without the Hessians, which it leaves as they are.
+void differentiate_once(const Element& element, const Points& x, Local& local);
 
 /// Multipliers and penalties of the hard rows; empty vectors mean zero.
 struct Multipliers {

@@ -5,6 +5,7 @@
 //   phi(a)' = phi'(a) a',      phi(a)'' = phi'(a) a'' + phi''(a) a' a'^T
 //
 // The judges state effects by their values only; this type supplies the derivatives (Griewank, Walther 2008).
+// Of order 1 it carries the gradient alone.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +14,10 @@
 
 namespace pbd::reference {
 
-template <int D>
+template <int D, int Order = 2>
 struct Jet {
   using Gradient = Eigen::Matrix<double, D, 1>;
-  using Hessian = Eigen::Matrix<double, D, D>;
+  using Hessian = Eigen::Matrix<double, Order == 2 ? D : 0, Order == 2 ? D : 0>;
 
   double value = 0;
   Gradient gradient = Gradient::Zero();
@@ -50,9 +51,11 @@ struct Jet {
   friend Jet operator*(const Jet& a, const Jet& b) {
     Jet product(a.value * b.value);
     product.gradient = a.value * b.gradient + b.value * a.gradient;
-    product.hessian.noalias() = a.gradient * b.gradient.transpose();
-    product.hessian += product.hessian.transpose().eval();
-    product.hessian += a.value * b.hessian + b.value * a.hessian;
+    if constexpr (Order == 2) {
+      product.hessian.noalias() = a.gradient * b.gradient.transpose();
+      product.hessian += product.hessian.transpose().eval();
+      product.hessian += a.value * b.hessian + b.value * a.hessian;
+    }
     return product;
   }
 
@@ -60,7 +63,8 @@ struct Jet {
   static Jet chain(const Jet& a, double phi, double first, double second) {
     Jet result(phi);
     result.gradient = first * a.gradient;
-    result.hessian = first * a.hessian + second * (a.gradient * a.gradient.transpose());
+    if constexpr (Order == 2)
+      result.hessian = first * a.hessian + second * (a.gradient * a.gradient.transpose());
     return result;
   }
   friend Jet sqrt(const Jet& a) {

@@ -2,6 +2,7 @@
 
 #include "closed_form.h"
 #include "known_answers_rows.h"
+#include "numerics.h"
 
 namespace pbd::reference::known {
 namespace {

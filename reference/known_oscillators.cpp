@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -40,6 +41,43 @@ double stepped_bdf2(double h) {
       recurrence(step, std::polar(exact.growth, exact.phase), static_cast<int>(std::lround(1 / h))));
 }
 
+/// Growth and phase of the damped compliant constraint's step: det = growth^2 and trace = 2 growth cos(phase)
+/// of its map of (x, v).
+Discrete stepped_damped(double stiffness, double mass, double damping, double h) {
+  const double compliance = 1 / stiffness, tau = damping / stiffness;
+  const auto step = [&](double x, double v) {
+    // m (v1 - v)/h = gamma with (1 + tau/h) (x + h v1) - tau/h x + A gamma = 0.
+    const double after = (compliance * mass / h * v - x) / (compliance * mass / h + h + tau);
+    return std::array{x + h * after, after};
+  };
+  const auto from_x = step(1, 0), from_v = step(0, 1);
+  const double growth = std::sqrt(from_x[0] * from_v[1] - from_x[1] * from_v[0]);
+  return {growth, std::acos((from_x[0] + from_v[1]) / (2 * growth))};
+}
+
+void damped(Rows& rows) {
+  const DampedSpring exact = damped_spring(100, 1, 1);
+  const double w = 10;
+  struct Case {
+    double h;
+    const char *amplitude, *frequency, *decrement;
+  };
+  for (const Case& c : {Case{0.1, "0.0244851927021", "0.761340005543", "3.06536363536"},
+                        Case{0.01, "0.371527882127", "0.991768530115", "0.628066906671"},
+                        Case{0.001, "0.577124236178", "0.999467051685", "0.346002208868"}}) {
+    const Discrete step = implicit_euler_damped_oscillator(w * c.h, exact.ratio);
+    const Discrete stepped = stepped_damped(100, 1, 1, c.h);
+    const std::string of = " of x'' = -100 x - x', h = " + number(c.h) + " s";
+    rows.push_back({"damped_oscillator", "implicit Euler: amplitude after 1 s" + of, "1",
+                    std::pow(step.growth, 1 / c.h), c.amplitude, std::pow(stepped.growth, 1 / c.h)});
+    rows.push_back({"damped_oscillator", "implicit Euler: frequency ratio" + of, "1",
+                    step.phase / (c.h * exact.frequency), c.frequency,
+                    stepped.phase / (c.h * exact.frequency)});
+    rows.push_back({"damped_oscillator", "implicit Euler: logarithmic decrement" + of, "1",
+                    logarithmic_decrement(step), c.decrement, logarithmic_decrement(stepped)});
+  }
+}
+
 }  // namespace
 
 void oscillators(Rows& rows) {
@@ -71,6 +109,7 @@ void oscillators(Rows& rows) {
                     symplectic_euler_oscillator(wh).phase / wh, c.symplectic,
                     std::acos(1 - wh * wh / 2) / wh});
   }
+  damped(rows);
 }
 
 }  // namespace pbd::reference::known

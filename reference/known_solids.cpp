@@ -3,6 +3,7 @@
 #include "closed_form.h"
 #include "known_answers_rows.h"
 #include "linear_fem.h"
+#include "numerics.h"
 
 namespace pbd::reference::known {
 namespace {

@@ -1,4 +1,5 @@
-// GSL's root, quadrature and ODE solvers behind std::function.
+#include "numerics.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_odeiv2.h>
@@ -7,8 +8,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-
-#include "closed_form.h"
 
 namespace pbd::reference {
 namespace {
@@ -27,6 +26,23 @@ gsl_function wrap(const Scalar& f) {
 void require(int status, const char* what) {
   if (status != GSL_SUCCESS) throw std::runtime_error(std::string(what) + ": " + gsl_strerror(status));
 }
+
+/// The right-hand side as GSL calls it, up to a number of evaluations.
+struct Evaluations {
+  const Slope& f;
+  long allowed;
+  Eigen::VectorXd y, slope;
+  long count = 0;
+
+  static int call(double t, const double* y, double* slope, void* data) {
+    auto& e = *static_cast<Evaluations*>(data);
+    if (++e.count >= e.allowed) return GSL_EBADFUNC;
+    e.y = Eigen::Map<const Eigen::VectorXd>(y, e.y.size());
+    e.f(t, e.y, e.slope);
+    Eigen::Map<Eigen::VectorXd>(slope, e.slope.size()) = e.slope;
+    return e.slope.allFinite() ? GSL_SUCCESS : GSL_FAILURE;
+  }
+};
 
 }  // namespace
 
@@ -58,27 +74,31 @@ double integrate(const Scalar& f, double low, double high) {
   return result;
 }
 
-std::vector<double> solve_ode(const std::function<std::vector<double>(double, const std::vector<double>&)>& f,
-                              std::vector<double> y, double end) {
-  using Slope = std::function<std::vector<double>(double, const std::vector<double>&)>;
-  struct Context {
-    const Slope& f;
-    std::size_t size;
-  } context{f, y.size()};
-  const auto evaluate = [](double t, const double* at, double* slope, void* data) {
-    const auto& c = *static_cast<Context*>(data);
-    const std::vector<double> value = c.f(t, {at, at + c.size});
-    std::copy(value.begin(), value.end(), slope);
-    return static_cast<int>(GSL_SUCCESS);
-  };
+OdeSolution solve_ode(const Slope& f, Eigen::VectorXd y, const std::vector<double>& times,
+                      const OdeSettings& settings) {
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (!(times[i] >= (i == 0 ? 0 : times[i - 1])))
+      throw std::invalid_argument("ode: times must be >= 0 and increase");
+  Evaluations evaluations{f, settings.max_evaluations, y, y};
   gsl_set_error_handler_off();
-  gsl_odeiv2_system system{evaluate, nullptr, y.size(), &context};
+  gsl_odeiv2_system system{&Evaluations::call, nullptr, static_cast<std::size_t>(y.size()), &evaluations};
   const std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver(
-      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-14, 1e-14),
+      gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, settings.tolerance,
+                                    settings.tolerance),
       &gsl_odeiv2_driver_free);
+  OdeSolution solution;
   double t = 0;
-  require(gsl_odeiv2_driver_apply(driver.get(), &t, end, y.data()), "ode");
-  return y;
+  for (const double end : times) {
+    const int status = gsl_odeiv2_driver_apply(driver.get(), &t, end, y.data());
+    if (evaluations.count >= settings.max_evaluations)
+      throw OdeFailure("ode: stopped at t = " + std::to_string(t) + " s after " +
+                       std::to_string(evaluations.count) + " evaluations");
+    if (status != GSL_SUCCESS || !y.allFinite())
+      throw OdeFailure("ode: no solution found beyond t = " + std::to_string(t) + " s");
+    solution.states.push_back(y);
+  }
+  solution.evaluations = evaluations.count;
+  return solution;
 }
 
 }  // namespace pbd::reference

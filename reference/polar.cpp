@@ -59,6 +59,33 @@ Eigen::Matrix<double, 6, 6> to_space(const Eigen::Matrix3d& v) {
   return t;
 }
 
+/// S and its first derivatives by the entries of U^T dF V, in the frame V.
+struct Polar {
+  ProperSvd svd;
+  Eigen::Matrix3d inverse;
+  Matrix9 frame;
+  Eigen::Matrix<double, 6, 6> space;
+  std::array<Eigen::Matrix3d, 9> first;
+
+  explicit Polar(const Eigen::Matrix3d& f)
+      : svd(proper_svd(f)),
+        inverse(inverse_sums(svd.s)),
+        frame(to_singular_frame(svd)),
+        space(to_space(svd.v)) {
+    for (int a = 0; a < 9; ++a) {
+      const Eigen::Matrix3d half = svd.s.asDiagonal() * unit(a);
+      first[static_cast<std::size_t>(a)] = (half + half.transpose()).cwiseProduct(inverse);
+    }
+  }
+
+  Strain6 strain() const { return components(symmetric_factor(svd) - Eigen::Matrix3d::Identity()); }
+  Eigen::Matrix<double, 6, 9> jacobian() const {
+    Eigen::Matrix<double, 6, 9> local;
+    for (int a = 0; a < 9; ++a) local.col(a) = components(first[static_cast<std::size_t>(a)]);
+    return space * local * frame;
+  }
+};
+
 }  // namespace
 
 ProperSvd proper_svd(const Eigen::Matrix3d& f) {
@@ -78,38 +105,30 @@ Strain6 corotational_strain(const Eigen::Matrix3d& f) {
   return components(symmetric_factor(proper_svd(f)) - Eigen::Matrix3d::Identity());
 }
 
+StrainSlope corotational_slope(const Eigen::Matrix3d& f) {
+  const Polar polar(f);
+  return {polar.strain(), polar.jacobian()};
+}
+
 StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f) {
-  const ProperSvd svd = proper_svd(f);
-  const Eigen::Matrix3d inverse = inverse_sums(svd.s);
-  const Matrix9 frame = to_singular_frame(svd);
-  const Eigen::Matrix<double, 6, 6> space = to_space(svd.v);
-  const Eigen::Matrix3d sigma = svd.s.asDiagonal();
-
-  std::array<Eigen::Matrix3d, 9> first;
-  Eigen::Matrix<double, 6, 9> jacobian;
-  for (int a = 0; a < 9; ++a) {
-    const Eigen::Matrix3d half = sigma * unit(a);
-    auto& ds = first[static_cast<std::size_t>(a)];
-    ds = (half + half.transpose()).cwiseProduct(inverse);
-    jacobian.col(a) = components(ds);
-  }
-
+  const Polar polar(f);
   std::array<Matrix9, 6> second;
   for (int a = 0; a < 9; ++a)
     for (int b = 0; b <= a; ++b) {
-      const auto &da = first[static_cast<std::size_t>(a)], &db = first[static_cast<std::size_t>(b)];
+      const auto &da = polar.first[static_cast<std::size_t>(a)],
+                 &db = polar.first[static_cast<std::size_t>(b)];
       const Eigen::Matrix3d half = unit(a).transpose() * unit(b) - da * db;
-      const Strain6 d2 = components((half + half.transpose()).cwiseProduct(inverse));
+      const Strain6 d2 = components((half + half.transpose()).cwiseProduct(polar.inverse));
       for (std::size_t k = 0; k < 6; ++k) second[k](a, b) = second[k](b, a) = d2(static_cast<int>(k));
     }
 
   StrainDerivatives result;
-  result.value = components(symmetric_factor(svd) - Eigen::Matrix3d::Identity());
-  result.jacobian = space * jacobian * frame;
+  result.value = polar.strain();
+  result.jacobian = polar.jacobian();
   for (int k = 0; k < 6; ++k) {
     Matrix9 sum = Matrix9::Zero();
-    for (std::size_t l = 0; l < 6; ++l) sum += space(k, static_cast<int>(l)) * second[l];
-    result.hessian[static_cast<std::size_t>(k)] = frame.transpose() * sum * frame;
+    for (std::size_t l = 0; l < 6; ++l) sum += polar.space(k, static_cast<int>(l)) * second[l];
+    result.hessian[static_cast<std::size_t>(k)] = polar.frame.transpose() * sum * polar.frame;
   }
   return result;
 }

@@ -33,11 +33,14 @@ ProperSvd proper_svd(const Eigen::Matrix3d& f);
 /// c = S - I as (xx, yy, zz, 2 xy, 2 yz, 2 zx).
 Strain6 corotational_strain(const Eigen::Matrix3d& f);
 
-/// The same with derivatives by the entries of F in column order: jacobian 6 x 9, hessian[i] = d2 c_i / dF2
-/// (9 x 9).
-struct StrainDerivatives {
+/// The same with derivatives by the entries of F in column order: jacobian 6 x 9.
+struct StrainSlope {
   Strain6 value;
   Eigen::Matrix<double, 6, 9> jacobian;
+};
+StrainSlope corotational_slope(const Eigen::Matrix3d& f);
+/// With hessian[i] = d2 c_i / dF2 (9 x 9), too.
+struct StrainDerivatives : StrainSlope {
   std::array<Eigen::Matrix<double, 9, 9>, 6> hessian;
 };
 StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f);

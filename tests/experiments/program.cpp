@@ -98,6 +98,9 @@ TEST_CASE("list prints names, as JSON if asked; --help, --version and completion
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");
   CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);
+  for (const auto* name : {"primal_newton\n", "ipopt\n", "ode  ", "closed_form  "})
+    CHECK_THAT(run_program({"list", "references"}).out, Catch::Contains(name));
+  CHECK_THAT(run_program({"completion"}).out, Catch::Contains("words=\"primal_newton ipopt\""));
   CHECK_THAT(run_program({"list", "scenes"}).out, Catch::Contains("pendulum.toml"));
   CHECK_THAT(run_program({"--version"}).out, Catch::Contains("pbdcheck ") && Catch::Contains("eigen 3."));
   for (const auto* command : {"list", "simulate", "compare", "run", "completion"}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "closed_form.h"
+#include "numerics.h"
 
 using namespace pbd::reference;
 
@@ -28,12 +29,12 @@ TEST_CASE("known answers agree with quadrature, recurrences, ODEs and eigenvalue
 
 TEST_CASE("the pendulum's elliptic functions solve its differential equation") {
   const double length = 1, g = 9.81, amplitude = 2;
-  const auto slope = [&](double, const std::vector<double>& y) {
-    return std::vector<double>{y[1], -g / length * std::sin(y[0])};
+  const auto slope = [&](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) {
+    out << y(1), -g / length * std::sin(y(0));
   };
   for (const double t : {0.1, 1.0, 5.0}) {
     const Angle exact = pendulum_motion(length, g, amplitude, t);
-    const std::vector<double> integrated = solve_ode(slope, {amplitude, 0}, t);
+    const Eigen::VectorXd integrated = solve_ode(slope, Eigen::Vector2d(amplitude, 0), {t}).states.back();
     CHECK(exact.angle == Approx(integrated[0]).margin(1e-11));
     CHECK(exact.rate == Approx(integrated[1]).margin(1e-11));
   }
@@ -48,10 +49,10 @@ TEST_CASE("a hanging chain's modes solve (x y')' + lambda y = 0 with a free lowe
     const double lambda =
         std::pow(2 * 3.14159265358979323846 * hanging_chain_frequency(mode, 1, 9.81), 2) / 9.81;
     const double start = 1e-6;
-    const auto slope = [&](double t, const std::vector<double>& y) {
-      return std::vector<double>{y[1] / (start + t), -lambda * y[0]};
+    const auto slope = [&](double t, const Eigen::VectorXd& y, Eigen::VectorXd& out) {
+      out << y(1) / (start + t), -lambda * y(0);
     };
-    const auto end = solve_ode(slope, {1 - lambda * start, -lambda * start}, 1 - start);
-    CHECK(end[0] == Approx(0).margin(1e-9));
+    const Eigen::Vector2d top(1 - lambda * start, -lambda * start);
+    CHECK(solve_ode(slope, top, {1 - start}).states.back()(0) == Approx(0).margin(1e-9));
   }
 }

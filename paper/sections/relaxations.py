@@ -1,0 +1,53 @@
+"""How the relaxations solve a linearised step."""
+
+import numpy as np
+
+from content import Figure, Section, Table, counted, number, span
+from reading import good
+
+
+def inner_convergence(results):
+    section = Section(
+        "How fast are the relaxations?",
+        "The same linearised problem is solved by each relaxation, the accelerated Jacobi method [@nesterov1983method] with "
+        "adaptive restart [@odonoghue2015adaptive] among them. Which rate per sweep, and is it the predicted one?",
+        figures=[
+            Figure("inner_convergence_sweeps", "Error of the velocities over the sweeps, against a dense factorisation of "
+                   "the same rows."),
+            Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
+            Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
+                   "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
+    errors, rates = results.table("inner_convergence", "errors"), results.table("inner_convergence", "rates")
+    if errors is not None:
+        section.paragraphs.append(fastest_text(errors))
+    if rates is not None:
+        section.paragraphs.append(decay_text(rates))
+        section.tables.append(Table(
+            "Linear rates per sweep.", ["scene", "relaxation", "theory", "predicted", "measured", "status"],
+            [[f"`{r['scene']}`", f"`{r['relaxation']}`", r["theory"], f"{r['predicted_rate']:.5g}",
+              f"{r['measured_rate']:.5g}", f"`{r['status']}`"] for _, r in rates.iterrows()]))
+    return section
+
+
+def decay_text(rates):
+    """How well each relaxation's decay per sweep, 1 - rate, is predicted where it reached the solution."""
+    iterative = rates[rates["relaxation"] != "direct"]
+    parts = []
+    for relaxation, group in iterative.groupby("relaxation", sort=False):
+        both = good(group, "predicted_rate", "measured_rate")
+        ratio = (1 - both["measured_rate"]) / (1 - both["predicted_rate"])
+        parts.append(f"`{relaxation}` {span(ratio)} ({len(both)} of {counted(len(group), 'case')})")
+    return ("Decay per sweep, one minus the rate, over the predicted one, where the relaxation reached the solution: "
+            + "; ".join(parts) + ".") if parts else "No relaxation with a rate was run."
+
+
+def fastest_text(errors, target=1e-6):
+    """Sweeps each relaxation needs to a given error, per scene."""
+    parts = []
+    for scene, rows in errors.groupby("scene", sort=False):
+        reached = []
+        for relaxation, trace in rows.groupby("relaxation", sort=False):
+            first = trace.loc[trace["error"] <= target, "sweep"].min()
+            reached.append(f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}"))
+        parts.append(f"`{scene}`: {', '.join(reached)}")
+    return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."

@@ -118,38 +118,28 @@ def contraction(results):
         "beside the solution, is compared with the dense spectral radius, with the solver's own prediction, and with its bound "
         "for the effect.",
         figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
-                        "geometric stiffness decides (tension); open: the softening part (compression), which the bound "
-                        "leaves out. Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "
+                        "geometric stiffness decides (tension); open: the softening part (compression). "
+                        "Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "
                         "rotation fixed, which the dense radius, from exact derivatives, does not.")])
     frame = results.table("contraction", "rates")
     if frame is not None:
-        section.paragraphs.append(compression_text(frame))
         section.tables.append(effects_table(frame))
     return section
-
-
-def measured_rates(frame, stiffening):
-    """The rows with a rate, those where the stiffening part decides it or the others."""
-    rows = good(frame, "measured_rate")
-    rows = rows[rows["measured_rate"] > 0]
-    return rows[stiffens(rows) == stiffening]
-
-
-def compression_text(frame):
-    rows = measured_rates(frame, stiffening=False)
-    above = rows[rows["measured_rate"] > rows["predicted_contraction"]]
-    return (f"Compression decides in {counted(len(rows), 'case')}; in {len(above)} of them the measured rate, "
-            f"{span(above['measured_rate'])}, is above the solver's prediction, which counts tension only.")
 
 
 def effects_table(frame):
     rows = []
     for (effect, strain), group in frame.groupby(["effect", "strain"], sort=False):
-        tense = measured_rates(group, stiffening=True)
-        computed = tense[tense["bound"] > 0.7]
-        rows.append([f"`{effect}`" + (f", {strain}" if strain else ""), f"{len(tense)} of {len(group)}",
-                     span(tense["measured_rate"] / tense["predicted_rate"]), span(tense["bound"] / tense["measured_rate"]),
-                     span(computed["predicted_contraction"] / computed["measured_rate"])])
-    return Table("Rates where stiffening decides and at least 0.001 was measured: measured over the dense radius, the bound "
-                 "over measured, and, where the bound exceeds 0.7 and a prediction is computed, predicted over measured.",
-                 ["effect", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)
+        for load, rates in (("tension", group[stiffens(group)]), ("compression", group[~stiffens(group)])):
+            if rates.empty:
+                continue
+            measured = good(rates, "measured_rate")
+            measured = measured[measured["measured_rate"] > 0]
+            computed = measured[measured["bound"] > 0.7]
+            rows.append([f"`{effect}`" + (f", {strain}" if strain else ""), load, f"{len(measured)} of {len(rates)}",
+                         span(measured["measured_rate"] / measured["predicted_rate"]),
+                         span(measured["bound"] / measured["measured_rate"]),
+                         span(computed["predicted_contraction"] / computed["measured_rate"])])
+    return Table("Rates of at least 0.001: measured over the dense radius, the bound over measured, and, where the bound exceeds "
+                 "0.7 and a prediction is computed, predicted over measured.",
+                 ["effect", "decided by", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)

@@ -14,7 +14,8 @@ def work_precision(results):
             Figure("work_precision_seconds", "Error against the judge over wall time. The judge that errors are measured "
                    "against stands on the lower edge. Of each outer iteration, the relaxation "
                    "that is quickest. Crossed: not solved to its tolerance."),
-            Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine."),
+            Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine, without "
+                   "`direct`, which factors."),
             Figure("work_precision_outer_iterations", "The same runs over outer iterations.")])
     frame = results.table("work_precision", "points")
     if frame is not None:

@@ -1,7 +1,7 @@
 """How the outer iterations approach the step."""
 
 from content import Figure, Section, Table, counted, span
-from reading import CONTRACTING, good, stiffens
+from reading import CONTRACTING, failed, good, stiffens
 
 
 def outer_convergence(results):
@@ -14,6 +14,7 @@ def outer_convergence(results):
             Figure("outer_convergence_errors", "Error against Newton's method on the full system, relative to the largest "
                    "displacement of the step: the whole multiplier along the current directions (`plain`), multipliers that "
                    "keep their old directions (`incremental`), and one linearisation only (`frozen`)."),
+            Figure("outer_convergence_proximal", "The same steps with the outer iterations that have the fixed points of `plain`."),
             Figure("outer_convergence_map", "Measured rate of `plain` over step and mass ratio. Grey: the error does not "
                    "fall near the solution, so there is no rate. Dashed: where the predicted spectral radius is 1."),
             Figure("outer_convergence_predicted_rate", "Measured rate of `plain` against the predicted spectral radius, all "
@@ -21,14 +22,11 @@ def outer_convergence(results):
             Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum, measured and predicted; the spectral "
                    "radius is h² T/(m l) there.")])
     errors, rates = results.table("outer_convergence", "errors"), results.table("outer_convergence", "map")
-    if errors is not None and not set(errors["outer"]) <= {"plain", "incremental", "frozen"}:
-        section.figures.insert(1, Figure("outer_convergence_proximal", "The same cases with the other outer iterations that "
-                                         "keep the fixed point of `plain`."))
     if rates is not None:
         section.paragraphs.append(rates_text(rates))
         section.tables.append(behaviour_table(rates))
     if errors is not None:
-        section.paragraphs.append(floor_text(errors))
+        section.paragraphs += [floor_text(errors), rescued_text(errors)]
     return section
 
 
@@ -63,6 +61,19 @@ def floor_text(errors):
         parts.append(f"`{outer}` at {span(group['error'])}")
     return f"In the {counted(len(converged), 'case')} where `plain` is ok, the traces end as follows: {'; '.join(parts)}." \
         if parts else "In no case is `plain` ok."
+
+
+def rescued_text(errors):
+    """What becomes of the traced cases in which `plain` is not ok."""
+    keys = ["scene", "step_s", "mass_ratio"]
+    last = errors.sort_values("iteration").groupby([*keys, "outer"], sort=False).tail(1)
+    missed = failed(last[last["outer"] == "plain"], "error")
+    rest = last.merge(missed[keys], on=keys)
+    ends = [f"`{outer}` is ok in {len(good(rows, 'error'))} of them, after {span(good(rows, 'error')['iteration'])} iterations, at "
+            f"an error of {span(good(rows, 'error')['error'])}"
+            for outer, rows in rest[rest["outer"].isin(["proximal", "auto"])].groupby("outer", sort=False)]
+    return (f"`plain` ends away from the step in {counted(len(missed), 'traced case')}, at an error of {span(missed['error'])}; "
+            f"{'; '.join(ends)}.") if ends else "No other outer iteration was traced where `plain` is not ok."
 
 
 def stability_map(results):

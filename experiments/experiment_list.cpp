@@ -17,6 +17,8 @@ const std::vector<Experiment>& experiments() {
       {"inner_convergence",
        "How fast do the relaxations solve the linearised step, and does theory predict it?",
        inner_convergence, inner_convergence_cases},
+      {"conditioning", "Which relaxation survives mass ratio, stiffness and near incompressibility?",
+       conditioning},
       {"dual_vs_primal", "Does the constraint solver reach the solution of the primal elasticity problem?",
        dual_vs_primal, dual_vs_primal_cases},
       {"mesh_refinement",

@@ -24,7 +24,8 @@ RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": s
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
-        "verdict", "method", "case", "name", "unit", "gate", "reference_status"}
+        "verdict", "method", "case", "name", "unit", "gate", "reference_status",
+        "parameter"}
 
 
 class InputError(Exception):

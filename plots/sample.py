@@ -109,6 +109,19 @@ def inner_convergence(directory):
           "scene relaxation predicted_rate measured_rate theory status reason", rates)
 
 
+def conditioning(directory):
+    rows = []
+    for scene, parameter, values in (("chain20", "mass_ratio", (1.0, 100.0, 1e4)), ("cantilever", "young_pa", (1e3, 1e6, 1e9)),
+                                     ("cantilever", "poisson", (0.0, 0.45, 0.4999))):
+        for k, value in enumerate(values):
+            for relaxation in RELAXATIONS:
+                bad = relaxation == "jacobi" and k == 2
+                sweeps = 10000 if bad else int(10 ** (k + 1) / -np.log(RATES[relaxation]))
+                rows.append((scene, parameter, value, 10.0 ** (2 * k), relaxation, sweeps, 1e-3 if bad else 1e-7,
+                             "not_converged" if bad else "ok", "sweeps spent" if bad else ""))
+    write(directory, "conditioning", "sweeps", "scene parameter value condition relaxation sweeps residual status reason", rows)
+
+
 def dual_vs_primal(directory):
     columns = "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason"
     traces, final = [], []
@@ -257,7 +270,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 
 def write_all(directory):
-    for experiment in (outer_convergence, stability_map, contraction, inner_convergence, dual_vs_primal, mesh_refinement,
+    for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, dual_vs_primal, mesh_refinement,
                        work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__

@@ -19,6 +19,7 @@ const std::vector<Experiment>& experiments() {
        inner_convergence, inner_convergence_cases},
       {"conditioning", "Which relaxation survives mass ratio, stiffness and near incompressibility?",
        conditioning},
+      {"inexact", "What does it save to solve the linear problems no further than the step can use?", inexact},
       {"dual_vs_primal", "Does the constraint solver reach the solution of the primal elasticity problem?",
        dual_vs_primal, dual_vs_primal_cases},
       {"mesh_refinement",

@@ -16,6 +16,8 @@ TABLES = {
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
+    ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
+                           "status reason",
     ("dual_vs_primal", "errors"):
         "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason",
     ("dual_vs_primal", "final"):

@@ -89,3 +89,32 @@ def conditioning_table(frame):
                      span(reached["sweeps"]) if len(reached) else "", span(missed["residual"]) if len(missed) else ""])
     return Table("Sweeps to the residual, and the residual left where the sweeps were spent before.",
                  ["parameter", "relaxation", "solved", "sweeps", "residual left"], rows)
+
+
+def inexact(results):
+    section = Section(
+        "How far need a linear problem be solved?",
+        "The sweeps of an outer iteration end when the linear residual is a share of the nonlinear one. One step of the swinging "
+        "chain to its tolerance: what does the default share save against solving every linear problem to a tenth of that "
+        "tolerance?",
+        figures=[Figure("inexact_row_updates", "Row updates until the step is solved. Solid: linear problems to the default share of "
+                        "the nonlinear residual; dashed: each to a tenth of the step's tolerance.")])
+    frame = results.table("inexact", "solves")
+    if frame is not None:
+        section.paragraphs.append(saving_text(frame))
+    return section
+
+
+def saving_text(frame):
+    """Row updates of exact over inexact solves, cell by cell, and what inexact ones do to the error."""
+    shares = sorted(frame["inner_tolerance"].unique())
+    solved = good(frame, "row_updates")
+    both = solved.pivot_table(["row_updates", "error"], ["relaxation", "step_s", "mass_ratio"], "inner_tolerance", sort=False)
+    if not all(("row_updates", share) in both for share in shares):
+        return "No step is solved both ways."
+    ratio = (both["row_updates"][shares[0]] / both["row_updates"][shares[-1]]).dropna()
+    parts = [f"{span(values)} times with `{name}` ({counted(len(values), 'cell')})"
+             for name, values in ratio.groupby("relaxation", sort=False)]
+    return (f"Exact linear solves take these multiples of the row updates of inexact ones: {'; '.join(parts)}. The errors of the "
+            f"steps are {span(both['error'][shares[0]])} with exact, {span(both['error'][shares[-1]])} with inexact ones. "
+            "On a chain conjugate gradients end after as many sweeps as there are links, so that little can be left out.")

@@ -184,6 +184,18 @@ def stiffens(frame):
     return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]
 
 
+def cost_ratios(frame):
+    """Row updates of `auto` over those of `plain`, or wall time where `auto` updates no row, one row for each run that `plain`
+    solves; the status is that of `auto`."""
+    keys = ["scene", "parameter", "value", "step_s", "measured_rate", "relaxation"]
+    work = ["row_updates", "wall_s"]
+    plain, auto = (frame[frame["outer"] == outer] for outer in ("plain", "auto"))
+    both = auto.merge(plain[plain["status"] == "ok"][keys + work], on=keys, suffixes=("", "_plain"))
+    timed = both["row_updates"] == 0
+    ratio = (both["row_updates"] / both["row_updates_plain"]).where(~timed, both["wall_s"] / both["wall_s_plain"])
+    return both.assign(timed=timed, ratio=ratio.where(both["status"] == "ok"))
+
+
 def why(row):
     """Short text of what is wrong with a row of `failed`."""
     status = row.get("status", "ok")

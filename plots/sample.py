@@ -77,6 +77,17 @@ def stability_map(directory):
           "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
           [("chain20", h, r, k, 1.01 * k, "converged" if k < 1 else "oscillating")
            for r in (1, 10, 100) for h in steps for k in [(60 * h) ** 2 * r ** 0.4]])
+    rows = []
+    for scene, parameter, values in (("chain20", "mass_ratio", (1.0, 100.0)), ("cantilever", "young_pa", (1e4, 1e8))):
+        for value in values:
+            for relaxation in RELAXATIONS:
+                bad = value == 1e8 and relaxation == "jacobi"
+                key = (scene, 1 / 240, parameter, value, 0.3)
+                for outer, updates, seconds in (("plain", 1000, 1e-3), ("auto", 800 if scene == "chain20" else 0, 9e-4)):
+                    rows.append((*key, outer, relaxation, 9, updates // 20, updates, seconds, 1e-9,
+                                 *(("not_converged", "outer iterations spent") if bad and outer == "plain" else ("ok", ""))))
+    write(directory, "stability_map", "cost", "scene step_s parameter value measured_rate outer relaxation outer_iterations "
+          "sweeps row_updates wall_s error status reason", rows)
 
 
 def contraction(directory):

@@ -1,7 +1,7 @@
 """How the outer iterations approach the step."""
 
 from content import Figure, Section, Table, counted, span
-from reading import CONTRACTING, failed, good, stiffens
+from reading import CONTRACTING, cost_ratios, failed, good, stiffens
 
 
 def outer_convergence(results):
@@ -87,7 +87,9 @@ def stability_map(results):
                    "stand where that is not reached. Dashed: where the solver predicts a contraction of 1 for `plain`."),
             Figure("stability_map_cantilever", "The same for the cantilever, over Young's modulus."),
             Figure("stability_map_predictions", "The solver's prediction of the contraction of `plain`, made at the end of the "
-                   "step by `auto`, against the dense spectral radius. Where its bound is at most 0.7 it is not refined.")])
+                   "step by `auto`, against the dense spectral radius. Where its bound is at most 0.7 it is not refined."),
+            Figure("stability_map_cost", "What `auto` costs where `plain` contracts, in row updates of the chain and wall time of "
+                   "the cantilever, where `auto` takes `quasi_newton`; the prediction that both make at the step's end included.")])
     for table, value in (("chain20", "mass_ratio"), ("cantilever", "young_pa")):
         frame = results.table("stability_map", table)
         if frame is not None:
@@ -95,6 +97,9 @@ def stability_map(results):
     predictions = results.table("stability_map", "predictions")
     if predictions is not None:
         section.paragraphs.append(predictions_text(predictions))
+    cost = results.table("stability_map", "cost")
+    if cost is not None:
+        section.paragraphs.append(cost_text(cost))
     return section
 
 
@@ -120,6 +125,17 @@ def predictions_text(frame):
     return (f"In {agree.sum()} of {counted(len(frame), 'cell')} the solver predicts rightly whether `plain` returns to the "
             f"solution from beside it. Where the spectral radius exceeds 0.7, the prediction differs from it by "
             f"{span(difference)} (relative).")
+
+
+def cost_text(frame):
+    """What auto costs where plain contracts with a rate below 0.9, at the default tolerance."""
+    ratios = cost_ratios(frame)
+    parts = []
+    for scene, cells in ratios.groupby("scene", sort=False):
+        found = [f"{span(rows['ratio'])} with `{relaxation}`" for relaxation, rows in cells.groupby("relaxation", sort=False)]
+        parts.append(f"{'wall time' if cells['timed'].all() else 'row updates'} of `{scene}`, {', '.join(found)}")
+    return (f"Where the measured rate of `plain` is below 0.9, `auto` costs these multiples of it: {'; '.join(parts)} "
+            f"({counted(len(ratios), 'run')} to the default tolerance).") if parts else "`plain` solves no step of a rate below 0.9."
 
 
 def contraction(results):

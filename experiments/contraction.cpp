@@ -174,12 +174,11 @@ void verdicts(Context& context, const std::vector<Found>& all) {
   Worst above, stiffened, softened;
   for (const auto& [dense, predicted, bound, measured] : all) {
     if (!(measured > 0)) continue;
-    if (stiffens(dense)) above.add(measured / bound - 1);
+    above.add(measured / bound - 1);
     if (measured > worth_estimating && measured < measurable)
       (stiffens(dense) ? stiffened : softened).add(std::abs(predicted / measured - 1));
   }
-  context.verdict("contraction.bound",
-                  "no measured rate exceeds the effect's bound where stiffening decides it",
+  context.verdict("contraction.bound", "no measured rate exceeds the effect's bound",
                   "largest measured/bound - 1", above.value(), rounding);
   const std::string statement = "the solver predicts measured rates between 0.7 and 0.95, ";
   context.verdict("contraction.prediction_stiffening", statement + "stiffening decides",

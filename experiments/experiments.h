@@ -10,6 +10,8 @@ void outer_convergence(Context& context);
 void stability_map(Context& context);
 void contraction(Context& context);
 void inner_convergence(Context& context);
+void conditioning(Context& context);
+void inexact(Context& context);
 void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
 void work_precision(Context& context);

@@ -22,13 +22,6 @@ struct Problem : Case {
   int chain_links;  // of a free chain, whose rates are known in closed form; 0 otherwise
 };
 
-/// Smooth velocities that excite every mode.
-void stir(Scene& scene) {
-  for (int node = 0; node < scene.nodes(); ++node)
-    if (std::isfinite(scene.mass[static_cast<std::size_t>(node)]))
-      scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
-}
-
 std::vector<Problem> problems(bool full) {
   std::vector<Problem> all;
   const auto add = [&](std::string name, Scene scene, double h, int sweeps, int links = 0) {

@@ -34,6 +34,12 @@ DenseRows dense(const Rows& rows, int nodes) {
 
 }  // namespace
 
+void stir(Scene& scene) {
+  for (int node = 0; node < scene.nodes(); ++node)
+    if (std::isfinite(scene.mass[static_cast<std::size_t>(node)]))
+      scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
+}
+
 LinearStep linear_step(const Scene& scene, const State& state, double h) {
   LinearStep step;
   std::vector<std::size_t> effect_of_block;
@@ -59,6 +65,17 @@ Points dense_solution(const LinearStep& step) {
   const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
   const Eigen::VectorXd impulses = n.ldlt().solve(-(all.bias + all.jacobian * step.v_free.reshaped()));
   return step.v_free + (weighted.transpose() * impulses).reshaped(3, nodes);
+}
+
+double residual(const Rows& rows, const Points& v) {
+  double squared = 0;
+  for_each_block(rows.blocks, [&](const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto missed = block.residual(v, i, block.impulse[i]);
+      squared += missed.dot(block.inverse_diagonal[i] * missed);
+    }
+  });
+  return std::sqrt(squared);
 }
 
 }  // namespace pbdcheck

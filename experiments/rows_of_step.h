@@ -12,10 +12,16 @@ struct LinearStep {
   pbd::Points v_free;  // m/s
 };
 
+/// Adds smooth velocities that excite every mode.
+void stir(pbd::Scene& scene);
+
 /// Implicit Euler rows of h seconds from `state`, linearised at its positions.
 LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h);
 
 /// Velocities (m/s) that solve the rows exactly, by Eigen's dense LDL^T of N = J W J^T + Sigma.
 pbd::Points dense_solution(const LinearStep& step);
+
+/// sqrt(sum_i r_i^T N_ii^-1 r_i) of r = J v + b + Sigma p at the rows' impulses, sqrt(J).
+double residual(const pbd::Rows& rows, const pbd::Points& v);
 
 }  // namespace pbdcheck

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "auto_cost.h"
 #include "contraction.h"
 #include "error.h"
 #include "experiments.h"
@@ -88,18 +89,15 @@ Solve solve(const Case& each, const State& start, const Points& exact, const Met
   return found;
 }
 
-struct MapCell {
-  double value = 0;
-  Case step;
-  State start{};
-  reference::Judgement exact{};
+struct MapCell : SolvedStep {
   std::vector<Solve> solves{};
 };
 
 std::vector<MapCell> run_map(const Context& context, const Map& map) {
   std::vector<MapCell> cells;
   for (const double value : map.values)
-    for (const double h : map.steps) cells.push_back({.value = value, .step = map.make(value, h)});
+    for (const double h : map.steps)
+      cells.push_back({{map.scene, map.value_column, value, map.make(value, h)}});
   context.parallel(std::ssize(cells), [&](std::int64_t index) {
     MapCell& cell = cells[static_cast<std::size_t>(index)];
     cell.start = start_of(cell.step);
@@ -191,7 +189,7 @@ std::vector<Case> stability_map_cases(bool full) {
 }
 
 void stability_map(Context& context) {
-  context.begin(3);
+  context.begin(4);
   const Map chain = chain_map(context.full()), cantilever = cantilever_map(context.full());
   const auto chain_cells = run_map(context, chain);
   write_map(context, chain, chain_cells);
@@ -202,6 +200,11 @@ void stability_map(Context& context) {
   auto_verdict(context, chain_cells, cantilever_cells);
   prediction_verdicts(context, chain_cells);
   context.advance("predictions");
+  std::vector<const SolvedStep*> all;
+  for (const auto* cells : {&chain_cells, &cantilever_cells})
+    for (const auto& cell : *cells) all.push_back(&cell);
+  auto_cost(context, all);
+  context.advance("cost");
 }
 
 }  // namespace pbdcheck

@@ -11,7 +11,7 @@ from reading import CONTRACTING, LARGEST, failed, good, reasons_note, step_text,
 def cases(frame):
     """(title, rows) per scene, step and mass ratio."""
     for (scene, step, ratio), rows in frame.groupby(["scene", "step_s", "mass_ratio"]):
-        yield f"{scene}, h = {step_text(step)}, ratio {text_number(ratio)}", rows
+        yield f"{scene}\nh = {step_text(step)}, ratio {text_number(ratio)}", rows
 
 
 def last_rows(frame, keys):
@@ -51,8 +51,9 @@ def errors(frame):
 
 @figure("outer_convergence", "proximal", table="errors")
 def proximal(frame):
-    keeping = [name for name in frame["outer"].unique() if name not in ("incremental", "frozen")]
-    return error_curves(frame, keeping) if len(keeping) > 1 else None
+    keeping = ["plain", "proximal", "auto"]
+    compared = frame.groupby(["scene", "step_s", "mass_ratio"])["outer"].transform(lambda names: names.isin(keeping[1:]).any())
+    return error_curves(frame[compared], keeping)
 
 
 @figure("outer_convergence", "map", table="map")

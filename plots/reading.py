@@ -19,12 +19,14 @@ VERDICTS = ("holds", "fails")
 COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
-            "sweeps", "outer_iterations", "row_updates", "memory", "error_target"}  # chosen or counted: numbers
+            "sweeps", "outer_iterations", "row_updates", "memory", "error_target",
+            "inner_tolerance"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
-        "verdict", "method", "case", "name", "unit", "gate", "reference_status"}
+        "verdict", "method", "case", "name", "unit", "gate", "reference_status",
+        "parameter"}
 
 
 class InputError(Exception):
@@ -180,6 +182,18 @@ def failed(frame, *columns):
 def stiffens(frame):
     """The rows whose rate the stiffening part of the geometric stiffness decides, also where both parts are as large."""
     return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]
+
+
+def cost_ratios(frame):
+    """Row updates of `auto` over those of `plain`, or wall time where `auto` updates no row, one row for each run that `plain`
+    solves; the status is that of `auto`."""
+    keys = ["scene", "parameter", "value", "step_s", "measured_rate", "relaxation"]
+    work = ["row_updates", "wall_s"]
+    plain, auto = (frame[frame["outer"] == outer] for outer in ("plain", "auto"))
+    both = auto.merge(plain[plain["status"] == "ok"][keys + work], on=keys, suffixes=("", "_plain"))
+    timed = both["row_updates"] == 0
+    ratio = (both["row_updates"] / both["row_updates_plain"]).where(~timed, both["wall_s"] / both["wall_s_plain"])
+    return both.assign(timed=timed, ratio=ratio.where(both["status"] == "ok"))
 
 
 def why(row):

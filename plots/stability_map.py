@@ -4,9 +4,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import BLACK, BLUE, RED, figure, footnote, on_log, panels
+from common import BLACK, BLUE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, style
 from outer_convergence import edges
-from reading import CONTRACTING, LARGEST, failed, good, reasons_note, step_text, text_number
+from reading import CONTRACTING, LARGEST, cost_ratios, failed, good, reasons_note, step_text, text_number
 
 MARKS = {"not_converged": "x", "diverged": "^", "skipped": "_", "ok": "o"}  # of a cell that is not solved, by status
 MEANING = {"ok": "ok, but farther than 1e-8"}
@@ -102,4 +102,27 @@ def predictions(frame):
     fig.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3)
     missing = len(frame) - len(rows)
     footnote(fig, f"{missing} cells without a prediction are not drawn." if missing else "")
+    return fig
+
+
+@figure("stability_map", "cost", table="cost")
+def cost(frame):
+    """What auto costs of plain's cost, one panel a map, one mark a step and relaxation."""
+    ratios = cost_ratios(frame)
+    groups = list(ratios.groupby("scene", sort=False))
+    fig, axes = panels(len(groups), columns=2, height=2.4)
+    for ax, (scene, cells) in zip(axes, groups):
+        for relaxation, rows in cells.groupby("relaxation", sort=False):
+            look = style(relaxation) | {"linestyle": "none", "markerfacecolor": "none"}
+            shown = good(rows, "ratio")
+            ax.plot(shown["value"], shown["ratio"], label=relaxation, **look)
+            draw_failed(ax, failed(rows, "ratio"), "value", "ratio", look)
+        for level, line in ((1, "-"), (1.2, "--")):
+            ax.axhline(level, color=BLACK, linewidth=0.8, linestyle=line, label=f"{level:g} times plain's")
+        parameter = cells["parameter"].iloc[0]
+        ax.set(xscale="log", yscale="log", title=scene, xlabel=AXES.get(parameter, parameter),
+               ylabel=f"{'wall time' if cells['timed'].all() else 'row updates'}, auto over plain")
+    shared_legend(fig, axes, columns=5)
+    unsolved_by_plain = (frame["outer"].eq("plain") & frame["status"].ne("ok")).sum()
+    footnote(fig, f"{unsolved_by_plain} runs that plain does not solve are left out. " + reasons_note(failed(ratios, "ratio")))
     return fig

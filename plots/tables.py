@@ -11,10 +11,15 @@ TABLES = {
     ("stability_map", "chain20"): "scene step_s mass_ratio" + MAP,
     ("stability_map", "cantilever"): "scene step_s young_pa" + MAP,
     ("stability_map", "predictions"): "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
+    ("stability_map", "cost"): "scene step_s parameter value measured_rate outer relaxation outer_iterations sweeps row_updates "
+                               "wall_s error status reason",
     ("contraction", "rates"): "effect strain step_s stiffness unit load_n predicted_rate stiffening "
                               "predicted_contraction bound measured_rate status reason",
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
+    ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
+    ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
+                           "status reason",
     ("dual_vs_primal", "errors"):
         "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason",
     ("dual_vs_primal", "final"):

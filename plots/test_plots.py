@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -164,6 +165,9 @@ class Drawing(unittest.TestCase):
             with self.subTest(entry.experiment + "_" + entry.name):
                 figure = entry.draw(self.table(entry))
                 self.assertIsNotNone(figure)
+                with warnings.catch_warnings(action="error"):
+                    figure.draw_without_rendering()
+                self.assertLess(figure.get_tightbbox().width, 1.5 * figure.get_figwidth())  # nothing stands far off
                 common.plt.close(figure)
 
     def test_every_figure_survives_nothing_but_failures(self):

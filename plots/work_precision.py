@@ -37,6 +37,13 @@ def quickest(frame, x):
     return frame.loc[sorted(index for rows in kept for index in rows.index)]
 
 
+def with_work(frame, x):
+    """The runs that have a place on an axis of this work. Judges do none of it, a method or a run that relaxes nothing
+    updates no row; what was skipped stays where its method has a place in another panel."""
+    works = frame.groupby("outer")[x].transform("max") > 0
+    return frame[works & (frame["outer"] != "judge") & ((frame[x] > 0) | frame["status"].eq("skipped"))]
+
+
 def is_reference(points):
     """Whether these are the solution that errors are measured against: its error is 0 because it is its own."""
     return (points["error"] == 0).all() and (points["sweeps"] == 0).all()
@@ -50,12 +57,11 @@ def mark_reference(ax, points, x, name):
 
 
 def draw_methods(frame, x, label):
-    """Error against work, one panel a scene, step, integrator and friction. Judges have a place on the axis of seconds
-    only."""
+    """Error against work, one panel a scene, step, integrator and friction."""
     judges = frame[frame["outer"] == "judge"]
     names = [name for name, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
     if x != "wall_s":
-        frame = frame.drop(judges.index)
+        frame = with_work(frame, x)
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
@@ -85,7 +91,7 @@ def seconds(frame):
 
 @figure("work_precision", "row_updates", table="points")
 def row_updates(frame):
-    return draw_methods(quickest(frame, "row_updates"), "row_updates", "row updates")
+    return draw_methods(quickest(frame[frame["relaxation"] != "direct"], "row_updates"), "row_updates", "row updates")
 
 
 @figure("work_precision", "outer_iterations", table="points")

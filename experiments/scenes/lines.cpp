@@ -72,6 +72,10 @@ void Lines::need_words(std::size_t least, std::size_t most, std::string_view mea
   if (words_.size() < least || words_.size() > most) refuse(fmt::format("{} words", words_.size()), meaning);
 }
 
+void Lines::need_words(std::size_t number, std::string_view meaning) const {
+  need_words(number, number, fmt::format("{}: {}", number, meaning));
+}
+
 void Lines::need_end() {
   if (next()) refuse("`" + words_[0] + "`", "the end of the file, after as many entries as it announces");
 }
@@ -102,6 +106,16 @@ std::int64_t Lines::integer(std::string_view text) const {
   std::int64_t value = 0;
   if (!parse(text, value)) refuse(fmt::format("`{}`", text), "an integer");
   return value;
+}
+
+std::size_t Lines::count(std::size_t index) const {
+  const auto value = integer(index);
+  if (value < 0) refuse(fmt::format("{}", value), "a count >= 0");
+  return static_cast<std::size_t>(value);
+}
+
+std::size_t Lines::count_or_none(std::size_t index) const {
+  return index < words_.size() ? count(index) : 0;
 }
 
 std::array<double, 3> Lines::position(std::size_t index) const {

@@ -31,6 +31,16 @@ class Lines {
 
   /// Refuses this line unless it has `least` to `most` words; `meaning` says which.
   void need_words(std::size_t least, std::size_t most, std::string_view meaning) const;
+  void need_words(std::size_t number, std::string_view meaning) const;
+
+  /// f() at each of the next `entries` lines; where the file ends, `expected` says what is missing.
+  template <class F>
+  void for_each(std::size_t entries, std::string_view expected, F&& f) {
+    for (; entries > 0; --entries) {
+      need_next(expected);
+      f();
+    }
+  }
 
   /// Refuses a further line.
   void need_end();
@@ -43,6 +53,10 @@ class Lines {
 
   /// A part of this line as an integer; throws SetupError with the line if it is not one.
   std::int64_t integer(std::string_view text) const;
+
+  /// Word `index` as a count, not negative; the second one takes a word that is missing for 0.
+  std::size_t count(std::size_t index) const;
+  std::size_t count_or_none(std::size_t index) const;
 
   /// Words `index` to `index + 2` as a position, finite.
   std::array<double, 3> position(std::size_t index) const;

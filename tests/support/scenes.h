@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "mesh.h"
 #include "scenes/standard.h"
@@ -12,11 +13,28 @@ namespace pbd::test {
 using pbdcheck::cantilever;
 using pbdcheck::chain;
 
-/// State after `steps` steps of h seconds with the direct relaxation at a tight tolerance.
-inline State advanced(const Scene& scene, double h, int steps) {
+inline Method direct_method(double tolerance = 1e-13) {
   Method method;
   method.relaxation = "direct";
-  method.tolerance = 1e-12;
+  method.tolerance = tolerance;
+  return method;
+}
+
+/// A step by a fresh workspace.
+inline Report one_step(const Scene& scene, const Method& method, double h, State& state,
+                       const Observer& observer = {}) {
+  Workspace workspace(scene, method);
+  return step(scene, method, h, state, workspace, observer);
+}
+
+/// Bob on a massless hard link, released horizontally at rest.
+inline Scene pendulum() {
+  return pbdcheck::pendulum(std::numbers::pi / 2, 0);
+}
+
+/// State after `steps` steps of h seconds with the direct relaxation at a tight tolerance.
+inline State advanced(const Scene& scene, double h, int steps) {
+  const Method method = direct_method(1e-12);
   Workspace workspace(scene, method);
   State state = scene.initial;
   for (int k = 0; k < steps; ++k) step(scene, method, h, state, workspace);

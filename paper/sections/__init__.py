@@ -1,0 +1,31 @@
+"""What the report says about each experiment: one function each, every number read from the tables.
+
+A function gets the results and returns a Section without its verdicts, which are the same for all experiments.
+"""
+
+from content import Section
+from sections.accuracy import dual_vs_primal, judges, mesh_refinement
+from sections.cost import effects_cost, rival_newton, work_precision
+from sections.outer import contraction, outer_convergence, stability_map
+from sections.relaxations import conditioning, inexact, inner_convergence
+from sections.robustness import generated_scenes, point_hard_cases
+
+NO_TABLE = "The run left no table."
+
+SECTIONS = {function.__name__: function for function in (
+    judges, outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
+    mesh_refinement, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes)}
+
+
+def section_of(results, experiment):
+    """The section of an experiment: its own if there is one, else what can be said of any."""
+    section = SECTIONS[experiment](results) if experiment in SECTIONS else \
+        Section(experiment.replace("_", " ").capitalize(), paragraphs=["No text is written for this experiment."])
+    shortfall = results.shortfall(experiment)
+    if shortfall:
+        section.notice = f"No result is shown: {shortfall}."
+    if shortfall or not (section.paragraphs or section.tables):
+        section.paragraphs, section.figures = [] if shortfall else [NO_TABLE], []
+    for figure in section.figures:
+        figure.drawn = results.drawn(experiment, figure.name)
+    return section

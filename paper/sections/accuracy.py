@@ -1,0 +1,88 @@
+"""Do solutions agree with the references, and with the continuum?"""
+
+from content import Figure, Section, Table, counted, listed, number, span
+from reading import failed, good, step_text
+
+
+def judges(results):
+    section = Section(
+        "Do the judges agree?",
+        "Two references solve the same step: Newton's method with sparse factorisations, and an interior point method. "
+        "They share the statement of masses, energies and constraints, and nothing of the solver under test. How far apart "
+        "are their solutions?",
+        figures=[Figure("judges_agreement", "Relative difference of the positions found by the references, and the residual "
+                        "each claims, by family of scenes. The table has every step.")])
+    frame = results.table("judges", "agreement")
+    if frame is not None:
+        rows = good(frame, "difference")
+        section.paragraphs.append(
+            f"{len(rows)} of {counted(len(frame), 'pair')} could be compared. Their differences are "
+            f"{span(rows['difference'])}, relative to the largest displacement of the step; an error measured against a "
+            "judge means nothing below these numbers.")
+        section.tables.append(Table(
+            "Agreement of the judges, one step each.",
+            ["scene", "nodes", "step", "first", "second", "difference", "residuals", "seconds", "status"],
+            [[f"`{r['scene']}`", f"{r['nodes']:.0f}", step_text(r["step_s"]), f"`{r['reference_a']}`",
+              f"`{r['reference_b']}`", number(r["difference"]), f"{number(r['residual_a'])}, {number(r['residual_b'])}",
+              f"{number(r['wall_s_a'])}, {number(r['wall_s_b'])}", f"`{r['status']}`"] for _, r in frame.iterrows()]))
+    return section
+
+
+def dual_vs_primal(results):
+    section = Section(
+        "Is the dual solution the primal one?",
+        "Regularised constraints [@servin2006interactive] are the dual form of an elasticity problem. Does relaxation "
+        "reach the minimum of the incremental potential, found by Newton's method on the energy?",
+        figures=[
+            Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
+                   "of the step, over the sweeps."),
+            Figure("dual_vs_primal_final", "Final error of every method and material; a cross marks a status other than "
+                   "`ok`.")])
+    frame = results.table("dual_vs_primal", "final")
+    if frame is not None:
+        section.paragraphs.append("Final errors, over all materials: " + "; ".join(
+            f"{listed(name)} {span(group['error'])} ({counted(len(failed(group, 'error')), 'case')} of {len(group)} not ok)"
+            for name, group in frame.groupby(["outer", "relaxation"], sort=False)) + ".")
+    return section
+
+
+def mesh_refinement(results):
+    section = Section(
+        "Do the solids approach the continuum?",
+        "A clamped beam is refined, with linear tetrahedra and with a mass-spring network on the same mesh whose one "
+        "stiffness is fitted to both load cases on each mesh, and compared with Timoshenko's beam and with the rod; a manufactured "
+        "solution gives the order of convergence [@roache1994perspective].",
+        figures=[
+            Figure("mesh_refinement_beam", "Relative error of bending compliance and first frequency against Timoshenko's "
+                   "beam, of axial compliance against the rod."),
+            Figure("mesh_refinement_mms", "Manufactured solution, error against the exact displacement; triangles show the "
+                   "expected orders.")])
+    beam, mms = results.table("mesh_refinement", "beam"), results.table("mesh_refinement", "mms")
+    if beam is not None:
+        section.paragraphs.append("On the finest mesh that is ok, the error is " + "; ".join(
+            finest_text(model, quantity, rows) for (model, quantity), rows in beam.groupby(["model", "quantity"], sort=False))
+            + ".")
+        section.paragraphs.append(nearer_text(beam))
+    if mms is not None:
+        last = mms.sort_values("n").iloc[-1]
+        section.paragraphs.append(f"The manufactured solution converges with order {last['order_l2']:.2f} in the L2 norm and "
+                                  f"{last['order_h1']:.2f} in the H1 seminorm at n = {last['n']:.0f}.")
+    return section
+
+
+def nearer_text(beam):
+    """In how many meshes the network is nearer to theory than the tetrahedra, per quantity that both have."""
+    parts = []
+    for quantity, rows in good(beam, "error_beam").groupby("quantity", sort=False):
+        tets = rows[rows["model"].str.startswith("tet_p1")].groupby("n")["error_beam"].max()
+        both = rows[rows["model"] == "springs"].set_index("n")["error_beam"].to_frame("springs").join(tets, how="inner")
+        if len(both):
+            parts.append(f"in `{quantity}` on {(both['error_beam'] < both['springs']).sum()} of {len(both)}")
+    return ("Meshes on which the tetrahedra are nearer to theory than the fitted network: " + ", ".join(parts) + ".") if parts \
+        else "Tetrahedra and network have no mesh in common."
+
+
+def finest_text(model, quantity, rows):
+    ok = good(rows, "error_beam").sort_values("n")
+    name = f"`{model}` in `{quantity}`"
+    return f"{number(ok['error_beam'].iloc[-1])} for {name} (n = {ok['n'].iloc[-1]:.0f})" if len(ok) else f"unknown for {name}"

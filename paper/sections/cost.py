@@ -1,0 +1,112 @@
+"""What accuracy and effects cost."""
+
+from content import Figure, Section, Table, counted, number, span
+from reading import failed, good, step_text
+
+
+def work_precision(results):
+    section = Section(
+        "Which accuracy for which work?",
+        "The same step to the same tolerances with every method, timed in one run on one thread. Comparisons follow the "
+        "practice of benchmarking optimisation software [@dolan2002benchmarking]: work is shown beside time, failures stay in "
+        "the picture.",
+        figures=[
+            Figure("work_precision_seconds", "Error against the judge over wall time. The judge that errors are measured "
+                   "against stands on the lower edge. Of each outer iteration, the relaxation "
+                   "that is quickest. Crossed: not solved to its tolerance."),
+            Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine, without "
+                   "`direct`, which factors."),
+            Figure("work_precision_outer_iterations", "The same runs over outer iterations.")])
+    frame = results.table("work_precision", "points")
+    if frame is not None:
+        section.tables.append(fastest_table(frame))
+        bad = failed(frame, "error")
+        tried = frame[frame["status"] != "skipped"]
+        section.paragraphs.append(f"{len(frame) - len(bad)} of {counted(len(tried), 'run')} are ok; {len(frame) - len(tried)} "
+                                  "more were skipped because the method had missed a looser tolerance, or does not do the scene. "
+                                  "The table gives the quickest "
+                                  "method of each scene and step at three levels of error.")
+    return section
+
+
+def fastest_table(frame, levels=(1e-3, 1e-6, 1e-9)):
+    rows = []
+    for (scene, step), group in good(frame, "error", "wall_s").groupby(["scene", "step_s"], sort=False):
+        for level in levels:
+            reached = group[group["error"] <= level].sort_values("wall_s")
+            first = f"`{reached['outer'].iloc[0]}`, `{reached['relaxation'].iloc[0]}`" if len(reached) else "none"
+            rows.append([f"`{scene}`", step_text(step), number(level), first, number(reached["wall_s"].iloc[0]) if len(reached) else ""])
+    return Table("Quickest run with at most the given error.", ["scene", "step", "error", "method", "wall time (s)"], rows)
+
+
+def rival_newton(results):
+    section = Section(
+        "When is the constraint solver faster than Newton's method?",
+        "Where every constraint is compliant, Newton's method on the incremental potential does the same step. `newton` is one "
+        "written for speed that shares no code with the solver or the judges: it factors the stiffness at each of its few "
+        "iterates. `quasi_newton` factors one constant matrix a scene [@liu2017quasi] and does many cheap iterations. One step "
+        "of a falling cantilever, as in a running simulation: what only a scene's first step takes is listed as set-up.",
+        figures=[
+            Figure("rival_newton_elements", "Wall time of a step until the error first falls to a target, over the size of "
+                   "the mesh. Crossed: not reached."),
+            Figure("rival_newton_seconds", "Error over wall time on the largest mesh.")])
+    frame = results.table("rival_newton", "times")
+    if frame is not None:
+        section.paragraphs.append(
+            "Small and middle meshes are judged by `primal_newton`. On the largest mesh of a run the reference is `newton` itself, "
+            "converged as far as rounding allows: it and `quasi_newton` share no code, so that the error `quasi_newton` ends "
+            "with there is a check of both.")
+        section.paragraphs.append(ratios_text(frame))
+        section.tables.append(rival_table(frame))
+    return section
+
+
+def paired(frame):
+    """One row a problem and target that both methods reached: wall times side by side, and their ratio."""
+    keys = ["elements", "young_pa", "poisson", "error_target"]
+    both = good(frame, "wall_s").pivot_table(index=keys, columns="method", values="wall_s", sort=False).reset_index()
+    if not {"newton", "quasi_newton"} <= set(both):
+        return both.iloc[:0].assign(ratio=[])
+    both = both.dropna()
+    return both.assign(ratio=both["quasi_newton"] / both["newton"])
+
+
+def ratios_text(frame):
+    """Ratio of the times on the largest mesh, by target and Poisson's ratio."""
+    both = paired(frame)
+    both = both[both["elements"] == both["elements"].max()]
+    parts = [f"{span(rows['ratio'])} to {number(target)} at nu = {poisson:g}"
+             for (poisson, target), rows in both.groupby(["poisson", "error_target"], sort=False)]
+    return (f"On {both['elements'].iloc[0]:.0f} tetrahedra, the time of `quasi_newton` over that of `newton` is "
+            + "; ".join(parts) + ". Below 1 the constraint solver is the faster one.") if parts else \
+        "No problem was solved by both methods."
+
+
+def rival_table(frame):
+    largest = frame[frame["elements"] == frame["elements"].max()]
+    return Table("Time to an error on the largest mesh.",
+                 ["tetrahedra", "E (Pa)", "nu", "method", "to", "iterations", "set-up (s)", "wall time (s)", "status"],
+                 [[f"{r['elements']:.0f}", number(r["young_pa"]), f"{r['poisson']:g}", f"`{r['method']}`",
+                   number(r["error_target"]), f"{r['iterations']:.0f}", number(r["setup_s"]), number(r["wall_s"]),
+                   f"`{r['status']}`"] for _, r in largest.iterrows()])
+
+
+def effects_cost(results):
+    section = Section(
+        "What does each effect cost?",
+        "Does an effect that a scene does not call for cost nothing, and one that it does in proportion to its rows?",
+        figures=[
+            Figure("effects_cost_scaling", "Wall time of one sweep over the number of rows."),
+            Figure("effects_cost_bytes", "Memory of each effect's rows."),
+            Figure("effects_cost_seconds", "Wall time of each effect per row and step, linearising and relaxing.")])
+    scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")
+    if scaling is not None:
+        section.paragraphs.append("Exponents of the time per sweep over the rows: " + "; ".join(
+            f"`{name}` {span(group['exponent'])}" for name, group in scaling.groupby("relaxation", sort=False))
+            + ". An exponent of 1 is cost in proportion to the rows.")
+    if costs is not None:
+        section.tables.append(Table(
+            "Cost of each effect.", ["scene", "effect", "rows", "bytes per row", "wall time (s)"],
+            [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
+              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()]))
+    return section

@@ -1,0 +1,172 @@
+"""How the outer iterations approach the step."""
+
+from content import Figure, Section, Table, counted, span
+from reading import CONTRACTING, cost_ratios, failed, good, stiffens
+
+
+def outer_convergence(results):
+    section = Section(
+        "Does the outer iteration converge?",
+        "The fixed point iteration of the method [@francu2017position] refreshes the constraint directions and solves the "
+        "linearised problem again. Does it reach the solution of the implicit step, at the rate theory predicts, and does "
+        "incremental PBD [@macklin2016xpbd] reach the same point?",
+        figures=[
+            Figure("outer_convergence_errors", "Error against Newton's method on the full system, relative to the largest "
+                   "displacement of the step: the whole multiplier along the current directions (`plain`), multipliers that "
+                   "keep their old directions (`incremental`), and one linearisation only (`frozen`)."),
+            Figure("outer_convergence_proximal", "The same steps with the outer iterations that have the fixed points of `plain`."),
+            Figure("outer_convergence_map", "Measured rate of `plain` over step and mass ratio. Grey: the error does not "
+                   "fall near the solution, so there is no rate. Dashed: where the predicted spectral radius is 1."),
+            Figure("outer_convergence_predicted_rate", "Measured rate of `plain` against the predicted spectral radius, all "
+                   "cases. Crossed under the upper edge: the cases that do not contract, at their predicted rate."),
+            Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum, measured and predicted; the spectral "
+                   "radius is h² T/(m l) there.")])
+    errors, rates = results.table("outer_convergence", "errors"), results.table("outer_convergence", "map")
+    if rates is not None:
+        section.paragraphs.append(rates_text(rates))
+        section.tables.append(behaviour_table(rates))
+    if errors is not None:
+        section.paragraphs += [floor_text(errors), rescued_text(errors)]
+    return section
+
+
+def rates_text(rates):
+    """How well prediction and measurement of the plain iteration agree, below and above 1."""
+    plain = rates[rates["outer"] == "plain"]
+    below, above = plain[plain["predicted_rate"] < 1], plain[plain["predicted_rate"] >= 1]
+    both = good(below, "predicted_rate", "measured_rate")
+    both = both[both["predicted_rate"] > 0]
+    difference = abs(both["measured_rate"] / both["predicted_rate"] - 1)
+    return (f"Of {counted(len(plain), 'case')} of `plain`, theory predicts contraction in {len(below)}; "
+            f"{below['behaviour'].isin(CONTRACTING).sum()} of these converge. Where a rate could be measured, it differs from "
+            f"the predicted one by {span(difference)} (relative). Of the {len(above)} cases with a predicted rate of 1 or "
+            f"more, {above['behaviour'].isin(CONTRACTING).sum()} converge.")
+
+
+def behaviour_table(rates):
+    rows = []
+    for outer, group in rates.groupby("outer", sort=False):
+        counts = ", ".join(f"{count} {name or 'unnamed'}" for name, count in group["behaviour"].value_counts().items())
+        rows.append([f"`{outer}`", str(len(group)), counts, span(group["error_final"])])
+    return Table("Behaviour of each outer iteration over all cases.", ["outer", "cases", "behaviour", "final error"], rows)
+
+
+def floor_text(errors):
+    """Where each outer iteration ends on the cases in which `plain` converges."""
+    keys = ["scene", "step_s", "mass_ratio"]
+    last = errors.sort_values("iteration").groupby([*keys, "outer", "relaxation"], sort=False).tail(1)
+    converged = good(last[last["outer"] == "plain"], "error")[keys].drop_duplicates()
+    parts = []
+    for outer, group in last.merge(converged, on=keys).groupby("outer", sort=False):
+        parts.append(f"`{outer}` at {span(group['error'])}")
+    return f"In the {counted(len(converged), 'case')} where `plain` is ok, the traces end as follows: {'; '.join(parts)}." \
+        if parts else "In no case is `plain` ok."
+
+
+def rescued_text(errors):
+    """What becomes of the traced cases in which `plain` is not ok."""
+    keys = ["scene", "step_s", "mass_ratio"]
+    last = errors.sort_values("iteration").groupby([*keys, "outer"], sort=False).tail(1)
+    missed = failed(last[last["outer"] == "plain"], "error")
+    rest = last.merge(missed[keys], on=keys)
+    ends = [f"`{outer}` is ok in {len(good(rows, 'error'))} of them, after {span(good(rows, 'error')['iteration'])} iterations, at "
+            f"an error of {span(good(rows, 'error')['error'])}"
+            for outer, rows in rest[rest["outer"].isin(["proximal", "auto"])].groupby("outer", sort=False)]
+    return (f"`plain` ends away from the step in {counted(len(missed), 'traced case')}, at an error of {span(missed['error'])}; "
+            f"{'; '.join(ends)}.") if ends else "No other outer iteration was traced where `plain` is not ok."
+
+
+def stability_map(results):
+    section = Section(
+        "Where does each outer iteration find the step?",
+        "A swinging chain over step and mass ratio, a cantilever released from rest over step and stiffness; every linear "
+        "problem is solved directly, so that the outer iteration alone is seen. Where does it find the step, in how many "
+        "iterations, and does the solver's own prediction tell where `plain` converges?",
+        figures=[
+            Figure("stability_map_chain", "Outer iterations until the error against Newton is 1e-8, chain of 20 links. Marks "
+                   "stand where that is not reached. Dashed: where the solver predicts a contraction of 1 for `plain`."),
+            Figure("stability_map_cantilever", "The same for the cantilever, over Young's modulus."),
+            Figure("stability_map_predictions", "The solver's prediction of the contraction of `plain`, made at the end of the "
+                   "step by `auto`, against the dense spectral radius. Where its bound is at most 0.7 it is not refined."),
+            Figure("stability_map_cost", "What `auto` costs where `plain` contracts, in row updates of the chain and wall time of "
+                   "the cantilever, where `auto` takes `quasi_newton`; the prediction that both make at the step's end included.")])
+    for table, value in (("chain20", "mass_ratio"), ("cantilever", "young_pa")):
+        frame = results.table("stability_map", table)
+        if frame is not None:
+            section.paragraphs.append(solved_text(table, frame, [value, "step_s"]))
+    predictions = results.table("stability_map", "predictions")
+    if predictions is not None:
+        section.paragraphs.append(predictions_text(predictions))
+    cost = results.table("stability_map", "cost")
+    if cost is not None:
+        section.paragraphs.append(cost_text(cost))
+    return section
+
+
+def solved_text(scene, frame, cell):
+    """In how many cells each method finds the step, in how many iterations, and where its claim is not true."""
+    parts, claims = [], 0
+    for (outer, memory), rows in frame.groupby(["outer", "memory"], sort=False):
+        reached = rows["iterations"].notna()
+        claims += (rows["status"].eq("ok") & ~reached).sum()
+        name = f"`{outer}`" + (" without acceleration" if outer == "proximal" and memory == 0 else "")
+        counts = f" in {span(rows['iterations'])} iterations" if reached.any() else ""
+        parts.append(f"{name} {reached.sum()}{counts}")
+    text = f"Of {counted(len(frame[cell].drop_duplicates()), 'cell')} of `{scene}` these find the step: {'; '.join(parts)}."
+    return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
+
+
+def predictions_text(frame):
+    """How often the solver's prediction and plain itself agree, and how near prediction and spectral radius are."""
+    agree = (frame["predicted_contraction"] < 1) == frame["behaviour"].isin(CONTRACTING)
+    agree &= frame["predicted_contraction"].notna()
+    large = frame[frame["predicted_rate"] > 0.7]
+    difference = abs(large["predicted_contraction"] / large["predicted_rate"] - 1)
+    return (f"In {agree.sum()} of {counted(len(frame), 'cell')} the solver predicts rightly whether `plain` returns to the "
+            f"solution from beside it. Where the spectral radius exceeds 0.7, the prediction differs from it by "
+            f"{span(difference)} (relative).")
+
+
+def cost_text(frame):
+    """What auto costs where plain contracts with a rate below 0.9, at the default tolerance."""
+    ratios = cost_ratios(frame)
+    parts = []
+    for scene, cells in ratios.groupby("scene", sort=False):
+        found = [f"{span(rows['ratio'])} with `{relaxation}`" for relaxation, rows in cells.groupby("relaxation", sort=False)]
+        parts.append(f"{'wall time' if cells['timed'].all() else 'row updates'} of `{scene}`, {', '.join(found)}")
+    return (f"Where the measured rate of `plain` is below 0.9, `auto` costs these multiples of it: {'; '.join(parts)} "
+            f"({counted(len(ratios), 'run')} to the default tolerance).") if parts else "`plain` solves no step of a rate below 0.9."
+
+
+def contraction(results):
+    section = Section(
+        "Is each effect's contraction the predicted one?",
+        "Small bodies of one effect each, loaded so that their geometric stiffness matters. The rate of `plain`, measured "
+        "beside the solution, is compared with the dense spectral radius, with the solver's own prediction, and with its bound "
+        "for the effect.",
+        figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
+                        "geometric stiffness decides (tension); open: the softening part (compression). "
+                        "Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "
+                        "rotation fixed, which the dense radius, from exact derivatives, does not.")])
+    frame = results.table("contraction", "rates")
+    if frame is not None:
+        section.tables.append(effects_table(frame))
+    return section
+
+
+def effects_table(frame):
+    rows = []
+    for (effect, strain), group in frame.groupby(["effect", "strain"], sort=False):
+        for load, rates in (("tension", group[stiffens(group)]), ("compression", group[~stiffens(group)])):
+            if rates.empty:
+                continue
+            measured = good(rates, "measured_rate")
+            measured = measured[measured["measured_rate"] > 0]
+            computed = measured[measured["bound"] > 0.7]
+            rows.append([f"`{effect}`" + (f", {strain}" if strain else ""), load, f"{len(measured)} of {len(rates)}",
+                         span(measured["measured_rate"] / measured["predicted_rate"]),
+                         span(measured["bound"] / measured["measured_rate"]),
+                         span(computed["predicted_contraction"] / computed["measured_rate"])])
+    return Table("Rates of at least 0.001: measured over the dense radius, the bound over measured, and, where the bound exceeds "
+                 "0.7 and a prediction is computed, predicted over measured.",
+                 ["effect", "decided by", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)

@@ -1,0 +1,120 @@
+"""How the relaxations solve a linearised step."""
+
+import numpy as np
+
+from content import Figure, Section, Table, counted, number, span
+from reading import good
+
+
+def inner_convergence(results):
+    section = Section(
+        "How fast are the relaxations?",
+        "The same linearised problem is solved by each relaxation, the accelerated Jacobi method [@nesterov1983method] with "
+        "adaptive restart [@odonoghue2015adaptive] among them. Which rate per sweep, and is it the predicted one?",
+        figures=[
+            Figure("inner_convergence_sweeps", "Error of the velocities over the sweeps, against a dense factorisation of "
+                   "the same rows."),
+            Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
+            Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
+                   "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
+    errors, rates = results.table("inner_convergence", "errors"), results.table("inner_convergence", "rates")
+    if errors is not None:
+        section.paragraphs.append(fastest_text(errors))
+    if rates is not None:
+        section.paragraphs.append(decay_text(rates))
+        section.tables.append(Table(
+            "Linear rates per sweep.", ["scene", "relaxation", "theory", "predicted", "measured", "status"],
+            [[f"`{r['scene']}`", f"`{r['relaxation']}`", r["theory"], f"{r['predicted_rate']:.5g}",
+              f"{r['measured_rate']:.5g}", f"`{r['status']}`"] for _, r in rates.iterrows()]))
+    return section
+
+
+def decay_text(rates):
+    """How well each relaxation's decay per sweep, 1 - rate, is predicted where it reached the solution."""
+    iterative = rates[rates["relaxation"] != "direct"]
+    parts = []
+    for relaxation, group in iterative.groupby("relaxation", sort=False):
+        both = good(group, "predicted_rate", "measured_rate")
+        ratio = (1 - both["measured_rate"]) / (1 - both["predicted_rate"])
+        parts.append(f"`{relaxation}` {span(ratio)} ({len(both)} of {counted(len(group), 'case')})")
+    return ("Decay per sweep, one minus the rate, over the predicted one, where the relaxation reached the solution: "
+            + "; ".join(parts) + ".") if parts else "No relaxation with a rate was run."
+
+
+def fastest_text(errors, target=1e-6):
+    """Sweeps each relaxation needs to a given error, per scene."""
+    parts = []
+    for scene, rows in errors.groupby("scene", sort=False):
+        reached = []
+        for relaxation, trace in rows.groupby("relaxation", sort=False):
+            first = trace.loc[trace["error"] <= target, "sweep"].min()
+            reached.append(f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}"))
+        parts.append(f"`{scene}`: {', '.join(reached)}")
+    return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."
+
+
+def conditioning(results):
+    section = Section(
+        "What makes a relaxation slow?",
+        "One linearised step from smooth velocities: a chain of 20 links with a heavier and heavier tip, a cantilever that gets "
+        "stiffer, then nearly incompressible. In how many sweeps does each relaxation bring the residual to 1e-6 of its start?",
+        figures=[Figure("conditioning_sweeps", "Sweeps over mass ratio, Young's modulus and distance from incompressibility. Crossed "
+                        "under the upper edge: the residual is not reached in the sweeps allowed.")])
+    frame = results.table("conditioning", "sweeps")
+    if frame is not None:
+        section.paragraphs.append(conditioned_text(frame))
+        section.tables.append(conditioning_table(frame))
+    return section
+
+
+def conditioned_text(frame):
+    """What each relaxation solves, and how its sweeps compare with those of conjugate gradients."""
+    reached = good(frame, "sweeps").pivot_table("sweeps", ["parameter", "value"], "relaxation", sort=False)
+    best = reached.get("conjugate_gradients", reached.max(axis=1))
+    cases = len(frame.drop_duplicates(["parameter", "value"]))
+    parts = [f"`{name}` {reached[name].count()}, in {span(reached[name] / best)} times as many"
+             for name in reached if name not in ("conjugate_gradients", "direct")]
+    return (f"The condition of the preconditioned matrix D^-1 N is {span(frame['condition'])}. Of {counted(cases, 'case')} "
+            f"`conjugate_gradients` solve {best.count()}, in {span(best)} sweeps; {'; '.join(parts)}. For bilateral rows conjugate "
+            "gradients are the answer: a sweep costs as much as Jacobi's, and nothing is factored.")
+
+
+def conditioning_table(frame):
+    """What each relaxation needs, per parameter, and what it leaves where it does not get there."""
+    rows = []
+    for (parameter, relaxation), group in frame.groupby(["parameter", "relaxation"], sort=False):
+        reached = good(group, "sweeps")
+        missed = group.drop(reached.index)
+        rows.append([f"`{parameter}` {group['value'].min():g} to {group['value'].max():g}", f"`{relaxation}`", f"{len(reached)} of {len(group)}",
+                     span(reached["sweeps"]) if len(reached) else "", span(missed["residual"]) if len(missed) else ""])
+    return Table("Sweeps to the residual, and the residual left where the sweeps were spent before.",
+                 ["parameter", "relaxation", "solved", "sweeps", "residual left"], rows)
+
+
+def inexact(results):
+    section = Section(
+        "How far need a linear problem be solved?",
+        "The sweeps of an outer iteration end when the linear residual is a share of the nonlinear one. One step of the swinging "
+        "chain to its tolerance: what does the default share save against solving every linear problem to a tenth of that "
+        "tolerance?",
+        figures=[Figure("inexact_row_updates", "Row updates until the step is solved. Solid: linear problems to the default share of "
+                        "the nonlinear residual; dashed: each to a tenth of the step's tolerance.")])
+    frame = results.table("inexact", "solves")
+    if frame is not None:
+        section.paragraphs.append(saving_text(frame))
+    return section
+
+
+def saving_text(frame):
+    """Row updates of exact over inexact solves, cell by cell, and what inexact ones do to the error."""
+    shares = sorted(frame["inner_tolerance"].unique())
+    solved = good(frame, "row_updates")
+    both = solved.pivot_table(["row_updates", "error"], ["relaxation", "step_s", "mass_ratio"], "inner_tolerance", sort=False)
+    if not all(("row_updates", share) in both for share in shares):
+        return "No step is solved both ways."
+    ratio = (both["row_updates"][shares[0]] / both["row_updates"][shares[-1]]).dropna()
+    parts = [f"{span(values)} times with `{name}` ({counted(len(values), 'cell')})"
+             for name, values in ratio.groupby("relaxation", sort=False)]
+    return (f"Exact linear solves take these multiples of the row updates of inexact ones: {'; '.join(parts)}. The errors of the "
+            f"steps are {span(both['error'][shares[0]])} with exact, {span(both['error'][shares[-1]])} with inexact ones. "
+            "On a chain conjugate gradients end after as many sweeps as there are links, so that little can be left out.")

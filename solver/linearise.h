@@ -16,6 +16,12 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
 struct BlockResidual {
   double squared = 0;
   double rounding_squared = 0;
+
+  BlockResidual& operator+=(const BlockResidual& other) {
+    squared += other.squared;
+    rounding_squared += other.rounding_squared;
+    return *this;
+  }
 };
 
 /// Refreshes one block of rows from its effect at positions x and velocities v. Where N_ii is singular and r

@@ -166,6 +166,10 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
     else
       factor_ = converted<3, double>(lower);
   }
+  inverse_diagonal_ = inverse_mass;
+  for (const auto& entry : entries)
+    if (entry.row == entry.column && inverse_mass[entry.row] > 0)
+      inverse_diagonal_[entry.row] = 1 / (1 / inverse_diagonal_[entry.row] + entry.block.trace() / 3);
   work_.resize(3, pattern_.columns());
   rotation_.assign(inverse_mass.size(), Eigen::Matrix3d::Identity());
   factored_ = rotation_;
@@ -182,6 +186,7 @@ void Metric::turn(const std::vector<Eigen::Matrix3d>& deformation) {
 }
 
 void Metric::solve(const Points& right, Points& result) {
+  result.resizeLike(right);
   for (std::size_t node = 0; node < rotation_.size(); ++node)
     if (pattern_.column[node] >= 0)
       work_.col(pattern_.column[node]).noalias() = rotation_[node].transpose() * right.col(node);

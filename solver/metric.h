@@ -51,6 +51,9 @@ class Metric {
   /// factored for; to 1 where a matrix is zero.
   void turn(const std::vector<Eigen::Matrix3d>& deformation);
 
+  /// One over P's diagonal, 1/kg, the mean of its three entries a node; 0 where a node cannot move.
+  const std::vector<double>& inverse_diagonal() const { return inverse_diagonal_; }
+
   /// result = P^-1 right; zero where a node cannot move.
   void solve(const Points& right, Points& result);
 
@@ -61,6 +64,7 @@ class Metric {
   FactorPattern pattern_;
   std::variant<MetricFactor<1, double>, MetricFactor<3, float>, MetricFactor<3, double>> factor_;
   std::vector<Eigen::Matrix3d> rotation_, factored_;  // R, and the rotations of the shape factored
+  std::vector<double> inverse_diagonal_;
   Points work_;
 };
 

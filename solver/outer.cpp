@@ -27,7 +27,12 @@ void proximal(OuterIteration& iteration) {
 }
 
 void quasi_newton(OuterIteration& iteration) {
-  iteration.descend();
+  if (iteration.on_potential()) {
+    iteration.descend();
+  } else {
+    iteration.project();
+    iteration.accelerate();
+  }
 }
 
 void automatic(OuterIteration& iteration) {

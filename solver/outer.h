@@ -5,7 +5,8 @@
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
 //   auto         quasi_newton for compliant solids; else plain where that contracts, else proximal
-//   quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are eliminated
+//   quasi_newton v <- v - t H grad phi(v), on the potential that remains when compliant rows are eliminated;
+//                where hard rows are left, argmin of its model in the metric P under them, accelerated
 //   proximal     as plain, with M + D for M and (M + D)^-1 (M v_free + D v_k) for v_free; accelerated
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
@@ -39,6 +40,7 @@ class OuterIteration {
   virtual void accelerate() = 0;          // by the iterates so far
   virtual bool on_potential() = 0;        // every row is compliant and its impulse eliminated
   virtual void descend() = 0;             // one step down that potential
+  virtual void project() = 0;             // one step down the eliminated rows' potential, under the others
   virtual bool plain_contracts() = 0;     // as predicted, and as far as the iterates so far show
 
  protected:

@@ -78,7 +78,6 @@ void QuasiNewton::direction(const Points& gradient, Points& result) {
     alpha_[static_cast<std::size_t>(k)] = dot(steps_[slot], q_) / curvature_[slot];
     q_ -= alpha_[static_cast<std::size_t>(k)] * changes_[slot];
   }
-  result.resizeLike(gradient);
   metric_.solve(q_, result);
   for (int k = used - 1; k >= 0; --k) {
     const auto slot = static_cast<std::size_t>((count_ - 1 - k) % memory_);

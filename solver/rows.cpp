@@ -7,9 +7,10 @@ std::int64_t row_count(const AnyBlock& any) {
                     any);
 }
 
-std::int64_t row_count(const Rows& rows) {
+std::int64_t row_count(const Rows& rows, const std::vector<bool>& without) {
   std::int64_t count = 0;
-  for (const auto& block : rows.blocks) count += row_count(block);
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    if (without.empty() || !without[b]) count += row_count(rows.blocks[b]);
   return count;
 }
 
@@ -32,10 +33,15 @@ void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows) {
   });
 }
 
-void apply_impulses(const Rows& rows, Points& v) {
-  for_each_block(rows.blocks, [&](const auto& block) {
-    for (std::size_t i = 0; i < block.size(); ++i) block.apply(rows.inverse_mass, i, block.impulse[i], v);
-  });
+void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without) {
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    if (without.empty() || !without[b])
+      std::visit(
+          [&](const auto& block) {
+            for (std::size_t i = 0; i < block.size(); ++i)
+              block.apply(rows.inverse_mass, i, block.impulse[i], v);
+          },
+          rows.blocks[b]);
 }
 
 }  // namespace pbd

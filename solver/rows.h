@@ -89,15 +89,15 @@ void for_each_block(Blocks&& blocks, F&& f) {
   for (auto& block : blocks) std::visit(f, block);
 }
 
-/// Number of scalar rows.
-std::int64_t row_count(const Rows& rows);
+/// Number of scalar rows; those of some blocks may be left out.
+std::int64_t row_count(const Rows& rows, const std::vector<bool>& without = {});
 std::int64_t row_count(const AnyBlock& block);
 
 /// The impulses and biases of all rows, to be put back later.
 void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept);
 void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows);
 
-/// v += W J^T p with the impulses stored in the rows.
-void apply_impulses(const Rows& rows, Points& v);
+/// v += W J^T p with the impulses stored in the rows; those of some blocks may be left out.
+void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without = {});
 
 }  // namespace pbd

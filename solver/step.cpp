@@ -80,15 +80,15 @@ class StepIteration final : public OuterIteration {
   bool first() override { return report_.outer_iterations == 0; }
   void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
   void add_inertia() override {
-    constexpr double too_much = 10;  // growth of the residual that an acceleration may bring
-    if (data_.accelerated && residual() > too_much * last_residual_) {
-      data_.anderson.reject(data_.rows, data_.v);
-      data_.linearise_at(scene_, data_.v);
-    }
-    last_residual_ = residual();
-    data_.anderson.begin(data_.rows, data_.v);
+    begin_accelerated();
     data_.bound_contraction(scene_, 1);
     data_.add_inertia();
+  }
+  void project() override {
+    begin_accelerated();
+    const auto sweeps = data_.project(inner_accuracy(), method_.max_sweeps);
+    report_.sweeps += sweeps;
+    report_.row_updates += sweeps * row_count(data_.rows, data_.eliminated);
   }
   void accelerate() override {
     data_.accelerated = data_.anderson.accelerate(data_.inverse_mass, data_.rows, data_.v);
@@ -106,16 +106,7 @@ class StepIteration final : public OuterIteration {
   }
 
   void relax() override {
-    constexpr double inner_share = 0.1;  // of the step's tolerance, left to the linear problem
-    constexpr double good_fall = 0.5, tighter = 0.3, tightest = 1e-6;
-    // As exact as the outer iteration can use: tighter while its residual does not fall.
-    forcing_ = residual() > good_fall * relaxed_residual_
-                   ? std::max(tighter * forcing_, tightest * method_.inner_tolerance)
-                   : std::min(forcing_ / tighter, method_.inner_tolerance);
-    relaxed_residual_ = residual();
-    const InnerBudget budget{
-        .max_sweeps = method_.max_sweeps,
-        .absolute = std::max(inner_share * method_.tolerance * report_.scale, forcing_ * residual())};
+    const InnerBudget budget{.max_sweeps = method_.max_sweeps, .absolute = inner_accuracy()};
     const auto sweeps = data_.relax(first(), budget);
     report_.sweeps += sweeps;
     report_.row_updates += sweeps * row_count(data_.rows);
@@ -123,6 +114,28 @@ class StepIteration final : public OuterIteration {
 
  private:
   double residual() const { return std::max(report_.primal, report_.dual); }
+
+  /// Takes an acceleration back that the residual refutes, and notes where the next image comes from.
+  void begin_accelerated() {
+    constexpr double too_much = 10;  // growth of the residual that an acceleration may bring
+    if (data_.accelerated && residual() > too_much * last_residual_) {
+      data_.anderson.reject(data_.rows, data_.v);
+      data_.refresh(scene_);
+    }
+    last_residual_ = residual();
+    data_.anderson.begin(data_.rows, data_.v);
+  }
+
+  /// As exact as the outer iteration can use: tighter while its residual does not fall.
+  double inner_accuracy() {
+    constexpr double inner_share = 0.1;  // of the step's tolerance, left to the linear problem
+    constexpr double good_fall = 0.5, tighter = 0.3, tightest = 1e-6;
+    forcing_ = residual() > good_fall * relaxed_residual_
+                   ? std::max(tighter * forcing_, tightest * method_.inner_tolerance)
+                   : std::min(forcing_ / tighter, method_.inner_tolerance);
+    relaxed_residual_ = residual();
+    return std::max(inner_share * method_.tolerance * report_.scale, forcing_ * residual());
+  }
 
   const Scene& scene_;
   const Method& method_;
@@ -156,10 +169,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   };
 
   for (;; ++report.outer_iterations) {
-    if (w.on_potential)
-      w.potential_at_v(scene), measure({});
-    else
-      measure(w.linearise_at(scene, w.v));
+    measure(w.refresh(scene));
     if (report.outer_iterations == 0) first_residual = std::max(report.primal, report.dual);
     if (observer)
       observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,

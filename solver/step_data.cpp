@@ -35,17 +35,14 @@ StepData::StepData(const Scene& scene, const Method& method)
          row_count(rows.blocks[b]),
          std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]), 0.0});
   find_free_components();
-  on_potential = outer.potential != OnPotential::never && !rows.blocks.empty();
-  for (std::size_t index = 0; index < scene.effects.size() && on_potential; ++index)
+  for (const std::size_t index : effect_of_block)
+    eliminated.push_back(outer.potential != OnPotential::never && all_compliant(scene.effects[index]));
+  on_potential =
+      !eliminated.empty() && std::all_of(eliminated.begin(), eliminated.end(), [](bool own) { return own; });
+  for (const std::size_t index : effect_of_block)
     if (outer.potential == OnPotential::where_possible && !fills_space(scene.effects[index]))
       on_potential = false;
-    else if (!all_compliant(scene.effects[index])) {
-      if (outer.potential == OnPotential::always)
-        throw SetupError("outer",
-                         std::string(outer.name) + " with hard rows in effect " + std::to_string(index),
-                         "compliant rows, or another outer iteration");
-      on_potential = false;
-    }
+  in_metric = outer.potential == OnPotential::always && !on_potential;
 }
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
@@ -61,7 +58,7 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   slow_changes = 0;
   since_factor = 0;
   heavier = false;
-  if (on_potential) {
+  if (on_potential || in_metric) {
     if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, Shape::rest);
     turn_metric(scene, map.x0 + map.d * v);
   }
@@ -92,8 +89,7 @@ BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
     const auto start = std::chrono::steady_clock::now();
     const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass,
                                           finite_mass, rows.blocks[b]);
-    sums.squared += share.squared;
-    sums.rounding_squared += share.rounding_squared;
+    sums += share;
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   rebuilt = map.v_free;
@@ -101,31 +97,45 @@ BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   return sums;
 }
 
-void StepData::potential_at_v(const Scene& scene) {
-  if (!evaluated) evaluate_potential(scene);
+BlockResidual StepData::potential_at_v(const Scene& scene) {
+  return evaluated ? BlockResidual{} : evaluate_potential(scene);
 }
 
-void StepData::evaluate_potential(const Scene& scene) {
+BlockResidual StepData::evaluate_potential(const Scene& scene) {
   x = map.x0 + map.d * v;
+  rows.inverse_mass = inverse_mass;
   rebuilt = map.v_free;
   potential = std::pow(distance(v, map.v_free), 2) / 2;
+  BlockResidual sums;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const auto start = std::chrono::steady_clock::now();
-    potential +=
-        add_potential(scene.effects[effect_of_block[b]], map, x, inverse_mass, rows.blocks[b], rebuilt);
+    const Effect& effect = scene.effects[effect_of_block[b]];
+    if (eliminated[b])
+      potential += add_potential(effect, map, x, inverse_mass, rows.blocks[b], rebuilt);
+    else
+      sums += linearise(effect, map, x, v, inverse_mass, finite_mass, rows.blocks[b]);
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   gradient = v - rebuilt;
   for (std::size_t node = 0; node < inverse_mass.size(); ++node)
-    gradient.col(static_cast<Eigen::Index>(node)) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
-  evaluated = true;
+    gradient.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+  apply_impulses(rows, rebuilt, eliminated);
+  evaluated = on_potential;
+  return sums;
+}
+
+std::int64_t StepData::project(double accuracy, int most) {
+  quasi_newton.metric().solve(gradient, direction);
+  v -= direction;
+  return hard_rows.solve(rows, eliminated, quasi_newton.metric(), accuracy, most, v);
 }
 
 void StepData::factor_metric(const Scene& scene, Shape shape) {
   std::vector<MetricEntry> entries;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    add_metric(scene.effects[effect_of_block[b]], map, shape == Shape::rest ? scene.initial.x : x, shape,
-               rows.blocks[b], entries);
+    if (eliminated[b])
+      add_metric(scene.effects[effect_of_block[b]], map, shape == Shape::rest ? scene.initial.x : x, shape,
+                 rows.blocks[b], entries);
   deformation.assign(inverse_mass.size(), Eigen::Matrix3d::Zero());
   if (shape == Shape::current)
     for (const auto& effect : scene.effects) add_deformation(effect, x, deformation);
@@ -286,7 +296,7 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
   const double tension = bound_contraction(scene, 1);
   contraction = std::max(tension, bound_contraction(scene, -1));
-  if (on_potential || !(contraction > slow_contraction)) return 0;
+  if (on_potential || in_metric || !(contraction > slow_contraction)) return 0;
   constexpr int most = most_krylov, fewest = 3;  // vectors, in the first step and later ones
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
   const int count = mode_known ? fewest : most;

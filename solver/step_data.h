@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "acceleration.h"
+#include "hard_rows.h"
 #include "linearise.h"
 #include "outer.h"
 #include "quasi_newton.h"
@@ -18,7 +19,9 @@ inline constexpr double slow_contraction = 0.7;
 struct StepData {
   IntegratorFunction integrator;
   Outer outer;
-  bool on_potential = false;  // impulses are the compliant rows' own, p = -Sigma^-1 c/d
+  std::vector<bool> eliminated;  // of each block: its impulses are its own, p = -Sigma^-1 c/d
+  bool on_potential = false;     // all are
+  bool in_metric = false;        // some may be, and the others are solved in the metric of quasi_newton
   Relaxation relaxation;
   std::vector<std::size_t> effect_of_block;
   Rows rows;
@@ -39,6 +42,7 @@ struct StepData {
   bool accelerated = false;               // v is not an image of the iteration, but its acceleration
 
   QuasiNewton quasi_newton;
+  HardRows hard_rows;
   double potential = 0;                      // J, at v
   int since_factor = 0;                      // iterations
   double slope = 0;                          // of the potential along `direction`, J
@@ -68,13 +72,22 @@ struct StepData {
   /// directions.
   BlockResidual linearise_at(const Scene& scene, const Points& at);
 
-  /// Sets the rows' own impulses at v, `rebuilt`, the potential and its gradient, unless they are. The dual
-  /// residual is zero.
-  void potential_at_v(const Scene& scene);
+  /// Sets the eliminated rows' own impulses at v, the potential and its gradient, unless they are; refreshes
+  /// the other rows, and `rebuilt` by all. Returns the residual of the other rows.
+  BlockResidual potential_at_v(const Scene& scene);
+
+  /// One proximal step in the metric: down the gradient, under the rows that are not eliminated. Returns the
+  /// number of times these were visited.
+  std::int64_t project(double accuracy, int most);
 
   /// Finds the quasi-Newton direction at v; returns Newton's decrement, sqrt(-gradient . direction), an
   /// estimate of the distance from the solution (sqrt(J)).
   double find_direction();
+
+  /// Whichever of the two the outer iteration works on.
+  BlockResidual refresh(const Scene& scene) {
+    return on_potential || in_metric ? potential_at_v(scene) : linearise_at(scene, v);
+  }
 
   /// One line search down the potential along the direction found. Stays where no length gains anything. The
   /// first iteration of a step goes where the potential is lowest: the old velocity, v_free or rest.
@@ -113,7 +126,7 @@ struct StepData {
   void factor_metric(const Scene& scene, Shape shape);
   bool start_low(const Scene& scene);
   void turn_metric(const Scene& scene, const Points& at);
-  void evaluate_potential(const Scene& scene);
+  BlockResidual evaluate_potential(const Scene& scene);
   std::int64_t apply_plain(const Scene& scene, Points& error);
 };
 

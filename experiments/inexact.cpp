@@ -85,7 +85,7 @@ void inexact(Context& context) {
   // on average and one more; a share of 0.003 is 2.5 decades, half as many. It is tightened where the
   // nonlinear residual does not fall.
   context.verdict("inexact.gauss_seidel",
-                  "gauss_seidel solves every step inexactly, with a quarter less row updates than exactly",
+                  "gauss_seidel solves every step inexactly, with a quarter fewer row updates than exactly",
                   "largest row updates, inexact/exact", share.value(), 0.75);
   context.advance("chain20");
 }

@@ -37,6 +37,13 @@ class Section:
     figures: list = field(default_factory=list)
     tables: list = field(default_factory=list)
 
+    def tell(self, frame, *parts):
+        """Adds the text or Table that each of `parts` makes of a result table, if there is one."""
+        for part in parts if frame is not None else ():
+            made = part(frame)
+            (self.tables if isinstance(made, Table) else self.paragraphs).append(made)
+        return self
+
 
 class Results:
     """A result folder. Only complete runs are read: beside them, a table may stem from an earlier run."""

@@ -1,5 +1,7 @@
 """How the outer iterations approach the step."""
 
+from functools import partial
+
 from content import Figure, Section, Table, counted, span
 from reading import CONTRACTING, cost_ratios, failed, good, stiffens
 
@@ -21,13 +23,8 @@ def outer_convergence(results):
                    "cases. Crossed under the upper edge: the cases that do not contract, at their predicted rate."),
             Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum, measured and predicted; the spectral "
                    "radius is h² T/(m l) there.")])
-    errors, rates = results.table("outer_convergence", "errors"), results.table("outer_convergence", "map")
-    if rates is not None:
-        section.paragraphs.append(rates_text(rates))
-        section.tables.append(behaviour_table(rates))
-    if errors is not None:
-        section.paragraphs += [floor_text(errors), rescued_text(errors)]
-    return section
+    section.tell(results.table("outer_convergence", "map"), rates_text, behaviour_table)
+    return section.tell(results.table("outer_convergence", "errors"), floor_text, rescued_text)
 
 
 def rates_text(rates):
@@ -90,20 +87,13 @@ def stability_map(results):
                    "step by `auto`, against the dense spectral radius. Where its bound is at most 0.7 it is not refined."),
             Figure("stability_map_cost", "What `auto` costs where `plain` contracts, in row updates of the chain and wall time of "
                    "the cantilever, where `auto` takes `quasi_newton`; the prediction that both make at the step's end included.")])
-    for table, value in (("chain20", "mass_ratio"), ("cantilever", "young_pa")):
-        frame = results.table("stability_map", table)
-        if frame is not None:
-            section.paragraphs.append(solved_text(table, frame, [value, "step_s"]))
-    predictions = results.table("stability_map", "predictions")
-    if predictions is not None:
-        section.paragraphs.append(predictions_text(predictions))
-    cost = results.table("stability_map", "cost")
-    if cost is not None:
-        section.paragraphs.append(cost_text(cost))
-    return section
+    section.tell(results.table("stability_map", "chain20"), partial(solved_text, cell=["mass_ratio", "step_s"]))
+    section.tell(results.table("stability_map", "cantilever"), partial(solved_text, cell=["young_pa", "step_s"]))
+    section.tell(results.table("stability_map", "predictions"), predictions_text)
+    return section.tell(results.table("stability_map", "cost"), cost_text)
 
 
-def solved_text(scene, frame, cell):
+def solved_text(frame, cell):
     """In how many cells each method finds the step, in how many iterations, and where its claim is not true."""
     parts, claims = [], 0
     for (outer, memory), rows in frame.groupby(["outer", "memory"], sort=False):
@@ -112,7 +102,8 @@ def solved_text(scene, frame, cell):
         name = f"`{outer}`" + (" without acceleration" if outer == "proximal" and memory == 0 else "")
         counts = f" in {span(rows['iterations'])} iterations" if reached.any() else ""
         parts.append(f"{name} {reached.sum()}{counts}")
-    text = f"Of {counted(len(frame[cell].drop_duplicates()), 'cell')} of `{scene}` these find the step: {'; '.join(parts)}."
+    cells = counted(len(frame[cell].drop_duplicates()), "cell")
+    text = f"Of {cells} of `{frame['scene'].iloc[0]}` these find the step: {'; '.join(parts)}."
     return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
 
 
@@ -148,10 +139,7 @@ def contraction(results):
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "
                         "rotation fixed, which the dense radius, from exact derivatives, does not.")])
-    frame = results.table("contraction", "rates")
-    if frame is not None:
-        section.tables.append(effects_table(frame))
-    return section
+    return section.tell(results.table("contraction", "rates"), effects_table)
 
 
 def effects_table(frame):

@@ -17,16 +17,14 @@ def inner_convergence(results):
             Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
             Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
                    "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
-    errors, rates = results.table("inner_convergence", "errors"), results.table("inner_convergence", "rates")
-    if errors is not None:
-        section.paragraphs.append(fastest_text(errors))
-    if rates is not None:
-        section.paragraphs.append(decay_text(rates))
-        section.tables.append(Table(
-            "Linear rates per sweep.", ["scene", "relaxation", "theory", "predicted", "measured", "status"],
-            [[f"`{r['scene']}`", f"`{r['relaxation']}`", r["theory"], f"{r['predicted_rate']:.5g}",
-              f"{r['measured_rate']:.5g}", f"`{r['status']}`"] for _, r in rates.iterrows()]))
-    return section
+    section.tell(results.table("inner_convergence", "errors"), fastest_text)
+    return section.tell(results.table("inner_convergence", "rates"), decay_text, rates_table)
+
+
+def rates_table(rates):
+    return Table("Linear rates per sweep.", ["scene", "relaxation", "theory", "predicted", "measured", "status"],
+                 [[f"`{r['scene']}`", f"`{r['relaxation']}`", r["theory"], f"{r['predicted_rate']:.5g}",
+                   f"{r['measured_rate']:.5g}", f"`{r['status']}`"] for _, r in rates.iterrows()])
 
 
 def decay_text(rates):
@@ -60,11 +58,7 @@ def conditioning(results):
         "stiffer, then nearly incompressible. In how many sweeps does each relaxation bring the residual to 1e-6 of its start?",
         figures=[Figure("conditioning_sweeps", "Sweeps over mass ratio, Young's modulus and distance from incompressibility. Crossed "
                         "under the upper edge: the residual is not reached in the sweeps allowed.")])
-    frame = results.table("conditioning", "sweeps")
-    if frame is not None:
-        section.paragraphs.append(conditioned_text(frame))
-        section.tables.append(conditioning_table(frame))
-    return section
+    return section.tell(results.table("conditioning", "sweeps"), conditioned_text, conditioning_table)
 
 
 def conditioned_text(frame):
@@ -99,10 +93,7 @@ def inexact(results):
         "tolerance?",
         figures=[Figure("inexact_row_updates", "Row updates until the step is solved. Solid: linear problems to the default share of "
                         "the nonlinear residual; dashed: each to a tenth of the step's tolerance.")])
-    frame = results.table("inexact", "solves")
-    if frame is not None:
-        section.paragraphs.append(saving_text(frame))
-    return section
+    return section.tell(results.table("inexact", "solves"), saving_text)
 
 
 def saving_text(frame):

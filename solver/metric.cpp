@@ -149,9 +149,8 @@ void MetricFactor<B, Real>::solve(const FactorPattern& pattern, Points& x) const
 }
 
 void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
-                    const std::vector<MetricEntry>& entries,
-                    const std::vector<Eigen::Matrix3d>& deformation) {
-  constexpr double most_products = 1e9;      // of 3 x 3 blocks: some ten seconds
+                    const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
+                    double most_products) {
   constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
   pattern_ = analyse(inverse_mass, entries);
   if (pattern_.products() > most_products) {

@@ -41,9 +41,12 @@ struct MetricFactor {
 
 class Metric {
  public:
-  /// `deformation` as in `turn`, of the shape that the entries are of; zero where that is the rest shape.
+  /// Full blocks if the factor takes at most so many products of 3 x 3 blocks (1e9: some ten seconds), else
+  /// one number a pair of nodes. `deformation` as in `turn`, of the shape that the entries are of; zero where
+  /// that is the rest shape.
   void factor(const StepMap& map, const std::vector<double>& inverse_mass,
-              const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation);
+              const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
+              double most_products = 1e9);
 
   bool factored_for(const StepMap& map) const { return d_ == map.d && s_ == map.s; }
 

@@ -9,7 +9,8 @@ def point_hard_cases(results):
         "Which hard scenes does one method survive?",
         "Heavy and long ropes, stiffness in series, a wide grid, Young's moduli and steps over many decades, cubes that start "
         "scrambled, flat, collapsed or mirrored, nearly incompressible solids, slivers, a strain energy beyond its limit point, "
-        "other units. One method, the default, no setting for any case; `conjugate_gradients` and `direct` stand beside it where there are sweeps to do. "
+        "other units. One method, the default, no setting for any case; the verdicts are about it. `direct` and `gauss_seidel` stand beside it "
+        "where there are sweeps to do. "
         "Which of the same few gates hold?",
         figures=[
             Figure("point_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails, grey was "

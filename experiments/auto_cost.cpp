@@ -26,8 +26,21 @@ Trace solve(const SolvedStep& each, std::string_view outer, std::string_view rel
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
-  return measure(
-      [&] { return measure_once(each.step.scene, each.start, each.step.h, method, each.exact.x); });
+  const auto once = [&] {
+    return measure_once(each.step.scene, each.start, each.step.h, method, each.exact.x);
+  };
+  Trace first = once();
+  return first.report.status == Status::ok ? measure(once) : first;
+}
+
+/// Times compete: measured again in turns, so that what else the machine does meets both.
+void time_again(const SolvedStep& each, std::string_view relaxation, Trace& plain, Trace& automatic) {
+  constexpr int turns = 2;
+  for (int turn = 0; turn < turns; ++turn)
+    for (auto [outer, best] : {std::pair{"plain", &plain}, {"auto", &automatic}}) {
+      Trace again = solve(each, outer, relaxation);
+      if (again.points.back().wall_s < best->points.back().wall_s) *best = std::move(again);
+    }
 }
 
 /// Row updates of `auto` over plain's, or seconds where it updates none; NaN unless it solves the step.
@@ -49,7 +62,8 @@ void auto_cost(Context& context, const std::vector<const SolvedStep*>& all) {
     if (!(rates[k] < contracting)) continue;
     const SolvedStep& each = *all[k];
     for (const auto relaxation : {GaussSeidel::name, ConjugateGradients::name, Direct::name}) {
-      const Trace plain = solve(each, "plain", relaxation), automatic = solve(each, "auto", relaxation);
+      Trace plain = solve(each, "plain", relaxation), automatic = solve(each, "auto", relaxation);
+      if (automatic.report.row_updates == 0) time_again(each, relaxation, plain, automatic);
       for (const auto& [outer, trace] : {std::pair{"plain", &plain}, {"auto", &automatic}}) {
         const TracePoint& end = trace->points.back();
         table.row({each.scene, each.step.h, each.parameter, each.value, rates[k], outer,

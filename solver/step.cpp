@@ -19,6 +19,7 @@ struct Workspace::Data : StepData {
 
 Workspace::Workspace(const Scene& scene, const Method& method) {
   validate(scene);
+  validate(method);
   data_ = std::make_unique<Data>(scene, method);
 }
 Workspace::~Workspace() = default;
@@ -102,7 +103,8 @@ class StepIteration final : public OuterIteration {
     if (report_.outer_iterations >= 2)
       data_.slow_changes = data_.change > slow * data_.last_change ? data_.slow_changes + 1 : 0;
     if (data_.slow_changes >= patience) data_.contraction = 1;  // whatever was predicted
-    return data_.contraction <= slow_contraction || data_.bound_contraction(scene_, 1) <= slow_contraction;
+    return data_.contraction <= slow_contraction ||
+           (data_.direction_blend == 1 && data_.bound_contraction(scene_, 1) <= slow_contraction);
   }
 
   void relax() override {
@@ -190,12 +192,11 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     report.row_updates += sweeps * row_count(w.rows);
     report.contraction = w.contraction;
     w.restore_momentum();
-    state.x = w.x;
-    state.v = w.v;
-    state.time += h;
+    w.end(h, state);
   } else {
     w.forget_impulses();
     w.forget_prediction();
+    w.forget_history();
   }
   return report;
 }

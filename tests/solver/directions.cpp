@@ -1,0 +1,114 @@
+// Where a step takes its constraints' directions: at its end, at its begin, between; and velocity time
+// stepping.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "scenes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double gravity = 9.81;
+
+Method direct_method() {
+  Method method;
+  method.relaxation = "direct";
+  method.tolerance = 1e-11;
+  return method;
+}
+
+/// Energy (J, zero where it is released) of a pendulum released horizontally after each step of h seconds.
+std::vector<double> energies(const Method& method, double h, int steps) {
+  const Scene scene = pbdcheck::pendulum(std::numbers::pi / 2, 0);
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  std::vector<double> found{0};
+  int missed = 0;
+  for (int k = 0; k < steps; ++k) {
+    missed += step(scene, method, h, state, workspace).status != Status::ok;
+    found.push_back(state.v.col(1).squaredNorm() / 2 + gravity * state.x(2, 1));
+  }
+  CHECK(missed == 0);
+  return found;
+}
+
+/// A bob 1 m beyond a link of 1 m, at rest, and nothing that pulls.
+Scene stretched_link(double compliance) {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(2, 0, 0), 1);
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {compliance}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "directions at the step's begin keep a pendulum's energy in a band, those at its end take from it") {
+  const double h = 1.0 / 60;
+  const int steps = 600;
+  Method method = direct_method();
+  const auto implicit = energies(method, h, steps);
+  // A taut link's value is convex, so that its force does no work or takes some in every step.
+  CHECK(std::is_sorted(implicit.rbegin(), implicit.rend()));
+
+  // Symplectic Euler conserves E - h/2 v.dU/dx + O(h^2), and dU/dx = m g along z. The pendulum's largest v_z,
+  // sqrt(2 g l cos(phi)) sin(phi) at cos(phi)^2 = 1/3, bounds the band.
+  method.direction_blend = 0;
+  const double fastest_fall = std::sqrt(2 * gravity / std::sqrt(3.0)) * std::sqrt(2.0 / 3);
+  const double band = h / 2 * gravity * fastest_fall;
+  double largest = 0;
+  for (const double energy : energies(method, h, steps)) largest = std::max(largest, std::abs(energy));
+  CHECK(largest < 1.1 * band);
+
+  method.direction_blend = 0.5;
+  const auto between = energies(method, h, steps);
+  CHECK(between.back() < -10 * band);
+  CHECK(implicit.back() < between.back());
+}
+
+TEST_CASE("blended directions are those at the blended positions, in rows and impulses") {
+  // After one step from rest: x on the circle, and x - y along the blended direction, y the free fall.
+  const double h = 0.2, blend = GENERATE(0.0, 0.3, 1.0);
+  const Scene scene = pbdcheck::pendulum(1, 0);
+  Method method = direct_method();
+  method.direction_blend = blend;
+  for (const std::string outer : {"plain", "proximal", "auto"}) {
+    method.outer = outer;
+    State state = scene.initial;
+    Workspace workspace(scene, method);
+    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    const Vec3 begin = scene.initial.x.col(1), end = state.x.col(1);
+    const Vec3 pulled = end - (begin - gravity * h * h * Vec3::UnitZ());
+    const Vec3 direction = (begin + blend * (end - begin)).normalized();
+    INFO(outer << ", blend " << blend);
+    CHECK(end.norm() == Approx(1).epsilon(1e-10));
+    CHECK(pulled.norm() > 0.1);
+    CHECK((pulled - pulled.dot(direction) * direction).norm() < 1e-10);
+  }
+}
+
+TEST_CASE("symplectic_euler takes the directions at the step's begin, whatever the blend") {
+  Method shake = direct_method(), symplectic = direct_method();
+  shake.direction_blend = 0;
+  symplectic.integrator = "symplectic_euler";
+  CHECK(energies(shake, 1.0 / 60, 100) == energies(symplectic, 1.0 / 60, 100));
+}
+
+TEST_CASE("a potential has its own directions: quasi_newton refuses others, auto takes another way") {
+  const Scene scene = cantilever(4, {1e6, 0.3}, Strain::green);
+  Method method;
+  method.direction_blend = 0.5;
+  method.relaxation = "direct";
+  State state = scene.initial;
+  Workspace workspace(scene, method);
+  CHECK(step(scene, method, 1.0 / 60, state, workspace).status == Status::ok);
+  method.outer = "quasi_newton";
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("directions that are not those at x"));
+  method.direction_blend = 1;
+  method.integrator = "symplectic_euler";
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("directions that are not those at x"));
+}

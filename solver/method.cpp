@@ -20,6 +20,8 @@ void require(bool holds, std::string_view name, double value, std::string_view a
 void validate(const Method& method) {
   require(method.direction_blend >= 0 && method.direction_blend <= 1, "direction_blend",
           method.direction_blend, "0 to 1");
+  require(method.stabilisation >= 0 && method.stabilisation <= 1, "stabilisation", method.stabilisation,
+          "0 to 1");
   require(method.alpha >= 0.5 && method.alpha <= 1, "alpha", method.alpha, "0.5 to 1");
   if (method.beta.has_value() != method.gamma.has_value())
     throw SetupError(method.beta ? "beta" : "gamma", "one of beta and gamma", "both, or neither");

@@ -21,6 +21,7 @@ struct Method {
                         // is linear, and is unstable with hard constraints
   std::optional<double> beta, gamma;  // of Newmark's own family, which newmark is if both are given
   double direction_blend = 1;  // J is taken at x_l + this (x - x_l): 0 where the step begins, 1 at its end
+  double stabilisation = 1;  // share of a hard constraint's error that `frozen` removes in a step (Baumgarte)
 };
 
 /// Throws SetupError naming the parameter that is out of its range.

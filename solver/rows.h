@@ -102,6 +102,9 @@ std::int64_t row_count(const AnyBlock& block);
 void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept);
 void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows);
 
+/// Multiplies the biases of rows without compliance.
+void scale_hard_biases(Rows& rows, double factor);
+
 /// v += W J^T p with the impulses stored in the rows.
 void apply_impulses(const Rows& rows, Points& v);
 

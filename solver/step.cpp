@@ -79,7 +79,10 @@ class StepIteration final : public OuterIteration {
   Points& v() override { return data_.v; }
   const Points& rebuilt() override { return data_.rebuilt; }
   bool first() override { return report_.outer_iterations == 0; }
-  void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
+  void linearise_at_start() override {
+    data_.linearise_at(scene_, data_.zero);
+    if (method_.stabilisation != 1) scale_hard_biases(data_.rows, method_.stabilisation);
+  }
   void add_inertia() override {
     constexpr double too_much = 10;  // growth of the residual that an acceleration may bring
     if (data_.accelerated && residual() > too_much * last_residual_) {

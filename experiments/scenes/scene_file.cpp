@@ -51,6 +51,7 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   if (keys.has("beta")) method.beta = keys.number("beta", Range::positive);
   if (keys.has("gamma")) method.gamma = keys.number("gamma", Range::positive);
   method.direction_blend = keys.number_or("direction_blend", method.direction_blend, Range::not_negative);
+  method.stabilisation = keys.number_or("stabilisation", method.stabilisation, Range::not_negative);
   keys.refuse_unknown();
   located(keys.where(), [&] { pbd::validate(method); });
   return method;
@@ -141,9 +142,9 @@ std::string method_text(const pbd::Method& m) {
   const std::string own_family = m.beta ? fmt::format(" beta={} gamma={}", *m.beta, *m.gamma) : "";
   return fmt::format(
       "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
-      "warm_start={} memory={} alpha={}{} direction_blend={}",
+      "warm_start={} memory={} alpha={}{} direction_blend={} stabilisation={}",
       m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
-      m.warm_start, m.memory, m.alpha, own_family, m.direction_blend);
+      m.warm_start, m.memory, m.alpha, own_family, m.direction_blend, m.stabilisation);
 }
 
 }  // namespace pbdcheck

@@ -110,6 +110,7 @@ const std::vector<Mistake> mistakes{
     {"[method]\nalpha = 0.4\n", {"scene.toml:10: method: alpha", "got 0.4", "0.5 to 1"}},
     {"[method]\nbeta = 0.25\n", {"scene.toml:10: method: beta", "both, or neither"}},
     {"[method]\ndirection_blend = 2\n", {"scene.toml:10: method: direction_blend", "got 2", "0 to 1"}},
+    {"[method]\nstabilisation = 1.5\n", {"scene.toml:10: method: stabilisation", "got 1.5", "0 to 1"}},
     {"[method]\nmax_outer = 0\n", {"scene.toml:11: method.max_outer", "got 0", "an integer from 1"}},
     {"[method]\nmax_sweeps = 1.5\n", {"scene.toml:11: method.max_sweeps", "got 1.5", "an integer"}},
     {"[method]\nwarm_start = 1\n", {"scene.toml:11: method.warm_start", "got 1", "true or false"}},

@@ -112,3 +112,43 @@ TEST_CASE("a potential has its own directions: quasi_newton refuses others, auto
   method.integrator = "symplectic_euler";
   CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("directions that are not those at x"));
 }
+
+TEST_CASE("frozen removes its share of a hard link's error a step, and says unless that was all") {
+  const double share = GENERATE(0.0, 0.2, 1.0), h = 0.1;
+  Method method = direct_method();
+  method.outer = "frozen";
+  method.stabilisation = share;
+  const Scene hard = stretched_link(0);
+  State state = hard.initial;
+  Workspace workspace(hard, method);
+  for (int k = 1; k <= 3; ++k) {
+    const double before = state.x(0, 1) - 1;
+    state.v.setZero();
+    const Status status = step(hard, method, h, state, workspace).status;
+    CHECK(state.x(0, 1) - 1 == Approx((1 - share) * before).margin(1e-12));
+    CHECK((status == Status::ok) == (share == 1));
+  }
+  // A spring's value is no error: k = 1/A pulls whatever the share. M v + h k (c + h v) = 0.
+  const Scene soft = stretched_link(0.5);
+  State sprung = soft.initial;
+  Workspace other(soft, method);
+  CHECK(step(soft, method, h, sprung, other).status == Status::ok);
+  CHECK(sprung.v(0, 1) == Approx(-h * 2 / (1 + h * h * 2)).epsilon(1e-12));
+}
+
+TEST_CASE("frozen without stabilisation leaves the circle by h v a step") {
+  const double h = 0.05, rate = 2;
+  Scene scene = pbdcheck::pendulum(0.5, rate);
+  scene.effects.erase(scene.effects.begin());  // no gravity: the speed stays
+  Method method = direct_method();
+  method.outer = "frozen";
+  method.stabilisation = 0;
+  State state = scene.initial;
+  Workspace workspace(scene, method);
+  for (int k = 1; k <= 10; ++k) {
+    const double before = state.x.col(1).squaredNorm();
+    CHECK(step(scene, method, h, state, workspace).status == Status::not_converged);
+    const double travelled = h * state.v.col(1).norm();
+    CHECK(state.x.col(1).squaredNorm() == Approx(before + travelled * travelled).epsilon(1e-12));
+  }
+}

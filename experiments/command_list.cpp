@@ -6,6 +6,7 @@
 #include "choices.h"
 #include "commands.h"
 #include "files.h"
+#include "integrators.h"
 #include "judges.h"
 #include "known_answers.h"
 #include "scene_file.h"
@@ -42,6 +43,13 @@ std::vector<Item> scene_items() {
   return items;
 }
 
+std::vector<Item> integrator_items() {
+  std::vector<Item> items;
+  for (const auto& integrator : pbd::integrators())
+    items.push_back({std::string(integrator.name), std::string(integrator.text)});
+  return items;
+}
+
 std::vector<Item> reference_items() {
   std::vector<Item> items = named(reference_names());
   items.push_back({"ode", "trajectories of compliant scenes and planar hard chains in continuous time"});
@@ -66,7 +74,7 @@ const std::vector<Kind>& kinds() {
       {"experiments", experiment_items},
       {"scenes", scene_items},
       {"effects", [] { return named(effect_names()); }},
-      {"integrators", [] { return named(integrator_choices()); }},
+      {"integrators", integrator_items},
       {"outers", [] { return named(outer_choices()); }},
       {"relaxations", [] { return named(relaxation_choices()); }},
       {"frictions", [] { return std::vector<Item>(); }},

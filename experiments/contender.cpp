@@ -1,5 +1,7 @@
 #include "contender.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <sstream>
 
@@ -36,6 +38,8 @@ Contender parsed_rival(std::map<std::string, std::string> words, const pbd::Meth
     settings += setting + " ";
   }
   Contender contender{parse_method(settings, base, option)};
+  contender.method.integrator = pbd::Method{}.integrator;
+  contender.method.direction_blend = pbd::Method{}.direction_blend;
   contender.method.outer = "rival";
   contender.method.relaxation = name;
   contender.rival = &pbd::find_named(pbd::rivals::rivals(), "rival", name);
@@ -47,6 +51,9 @@ void require_possible(const Contender& contender, const SceneFile& file) {
   if (contender.method.integrator != "implicit_euler")
     throw pbd::SetupError("--method integrator", "`" + contender.method.integrator + "`",
                           "implicit_euler, the step the references solve");
+  if (contender.method.direction_blend != 1)
+    throw pbd::SetupError("--method direction_blend", fmt::format("{}", contender.method.direction_blend),
+                          "1, the directions of the step the references solve");
   if (contender.rival)
     contender.rival->make(file.scene, file.step_s);
   else

@@ -1,12 +1,29 @@
-// An integrator is one function giving an affine map of the step: end positions x = x0 + d v of the end
-// velocity v, the velocity v_free without impulses, and the scale s that turns forces into impulses. A row's
-// bias is then c(x_k)/d - J v_k and its Sigma A/(s d).
-//   implicit_euler   x0 = x_l, v_free = v_l + h a, d = s = h
+// An integrator is one function that gives the coefficients of a step of h seconds. With x_l, v_l the state
+// where the step begins, f the accelerations by given forces, q_l those by all forces there, and a_l one that
+// the integrator carries from step to step, they make an affine map of the velocity v that is solved for:
+//   x = x0 + d v,              x0     = x_l + x_v v_l + x_a a_l + before (x_l - x_l-1)
+//   M (v - v_free) = J(x)^T p, v_free = v_l + s f + v_q q_l + v_a a_l + before (v_l - v_l-1)
+// with impulses p that are s times the constraints' forces: a row's bias is c(x_k)/d - J v_k, its Sigma
+// A/(s d). The step ends at x_l + reach (x - x_l) with the velocity v_l + reach (v - v_l) and carries on
+// a_l+1 = (v - v_l - a_a a_l)/a_v.
+//   implicit_euler    x_l+1 = x_l + h v_l+1,  v_l+1 = v_l + h q_l+1
+//   newmark           x_l+1 = x_l + h ((1-alpha) v_l + alpha v_l+1), v_l+1 = v_l + h ((1-alpha) q_l + alpha
+//                     q_l+1); with beta and gamma Newmark's own family (Newmark 1959):
+//                     x_l+1 = x_l + h v_l + h^2 ((1/2-beta) q_l + beta q_l+1), v_l+1 = v_l + h ((1-gamma) q_l
+//                     + gamma q_l+1). alpha = 1/2 is the trapezoidal rule (beta = 1/4, gamma = 1/2), alpha =
+//                     1 implicit Euler.
+//   bdf2              with w = h/h_l-1: y_l+1 = y_l + w^2/(1+2w) (y_l - y_l-1) + h (1+w)/(1+2w) y'_l+1
+//   midpoint          q and v at the middle: an implicit Euler step of h/2, carried on as far again
+//   symplectic_euler  v_l+1 = v_l + h q_l, x_l+1 = x_l + h v_l+1; hard constraints met at the end along their
+//                     directions at the start (SHAKE: Ryckaert, Ciccotti, Berendsen 1977)
+// A first step knows the forces of compliant constraints by their value, those of hard ones not: there
+// newmark begins with implicit Euler, and so does bdf2 always.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
+#include "method.h"
 #include "scene.h"
 
 namespace pbd {
@@ -18,13 +35,36 @@ struct StepMap {
   double s = 0;   // s
 };
 
-/// Fills `map` for a step of h seconds from `state` under the given forces' accelerations (m/s^2).
-using IntegratorFunction = void (*)(const State& state, const Points& acceleration, double h, StepMap& map);
+/// What an integrator knows of a step.
+struct StepStart {
+  const Method& method;
+  double h;           // s
+  double last_h;      // s, of the step before; infinite at a start
+  bool forces_known;  // at the step's begin: q_l and a_l are there
+};
+
+struct StepCoefficients {
+  double d, s;        // s
+  double reach = 1;   // 1
+  double x_v = 0;     // s
+  double x_a = 0;     // s^2
+  double v_q = 0;     // s
+  double v_a = 0;     // s
+  double before = 0;  // 1
+  double a_a = 0;     // s
+  double a_v = 0;     // s; 0 carries nothing on
+};
+
+/// What has to be kept for the next step: nothing, x_l-1 and v_l-1, or q_l and a_l.
+enum class Keeps { nothing, states, accelerations };
 
 struct Integrator {
   std::string_view name;
-  int order;  // of accuracy in h
-  IntegratorFunction map;
+  int order;              // of accuracy in h, with the method's default parameters
+  std::string_view text;  // on its order and parameters
+  StepCoefficients (*coefficients)(const StepStart& start);
+  Keeps keeps = Keeps::nothing;
+  bool explicit_forces = false;  // compliant constraints act as given forces, hard ones along J(x_l)
 };
 
 /// All integrators.

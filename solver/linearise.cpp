@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "effects/effects.h"
+#include "effect_rows.h"
 
 namespace pbd {
 namespace {
@@ -48,22 +48,30 @@ constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
 
 template <class Block>
 typename Block::Positions positions(const Block& block, const Points& x, std::size_t i) {
-  typename Block::Positions local;
-  for (int a = 0; a < Block::nodes; ++a) local.col(a) = x.col(block.node[i][static_cast<std::size_t>(a)]);
-  return local;
+  return positions_of(block.node[i], x);
+}
+
+/// J of constraint i at other positions than its value's.
+template <class E, class Block>
+void take_directions(const E& effect, const Points& x, std::size_t i, const Block& block,
+                     typename Block::Jacobian& jacobian) {
+  typename Block::Value value;
+  Constraint<E>::evaluate(effect, block.entry(i), positions(block, x, i), value, jacobian);
 }
 
 template <class E, class Block>
 BlockResidual linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
                               const std::vector<double>& inverse_mass, double unreachable_mass,
-                              Block& block) {
+                              const Points* directions, Block& block) {
   BlockResidual sums;
   typename Block::Value value;
   for (std::size_t i = 0; i < block.size(); ++i) {
+    const std::size_t entry = block.entry(i);
     const typename Block::Positions local = positions(block, x, i);
-    Constraint<E>::evaluate(effect, i, local, value, block.jacobian[i]);
+    Constraint<E>::evaluate(effect, entry, local, value, block.jacobian[i]);
+    if (directions != nullptr) take_directions(effect, *directions, i, block, block.jacobian[i]);
     block.bias[i] = value / map.d - block.jacobian[i] * block.gather(v, i);
-    block.compliance[i] = Constraint<E>::compliance(effect, i) / (map.s * map.d);
+    block.compliance[i] = Constraint<E>::compliance(effect, entry) / (map.s * map.d);
     bool singular = false;
     block.inverse_diagonal[i] = invert(diagonal_block(block, inverse_mass, i), singular);
 
@@ -90,22 +98,31 @@ Positions push_of(const E& effect, std::size_t i, const Positions& x, const Resp
   }
 }
 
+/// The constraints of an effect that are rows: all of them, or the hard ones.
 template <class E>
-using BlockOf = RowBlock<Constraint<E>::rows, Constraint<E>::nodes>;
+std::vector<std::size_t> entries_of(const E& effect, bool hard_alone) {
+  std::vector<std::size_t> entries;
+  for (std::size_t i = 0; i < effect.node.size(); ++i)
+    if (!hard_alone || !compliant(effect, i)) entries.push_back(i);
+  return entries;
+}
 
 }  // namespace
 
-Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block) {
+Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block, bool hard_alone) {
   Rows rows;
   for (const double mass : scene.mass) rows.inverse_mass.push_back(std::isfinite(mass) ? 1 / mass : 0.0);
   for (std::size_t index = 0; index < scene.effects.size(); ++index)
     std::visit(
         [&]<class E>(const E& effect) {
           if constexpr (RowEffect<E>) {
-            if (effect.node.empty()) return;
+            const auto entries = entries_of(effect, hard_alone);
+            if (entries.empty()) return;
             BlockOf<E> block;
-            block.resize(effect.node.size());
-            for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = Constraint<E>::node(effect, i);
+            block.resize(entries.size());
+            for (std::size_t i = 0; i < block.size(); ++i)
+              block.node[i] = Constraint<E>::node(effect, entries[i]);
+            if (entries.size() < effect.node.size()) block.entries = entries;
             rows.blocks.emplace_back(std::move(block));
             effect_of_block.push_back(index);
           }
@@ -115,11 +132,12 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
 }
 
 BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
-                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block) {
+                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block,
+                        const Points* directions) {
   return std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>)
-          return linearise_block(stated, map, x, v, inverse_mass, unreachable_mass,
+          return linearise_block(stated, map, x, v, inverse_mass, unreachable_mass, directions,
                                  std::get<BlockOf<E>>(block));
         else
           return BlockResidual{};
@@ -202,7 +220,7 @@ bool all_compliant(const Effect& effect) {
       []<class E>(const E& stated) {
         if constexpr (RowEffect<E>)
           for (std::size_t i = 0; i < stated.node.size(); ++i)
-            if (!(Constraint<E>::compliance(stated, i).diagonal().minCoeff() > 0)) return false;
+            if (!compliant(stated, i)) return false;
         return true;
       },
       effect);
@@ -217,15 +235,15 @@ bool fills_space(const Effect& effect) {
       effect);
 }
 
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, int sign,
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, double factor,
                            const AnyBlock& any, std::vector<double>& inertia) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
           const auto& block = std::get<BlockOf<E>>(any);
           for (std::size_t i = 0; i < block.size(); ++i) {
-            const auto bound =
-                Constraint<E>::geometric_bound(stated, i, positions(block, x, i), sign * block.impulse[i]);
+            const auto bound = Constraint<E>::geometric_bound(stated, block.entry(i), positions(block, x, i),
+                                                              factor * block.impulse[i]);
             for (int a = 0; a < block.nodes; ++a)
               inertia[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] +=
                   map.d / 2 * bound[a];
@@ -236,7 +254,8 @@ void add_geometric_inertia(const Effect& effect, const StepMap& map, const Point
 }
 
 void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
-             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& any, Points& push) {
+             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& any, Points& push,
+             const Points* directions) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
@@ -244,7 +263,8 @@ void perturb(const Effect& effect, const StepMap& map, const Points& turned, con
           typename BlockOf<E>::Value value;
           typename BlockOf<E>::Jacobian jacobian;
           for (std::size_t i = 0; i < block.size(); ++i) {
-            Constraint<E>::evaluate(stated, i, positions(block, turned, i), value, jacobian);
+            Constraint<E>::evaluate(stated, block.entry(i), positions(block, turned, i), value, jacobian);
+            if (directions != nullptr) take_directions(stated, *directions, i, block, jacobian);
             block.apply(inverse_mass, i, jacobian, block.impulse[i], push);
             const typename BlockOf<E>::Value before = block.bias[i] + block.jacobian[i] * block.gather(v, i);
             block.bias[i] = (value / map.d - before) / scale - block.jacobian[i] * block.gather(error, i);

@@ -6,9 +6,9 @@
 
 namespace pbd {
 
-/// Allocates the rows of every non-empty effect with rows, impulses zero. `effect_of_block` receives the
-/// index in `scene.effects` of each block.
-Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block);
+/// Allocates the rows of every non-empty effect with rows, or of its hard constraints alone, impulses zero.
+/// `effect_of_block` receives the index in `scene.effects` of each block.
+Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block, bool hard_alone = false);
 
 /// Squared dual residual of a block, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
 /// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J. Both
@@ -26,9 +26,10 @@ struct BlockResidual {
 
 /// Refreshes one block of rows from its effect at positions x and velocities v. Where N_ii is singular and r
 /// is not zero, nothing can meet the constraint: its share of the residual is then r^2 weighted with
-/// `unreachable_mass` (kg).
+/// `unreachable_mass` (kg). J is taken at `directions` if given, else at x.
 BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
-                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block);
+                        const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block,
+                        const Points* directions = nullptr);
 
 /// The step's potential as one block of compliant rows gives it, 1/2 (c/d)^T Sigma^-1 (c/d) in J: sets
 /// impulses p = -Sigma^-1 c/d at positions x and adds W J^T p to `v`.
@@ -54,15 +55,17 @@ bool all_compliant(const Effect& effect);
 bool fills_space(const Effect& effect);
 
 /// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
-/// D that the proximal outer iteration adds, and half a bound of the geometric stiffness. With sign -1, of
-/// the opposite impulses.
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, int sign,
+/// D that the proximal outer iteration adds, and half a bound of the geometric stiffness. Of `factor` times
+/// the impulses.
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, double factor,
                            const AnyBlock& block, std::vector<double>& inertia);
 
 /// Rows of the error's map: adds W J(turned)^T p to `push`, then sets the impulses to zero and the biases to
 /// what the values at `turned` = x(v + scale * error) have beyond J, (c(turned) - c(x))/(d scale) - J error.
+/// The turned J is taken at `directions` if given.
 void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
-             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& block, Points& push);
+             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& block, Points& push,
+             const Points* directions = nullptr);
 
 /// Refreshes N_ii^-1 for other inverse masses than `linearise` was given.
 void refresh_inverse_diagonal(Rows& rows);

@@ -33,6 +33,13 @@ void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows) {
   });
 }
 
+void scale_hard_biases(Rows& rows, double factor) {
+  for_each_block(rows.blocks, [&](auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      if (block.compliance[i].isZero(0)) block.bias[i] *= factor;
+  });
+}
+
 void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without) {
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     if (without.empty() || !without[b])

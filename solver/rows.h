@@ -22,6 +22,7 @@ struct RowBlock : ConstraintShape<R, K> {
   using Shape = ConstraintShape<R, K>;
   using Velocities = Eigen::Matrix<double, 3 * K, 1>;
 
+  std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
   std::vector<typename Shape::Nodes> node;
   std::vector<typename Shape::Jacobian> jacobian;
   std::vector<typename Shape::Value> bias;
@@ -31,6 +32,9 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<typename Shape::Square> stiffness;  // Sigma^-1, kept for quasi_newton alone
 
   std::size_t size() const { return node.size(); }
+
+  /// Index in the effect of constraint i.
+  std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
 
   void resize(std::size_t count) {
     node.resize(count);
@@ -43,6 +47,7 @@ struct RowBlock : ConstraintShape<R, K> {
 
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(
+        entries.size() * sizeof(std::size_t) +
         size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
   }
 
@@ -96,6 +101,9 @@ std::int64_t row_count(const AnyBlock& block);
 /// The impulses and biases of all rows, to be put back later.
 void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept);
 void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows);
+
+/// Multiplies the biases of rows without compliance.
+void scale_hard_biases(Rows& rows, double factor);
 
 /// v += W J^T p with the impulses stored in the rows; those of some blocks may be left out.
 void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without = {});

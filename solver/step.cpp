@@ -19,6 +19,7 @@ struct Workspace::Data : StepData {
 
 Workspace::Workspace(const Scene& scene, const Method& method) {
   validate(scene);
+  validate(method);
   data_ = std::make_unique<Data>(scene, method);
 }
 Workspace::~Workspace() = default;
@@ -78,7 +79,10 @@ class StepIteration final : public OuterIteration {
   Points& v() override { return data_.v; }
   const Points& rebuilt() override { return data_.rebuilt; }
   bool first() override { return report_.outer_iterations == 0; }
-  void linearise_at_start() override { data_.linearise_at(scene_, data_.zero); }
+  void linearise_at_start() override {
+    data_.linearise_at(scene_, data_.zero);
+    if (method_.stabilisation != 1) scale_hard_biases(data_.rows, method_.stabilisation);
+  }
   void add_inertia() override {
     begin_accelerated();
     data_.bound_contraction(scene_, 1);
@@ -102,7 +106,8 @@ class StepIteration final : public OuterIteration {
     if (report_.outer_iterations >= 2)
       data_.slow_changes = data_.change > slow * data_.last_change ? data_.slow_changes + 1 : 0;
     if (data_.slow_changes >= patience) data_.contraction = 1;  // whatever was predicted
-    return data_.contraction <= slow_contraction || data_.bound_contraction(scene_, 1) <= slow_contraction;
+    return data_.contraction <= slow_contraction ||
+           (data_.direction_blend == 1 && data_.bound_contraction(scene_, 1) <= slow_contraction);
   }
 
   void relax() override {
@@ -210,12 +215,11 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     report.row_updates += sweeps * row_count(w.rows);
     report.contraction = w.contraction;
     w.restore_momentum();
-    state.x = w.x;
-    state.v = w.v;
-    state.time += h;
+    w.end(h, state);
   } else {
     w.forget_impulses();
     w.forget_prediction();
+    w.forget_history();
   }
   return report;
 }

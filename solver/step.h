@@ -5,8 +5,8 @@
 //   primal   M (v - v_free) = J(x(v))^T p
 //   dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)
 //
-// that is, impulses act along the directions at the end of the step, and every constraint is met up to its
-// compliance A.
+// that is, impulses act along the directions at x(v), the end of the step (midpoint: its middle), and every
+// constraint is met up to its compliance A.
 //
 // Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
 // N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
@@ -14,6 +14,7 @@
 // constraint's value counts as solved (BlockResidual in linearise.h).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -22,22 +23,10 @@
 #include <string_view>
 #include <vector>
 
+#include "method.h"
 #include "scene.h"
 
 namespace pbd {
-
-/// How a step is solved. Names are those of the lists in integrators.h, outer.h and relaxation.h.
-struct Method {
-  std::string integrator = "implicit_euler";
-  std::string outer = "auto";
-  std::string relaxation = "conjugate_gradients";
-  double tolerance = 1e-8;         // on the residuals, relative to `scale`
-  int max_outer = 100;             // outer iterations a step
-  int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration
-  double inner_tolerance = 0.003;  // end an outer iteration's sweeps at this share of the nonlinear residual
-  bool warm_start = true;          // begin with the previous step's impulses
-  int memory = 20;                 // iterates that proximal and quasi_newton learn from
-};
 
 enum class Status { ok, not_converged, diverged };
 inline constexpr std::array<std::string_view, 3> status_names{"ok", "not_converged", "diverged"};
@@ -83,7 +72,7 @@ using Observer = std::function<void(const Iterate&)>;
 /// Everything a step needs besides scene and state: rows, impulses, factorisations. Allocated once.
 class Workspace {
  public:
-  /// Validates the scene and looks up the method's names; throws SetupError.
+  /// Validates the scene and the method and looks up the method's names; throws SetupError.
   Workspace(const Scene& scene, const Method& method);
   ~Workspace();
   Workspace(Workspace&&) noexcept;
@@ -92,7 +81,8 @@ class Workspace {
   /// Rows, bytes and seconds per effect with rows, in the scene's order, summed over all steps so far.
   std::vector<EffectCost> costs() const;
 
-  /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R a constraint.
+  /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R for each of
+  /// its constraints that is a row.
   std::vector<double> impulses(std::size_t index) const;
 
  private:

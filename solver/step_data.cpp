@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,10 +11,10 @@
 
 namespace pbd {
 StepData::StepData(const Scene& scene, const Method& method)
-    : integrator(find_named(integrators(), "integrator", method.integrator).map),
+    : integrator(find_named(integrators(), "integrator", method.integrator)),
       outer(find_named(outers(), "outer", method.outer)),
       relaxation(make_relaxation(method.relaxation)),
-      rows(allocate_rows(scene, effect_of_block)),
+      rows(allocate_rows(scene, effect_of_block, integrator.explicit_forces)),
       inverse_mass(rows.inverse_mass),
       zero(Points::Zero(3, scene.nodes())),
       seconds(rows.blocks.size(), 0.0),
@@ -35,10 +34,15 @@ StepData::StepData(const Scene& scene, const Method& method)
          row_count(rows.blocks[b]),
          std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]), 0.0});
   find_free_components();
+  hard_constraints = !std::all_of(scene.effects.begin(), scene.effects.end(), all_compliant);
+  const bool gradient_at_x = method.direction_blend == 1 && !integrator.explicit_forces;
+  if (outer.potential == OnPotential::always && !gradient_at_x)
+    throw SetupError("outer", std::string(outer.name) + " with directions that are not those at x",
+                     "direction_blend 1 and an implicit integrator, or another outer iteration");
   for (const std::size_t index : effect_of_block)
     eliminated.push_back(outer.potential != OnPotential::never && all_compliant(scene.effects[index]));
-  on_potential =
-      !eliminated.empty() && std::all_of(eliminated.begin(), eliminated.end(), [](bool own) { return own; });
+  on_potential = !eliminated.empty() && gradient_at_x &&
+                 std::all_of(eliminated.begin(), eliminated.end(), [](bool own) { return own; });
   for (const std::size_t index : effect_of_block)
     if (outer.potential == OnPotential::where_possible && !fills_space(scene.effects[index]))
       on_potential = false;
@@ -46,11 +50,15 @@ StepData::StepData(const Scene& scene, const Method& method)
 }
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
-  accelerations(scene, acceleration);
-  integrator(state, acceleration, h, map);
+  make_map(scene, method, h, state);
   if (!method.warm_start) forget_impulses();
   v = state.v;
   previous = v;
+  direction_blend = integrator.explicit_forces ? 0 : method.direction_blend;
+  if (direction_blend != 1) {
+    start_x = state.x;
+    contraction = 0;  // until the iterates show otherwise
+  }
   anderson.forget();
   accelerated = false;
   quasi_newton.forget();
@@ -83,12 +91,13 @@ double StepData::inner_product(const Points& a, const Points& b) const {
 
 BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   x = map.x0 + map.d * at;
+  const Points* const directions = directions_for(x);
   rows.inverse_mass = inverse_mass;
   BlockResidual sums;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const auto start = std::chrono::steady_clock::now();
     const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass,
-                                          finite_mass, rows.blocks[b]);
+                                          finite_mass, rows.blocks[b], directions);
     sums += share;
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -102,7 +111,8 @@ double StepData::bound_contraction(const Scene& scene, int sign) {
   double bound = 0;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const double before = bound;
-    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, sign, rows.blocks[b], inertia);
+    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, sign * direction_blend, rows.blocks[b],
+                          inertia);
     bound = 0;
     for (std::size_t node = 0; node < inertia.size(); ++node)
       bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
@@ -140,11 +150,12 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   const double extent = (map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff();
   const double scale = turned * extent / (map.d * error.colwise().norm().maxCoeff());
   turned_x = map.x0 + map.d * (v + scale * error);
+  const Points* const directions = directions_for(turned_x);
   push = map.v_free;
   keep_impulses_and_biases(rows, kept);
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     perturb(scene.effects[effect_of_block[b]], map, turned_x, v, scale, error, inverse_mass, rows.blocks[b],
-            push);
+            push, directions);
   error = (push - rebuilt) / scale;
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
   const std::int64_t sweeps = pbd::relax(relaxation, rows, error, true, rough, nullptr);
@@ -153,6 +164,10 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
 }
 
 std::int64_t StepData::estimate_contraction(const Scene& scene) {
+  if (direction_blend != 1) {
+    forget_prediction();
+    return 0;
+  }
   const double tension = bound_contraction(scene, 1);
   contraction = std::max(tension, bound_contraction(scene, -1));
   if (on_potential || in_metric || !(contraction > slow_contraction)) return 0;
@@ -202,58 +217,6 @@ std::int64_t StepData::estimate_contraction(const Scene& scene) {
   krylov[0] = mode / norm(mode);
   mode_known = true;
   return sweeps;
-}
-
-void StepData::restore_momentum() {
-  if (!heavier) return;
-  std::fill(momentum.begin(), momentum.end(), Eigen::Vector4d::Zero());
-  const auto free_nodes = [this](auto&& f) {
-    for (std::size_t node = 0; node < component.size(); ++node)
-      if (component[node] >= 0)
-        f(momentum[static_cast<std::size_t>(component[node])], static_cast<Eigen::Index>(node),
-          1 / inverse_mass[node]);
-  };
-  free_nodes([this](Eigen::Vector4d& sum, Eigen::Index node, double mass) {
-    sum.head<3>() += mass * (map.v_free.col(node) - v.col(node));
-    sum[3] += mass;
-  });
-  free_nodes([this](const Eigen::Vector4d& sum, Eigen::Index node, double) {
-    v.col(node) += sum.head<3>() / sum[3];
-    x.col(node) += map.d * sum.head<3>() / sum[3];
-  });
-}
-
-void StepData::find_free_components() {
-  const std::size_t nodes = inverse_mass.size();
-  component.resize(nodes);
-  std::iota(component.begin(), component.end(), 0);
-  const auto root = [this](int node) {
-    while (component[static_cast<std::size_t>(node)] != node) {
-      auto& parent = component[static_cast<std::size_t>(node)];
-      parent = component[static_cast<std::size_t>(parent)];
-      node = parent;
-    }
-    return node;
-  };
-  std::vector<bool> held(nodes, false);
-  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    for (const auto& own : block.node) {
-      for (const int node : own) component[static_cast<std::size_t>(root(node))] = root(own[0]);
-      if (Block::nodes == 1) held[static_cast<std::size_t>(own[0])] = true;
-    }
-  });
-  std::vector<int> index(nodes, 0);  // of each root: -1 where something outside holds the component
-  for (std::size_t node = 0; node < nodes; ++node)
-    if (held[node] || !(inverse_mass[node] > 0))
-      index[static_cast<std::size_t>(root(static_cast<int>(node)))] = -1;
-  int count = 0;
-  for (std::size_t node = 0; node < nodes; ++node)
-    if (component[node] == static_cast<int>(node) && index[node] == 0) index[node] = count++;
-  std::vector<int> of_node(nodes);
-  for (std::size_t node = 0; node < nodes; ++node)
-    of_node[node] = index[static_cast<std::size_t>(root(static_cast<int>(node)))];
-  component = of_node;
-  momentum.resize(static_cast<std::size_t>(count));
 }
 
 void StepData::forget_prediction() {

@@ -16,8 +16,15 @@ namespace pbd {
 /// Above this contraction the accelerated proximal iteration is the faster one.
 inline constexpr double slow_contraction = 0.7;
 
+/// What an integrator keeps of earlier steps; the arrays stay empty where it asks for none.
+struct History {
+  double h = 0;  // s, of the last step; 0 if there is none
+  Points x, v;   // where the last step began
+  Points q, a;   // m/s^2, as in integrators.h
+};
+
 struct StepData {
-  IntegratorFunction integrator;
+  Integrator integrator;
   Outer outer;
   std::vector<bool> eliminated;  // of each block: its impulses are its own, p = -Sigma^-1 c/d
   bool on_potential = false;     // all are
@@ -29,6 +36,11 @@ struct StepData {
   double finite_mass = 0;            // kg, of all nodes that can move
 
   StepMap map;
+  StepCoefficients coefficients{};  // of this step, and of the last one until the next begins
+  History history;
+  bool hard_constraints = false;
+  double direction_blend = 1;    // of this step
+  Points start_x, directions_x;  // m, x_l and where J is taken; empty if that is x
   Points acceleration, zero, v, x, rebuilt, previous;
   double change = 0, last_change = 0;  // |v_k - v_k-1|_M, and the one before
   std::vector<double> seconds;         // per block, of the current outer iteration's first sweep
@@ -62,6 +74,9 @@ struct StepData {
 
   /// Gets ready for a step of h seconds from `state`.
   void begin(const Scene& scene, const Method& method, double h, const State& state);
+
+  /// Carries the solved map on to the step's end.
+  void end(double h, State& state) const;
 
   /// |a - b|_M and |velocity|_M over the nodes that can move, sqrt(J).
   double distance(const Points& a, const Points& b) const;
@@ -110,7 +125,8 @@ struct StepData {
   std::int64_t relax(bool fresh, const InnerBudget& budget);
 
   /// Estimates at v what plain would multiply its error by: the bound where that is small, else Arnoldi's
-  /// method on the error's map; nothing where plain is no choice. Returns the number of sweeps it took.
+  /// method on the error's map; nothing where plain is no choice or J is not taken at x. Returns the number
+  /// of sweeps it took.
   std::int64_t estimate_contraction(const Scene& scene);
 
   /// A proximal term moves momentum from one iterate to the next, which vanishes as they converge. Gives
@@ -120,8 +136,11 @@ struct StepData {
 
   void forget_impulses();
   void forget_prediction();
+  void forget_history() { history.h = 0; }
 
  private:
+  void make_map(const Scene& scene, const Method& method, double h, const State& state);
+  const Points* directions_for(const Points& at);
   void find_free_components();
   void factor_metric(const Scene& scene, Shape shape);
   bool start_low(const Scene& scene);

@@ -47,7 +47,13 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   constexpr int most_memory = 1000;
   if (method.memory > most_memory)
     keys.refuse("memory", std::to_string(method.memory), fmt::format("0 to {} iterates", most_memory));
+  method.alpha = keys.number_or("alpha", method.alpha, Range::positive);
+  if (keys.has("beta")) method.beta = keys.number("beta", Range::positive);
+  if (keys.has("gamma")) method.gamma = keys.number("gamma", Range::positive);
+  method.direction_blend = keys.number_or("direction_blend", method.direction_blend, Range::not_negative);
+  method.stabilisation = keys.number_or("stabilisation", method.stabilisation, Range::not_negative);
   keys.refuse_unknown();
+  located(keys.where(), [&] { pbd::validate(method); });
   return method;
 }
 
@@ -133,11 +139,12 @@ pbd::Method parse_method(const std::string& settings, pbd::Method base, const st
 }
 
 std::string method_text(const pbd::Method& m) {
+  const std::string own_family = m.beta ? fmt::format(" beta={} gamma={}", *m.beta, *m.gamma) : "";
   return fmt::format(
       "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
-      "warm_start={} memory={}",
+      "warm_start={} memory={} alpha={}{} direction_blend={} stabilisation={}",
       m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
-      m.warm_start, m.memory);
+      m.warm_start, m.memory, m.alpha, own_family, m.direction_blend, m.stabilisation);
 }
 
 }  // namespace pbdcheck

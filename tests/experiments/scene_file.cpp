@@ -230,10 +230,22 @@ TEST_CASE("a method survives being written as text and read again") {
   method.tolerance = 0.1 + 0.2;
   method.warm_start = false;
   method.memory = 7;
+  method.integrator = "newmark";
+  method.beta = 0.3;
+  method.gamma = 0.1 + 0.5;
+  method.direction_blend = 0.25;
+  method.stabilisation = 0.2;
   const auto again = parse_method(method_text(method), {}, "--method");
   CHECK(method_text(again) == method_text(method));
   CHECK(again.tolerance == method.tolerance);
   CHECK(again.memory == 7);
+  CHECK(again.integrator == "newmark");
+  CHECK(again.alpha == pbd::Method{}.alpha);
+  CHECK(again.beta == method.beta);
+  CHECK(again.gamma == method.gamma);
+  CHECK(again.direction_blend == 0.25);
+  CHECK(again.stabilisation == 0.2);
+  CHECK(parse_method("alpha=0.5", {}, "--method").alpha == 0.5);
   CHECK_THROWS_WITH(parse_method("memory=1001", {}, "--method"), Catch::Contains("0 to 1000"));
   CHECK(parse_method("max_outer=3", method, "--method").outer == "frozen");
 }

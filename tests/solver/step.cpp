@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "integrators.h"
+#include "outer.h"
 #include "scenes.h"
 
 using namespace pbd;
@@ -20,42 +21,6 @@ TEST_CASE("free fall is implicit Euler's to rounding: it lags by g h t / 2") {
   for (int k = 0; k < 100; ++k) CHECK(step(scene, {}, h, state, workspace).status == Status::ok);
   CHECK(state.x(2, 0) == Approx(-9.81 / 2 - 9.81 * h / 2).epsilon(1e-13));
   CHECK(state.time == Approx(1).epsilon(1e-14));
-}
-
-TEST_CASE("a compliant link is a spring: implicit Euler's amplitude is 1/sqrt(1 + (w h)^2) a step") {
-  Scene scene;
-  add_node(scene, Vec3::Zero(), infinity);
-  add_node(scene, Vec3(2, 0, 0), 1);  // one metre beyond the rest length
-  const double w = 2 * std::numbers::pi, h = 0.01;
-  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1 / (w * w)}});
-  State state = scene.initial;
-  Method method = direct_method();
-  Workspace workspace(scene, method);
-  for (int k = 0; k < 100; ++k) step(scene, method, h, state, workspace);
-  const double stretch = state.x(0, 1) - 1;
-  // q^2 w^2 + v^2 falls by 1/(1 + (w h)^2) a step exactly.
-  const double amplitude = std::sqrt(stretch * stretch + std::pow(state.v(0, 1) / w, 2));
-  CHECK(amplitude == Approx(std::pow(1 + w * w * h * h, -50)).epsilon(1e-10));
-}
-
-TEST_CASE("every integrator has its declared order on a spring") {
-  const double w = 2 * std::numbers::pi;
-  Scene scene;
-  add_node(scene, Vec3::Zero(), infinity);
-  add_node(scene, Vec3(1.1, 0, 0), 1);
-  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1 / (w * w)}});
-  for (const auto& integrator : integrators()) {
-    const auto error = [&](int steps) {
-      Method method = direct_method(1e-12);
-      method.integrator = integrator.name;
-      Workspace workspace(scene, method);
-      State state = scene.initial;
-      for (int k = 0; k < steps; ++k) step(scene, method, 0.7 / steps, state, workspace);
-      return std::abs(state.x(0, 1) - 1 - 0.1 * std::cos(w * 0.7));
-    };
-    INFO(integrator.name);
-    CHECK(std::log2(error(2000) / error(4000)) == Approx(integrator.order).margin(0.05));
-  }
 }
 
 TEST_CASE("static stretch of a compliant link is m g A whatever the step") {

@@ -1,0 +1,290 @@
+// Integrators against their closed forms on a spring x'' = -w^2 x, whose step is a matrix with known
+// eigenvalues r exp(+-i phi), and against the pendulum's quarter period.
+#include "integrators.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "scenes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double gravity = 9.81;
+
+/// 1 kg on a link of rest length 1 m along x, `stretch` m beyond it, that makes it a spring of w rad/s.
+Scene spring(double w, double stretch) {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1 + stretch, 0, 0), 1);
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1 / (w * w)}});
+  return scene;
+}
+
+Method method_of(std::string_view integrator, double tolerance = 1e-13) {
+  Method method;
+  method.integrator = integrator;
+  method.relaxation = "direct";
+  method.tolerance = tolerance;
+  return method;
+}
+
+/// The scene after steps of the given lengths, which are to meet the tolerance.
+State after(const Scene& scene, const Method& method, const std::vector<double>& lengths) {
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  int missed = 0;
+  for (const double h : lengths) missed += step(scene, method, h, state, workspace).status != Status::ok;
+  CHECK(missed == 0);
+  return state;
+}
+
+/// Steps that make up `duration` (s): all the same, or long and short ones by turns.
+std::vector<double> equal_steps(double duration, int count) {
+  return std::vector<double>(static_cast<std::size_t>(count), duration / count);
+}
+std::vector<double> mixed_steps(double duration, int count) {
+  auto lengths = equal_steps(duration, count);
+  for (std::size_t k = 0; k < lengths.size(); ++k) lengths[k] *= k % 2 == 0 ? 1.3 : 0.7;
+  return lengths;
+}
+
+struct PerStep {
+  double growth;  // r
+  double turn;    // phi, rad
+};
+
+PerStep of(std::complex<double> eigenvalue) {
+  return {std::abs(eigenvalue), std::abs(std::arg(eigenvalue))};
+}
+
+/// Where y' = -i w y becomes y_l+1 = eigenvalue y_l; z = w h.
+PerStep theta_rule(double alpha, double z) {
+  constexpr std::complex<double> i(0, 1);
+  return of((1.0 - i * (1 - alpha) * z) / (1.0 + i * alpha * z));
+}
+PerStep bdf2_rule(double z) {
+  constexpr std::complex<double> i(0, 1);
+  return of((2.0 + std::sqrt(1.0 - 2.0 * i * z)) / (3.0 + 2.0 * i * z));
+}
+PerStep symplectic_rule(double z) {
+  return {1, 2 * std::asin(z / 2)};
+}
+
+/// r and phi of a sequence q_l+1 = 2 r cos(phi) q_l - r^2 q_l-1, as the last four stretches of a run show
+/// them, after the second root of a two-step rule (below 0.4) has died out.
+PerStep measured(const Method& method, double w, double h) {
+  const Scene scene = spring(w, 0.5);
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  constexpr int settled = 60;
+  std::vector<double> q;
+  for (int k = 0; k < settled + 4; ++k) {
+    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    if (k >= settled) q.push_back(state.x(0, 1) - 1);
+  }
+  const double square = (q[3] * q[1] - q[2] * q[2]) / (q[2] * q[0] - q[1] * q[1]);
+  return {std::sqrt(square), std::acos((q[3] + square * q[1]) / (2 * std::sqrt(square) * q[2]))};
+}
+
+double energy_of_spring(const State& state, double w) {
+  return (state.v.col(1).squaredNorm() + std::pow(w * (state.x(0, 1) - 1), 2)) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("a step multiplies and turns an oscillation as the integrator's matrix does") {
+  const double w = 2 * pi;
+  struct Known {
+    std::string_view integrator;
+    double alpha, h;
+    PerStep (*rule)(double z);
+    double amplitude, frequency;  // after 1 s, and over w
+  };
+  const auto euler = [](double z) { return theta_rule(1, z); };
+  const auto trapezoid = [](double z) { return theta_rule(0.5, z); };
+  const auto damped = [](double z) { return theta_rule(0.55, z); };
+  for (const Known& known :
+       {Known{"implicit_euler", 0.55, 0.1, euler, 0.189437059, 0.892830768},
+        Known{"implicit_euler", 0.55, 0.01, euler, 0.821187780, 0.998687161},
+        Known{"newmark", 1, 0.1, euler, 0.189437059, 0.892830768},
+        Known{"newmark", 0.5, 0.1, trapezoid, 1, 0.968921916},
+        Known{"newmark", 0.5, 0.01, trapezoid, 1, 0.999671208}, Known{"newmark", 0.55, 0.1, damped, 0, 0},
+        Known{"midpoint", 0.55, 0.1, trapezoid, 1, 0.968921916},
+        Known{"midpoint", 0.55, 0.01, trapezoid, 1, 0.999671208},
+        Known{"bdf2", 0.55, 0.1, bdf2_rule, 0.821788215, 0.907391070},
+        Known{"bdf2", 0.55, 0.01, bdf2_rule, 0.999614244, 0.998691004},
+        Known{"symplectic_euler", 0.55, 0.1, symplectic_rule, 1, 1.01722594},
+        Known{"symplectic_euler", 0.55, 0.01, symplectic_rule, 1, 1.00016457}}) {
+    Method method = method_of(known.integrator);
+    method.alpha = known.alpha;
+    const PerStep expected = known.rule(w * known.h), found = measured(method, w, known.h);
+    INFO(known.integrator << ", alpha " << known.alpha << ", h " << known.h);
+    CHECK(found.growth == Approx(expected.growth).epsilon(1e-10));
+    CHECK(found.turn == Approx(expected.turn).epsilon(1e-10));
+    if (known.amplitude > 0) {
+      CHECK(std::pow(expected.growth, 1 / known.h) == Approx(known.amplitude).epsilon(1e-8));
+      CHECK(expected.turn / (w * known.h) == Approx(known.frequency).epsilon(1e-8));
+    }
+  }
+}
+
+TEST_CASE("Newmark's family follows its own recurrence, whose force is that of the step's end") {
+  const double w = 2 * pi, h = 0.05, beta = 0.3, gamma = 0.6;
+  Method method = method_of("newmark");
+  method.beta = beta;
+  method.gamma = gamma;
+  const Scene scene = spring(w, 0.5);
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  double q = 0.5, v = 0, a = -w * w * q;
+  for (int k = 0; k < 100; ++k) {
+    step(scene, method, h, state, workspace);
+    const double predicted = q + h * v + h * h * (0.5 - beta) * a;
+    q = predicted / (1 + beta * h * h * w * w);
+    v += h * ((1 - gamma) * a - gamma * w * w * q);
+    a = -w * w * q;
+    CHECK(state.x(0, 1) - 1 == Approx(q).margin(1e-12));
+    CHECK(state.v(0, 1) == Approx(v).margin(1e-11));
+  }
+}
+
+TEST_CASE("the trapezoidal and the midpoint rule keep a spring's energy, implicit Euler loses its share") {
+  const double w = 4 * pi, h = 1.0 / 60;
+  const int steps = 600;
+  const Scene scene = spring(w, 0.1);
+  const double before = energy_of_spring(scene.initial, w);
+  for (const std::string integrator : {"newmark", "midpoint"}) {
+    Method method = method_of(integrator);
+    method.alpha = 0.5;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    double largest = 0;
+    for (int k = 0; k < steps; ++k) {
+      step(scene, method, h, state, workspace);
+      largest = std::max(largest, std::abs(energy_of_spring(state, w) / before - 1));
+    }
+    INFO(integrator);
+    CHECK(largest < 1e-10);
+  }
+  const State state = after(scene, method_of("implicit_euler"), equal_steps(steps * h, steps));
+  CHECK(energy_of_spring(state, w) / before == Approx(std::pow(1 + h * h * w * w, -steps)).epsilon(1e-8));
+}
+
+TEST_CASE("every integrator has its declared order on a spring, with equal steps and with mixed ones") {
+  const double w = 2 * pi, duration = 0.7;
+  const Scene scene = spring(w, 0.1);
+  const double exact = 1 + 0.1 * std::cos(w * duration);
+  const auto order = [&](const Method& method, auto steps) {
+    const auto error = [&](int count) {
+      return std::abs(after(scene, method, steps(duration, count)).x(0, 1) - exact);
+    };
+    return std::log2(error(2000) / error(4000));
+  };
+  for (const auto& integrator : integrators()) {
+    INFO(integrator.name);
+    CHECK(order(method_of(integrator.name), equal_steps) == Approx(integrator.order).margin(0.05));
+    CHECK(order(method_of(integrator.name), mixed_steps) == Approx(integrator.order).margin(0.05));
+  }
+  Method trapezoid = method_of("newmark");
+  trapezoid.alpha = 0.5;
+  CHECK(order(trapezoid, equal_steps) == Approx(2).margin(0.05));
+}
+
+TEST_CASE("every integrator has its declared order on a pendulum") {
+  // Released horizontally, at the bottom after a quarter of the period 4 K(sin 45 deg) sqrt(l/g).
+  const Scene scene = pbdcheck::pendulum(pi / 2, 0);
+  const double quarter = std::comp_ellint_1(std::sin(pi / 4)) / std::sqrt(gravity);
+  for (const auto& integrator : integrators()) {
+    const Method method = method_of(integrator.name, 1e-12);
+    const auto error = [&](int count) {
+      return std::abs(after(scene, method, equal_steps(quarter, count)).x(0, 1));
+    };
+    INFO(integrator.name);
+    CHECK(std::log2(error(800) / error(1600)) == Approx(integrator.order).margin(0.05));
+  }
+}
+
+TEST_CASE("whoever changes the state between two steps starts the integrator anew") {
+  const Scene scene = chain(4);
+  State other = scene.initial;
+  other.v.row(2).setConstant(-0.5);
+  other.v.col(0).setZero();
+  for (const auto& integrator : integrators()) {
+    Method method = method_of(integrator.name, 1e-10);
+    method.warm_start = false;
+    Workspace used(scene, method), fresh(scene, method);
+    State state = scene.initial;
+    for (int k = 0; k < 3; ++k) step(scene, method, 0.01, state, used);
+    State after_used = other, after_fresh = other;
+    INFO(integrator.name);
+    for (int k = 0; k < 3; ++k) {
+      step(scene, method, 0.01, after_used, used);
+      step(scene, method, 0.01, after_fresh, fresh);
+      CHECK(after_used.x == after_fresh.x);
+      CHECK(after_used.v == after_fresh.v);
+    }
+  }
+}
+
+TEST_CASE("linear momentum of pairwise constraints is conserved by every integrator, converged or not") {
+  const std::string relaxation =
+      GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct");
+  const double compliance = GENERATE(0.0, 1e-2);
+  const int max_outer = GENERATE(1, 100);
+  Scene scene = chain(6, 10, true);
+  scene.effects.erase(scene.effects.begin());
+  for (double& each : std::get<Distance>(scene.effects[0]).compliance) each = compliance;
+  for (int node = 0; node < scene.nodes(); ++node)
+    scene.initial.v.col(node) = Vec3(std::sin(node), std::cos(2.0 * node), std::sin(3.0 * node)) / 10;
+  const Vec3 before = momentum(scene, scene.initial);
+  for (const auto& integrator : integrators()) {
+    if (integrator.name == "midpoint" && compliance == 0) continue;  // unstable with hard constraints
+    Method method;
+    method.integrator = integrator.name;
+    method.relaxation = relaxation;
+    method.max_sweeps = 20;
+    method.max_outer = max_outer;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    int missed = 0;
+    for (int k = 0; k < 1000; ++k) missed += step(scene, method, 0.01, state, workspace).status != Status::ok;
+    INFO(integrator.name << ' ' << relaxation << ", compliance " << compliance << ", missed " << missed);
+    const bool explicit_alone = integrator.explicit_forces && compliance > 0;
+    CHECK((missed > 900) == (max_outer == 1 && !explicit_alone));
+    CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
+  }
+}
+
+TEST_CASE("symplectic_euler has rows for hard constraints alone") {
+  Scene scene = chain(4);
+  auto& links = std::get<Distance>(scene.effects[1]);
+  links.compliance[1] = links.compliance[2] = 1e-2;
+  const Method method = method_of("symplectic_euler", 1e-12);
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  // One step from rest: forces of the springs, none yet, gravity, and the hard links along x.
+  CHECK(step(scene, method, 0.01, state, workspace).status == Status::ok);
+  CHECK(workspace.costs().at(0).rows == 2);
+  CHECK(workspace.impulses(1).size() == 2);
+  CHECK(state.x(2, 4) == Approx(-gravity * 1e-4).epsilon(1e-12));
+  for (double& each : links.compliance) each = 1e-2;
+  CHECK(Workspace(scene, method).costs().empty());
+}
+
+TEST_CASE("parameters out of their range are refused") {
+  const Scene scene = spring(1, 0);
+  Method method;
+  method.alpha = 0.4;
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("alpha: got 0.4; allowed: 0.5 to 1"));
+  method = {};
+  method.beta = 0.25;
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("beta: got one of beta and gamma"));
+  method.gamma = 0.4;
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("gamma: got 0.4"));
+}

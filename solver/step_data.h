@@ -36,7 +36,7 @@ struct StepData {
   StepCoefficients coefficients{};  // of this step, and of the last one until the next begins
   History history;
   bool hard_constraints = false;
-  double direction_blend = 1;  // of this step
+  double direction_blend = 1;    // of this step
   Points start_x, directions_x;  // m, x_l and where J is taken; empty if that is x
   Points acceleration, zero, v, x, rebuilt, previous;
   double change = 0, last_change = 0;  // |v_k - v_k-1|_M, and the one before
@@ -117,6 +117,7 @@ struct StepData {
 
  private:
   void make_map(const Scene& scene, const Method& method, double h, const State& state);
+  void begin_damping(const Scene& scene, const State& state);
   const Points* directions_for(const Points& at);
   void find_free_components();
   void factor_metric(const Scene& scene);

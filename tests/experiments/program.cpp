@@ -324,6 +324,8 @@ TEST_CASE("what the command line does not allow is refused with option, value an
       {{"compare", chain, "--method", "rival=newton tolerance=-1"}, "--method tolerance: got -1; allowed: "},
       {{"compare", chain, "--method", "rival=newton"},
        "--method \"rival=newton\": newton: anchor compliance[0]: got 0; allowed: a number > 0"},
+      {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1"},
+       "effects[1] damping: got damping; allowed: none: this judge knows elastic forces only"},
       {{"compare", chain, "--method", "outer=quasi_newton"},
        "--method \"outer=quasi_newton\": outer: got quasi_newton with hard rows"},
       {{"simulate", chain, "--export", ""}, "--export: got ``; allowed: only vtk"},

@@ -148,6 +148,9 @@ Model make_model(const Scene& scene) {
 
   Builder builder{model};
   for (const Effect& effect : scene.effects) {
+    if (damped(effect))
+      throw SetupError("effects[" + std::to_string(builder.effect) + "] damping", "damping",
+                       "none: this judge knows elastic forces only");
     std::visit(builder, effect);
     ++builder.effect;
   }

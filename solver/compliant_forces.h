@@ -1,4 +1,5 @@
-// Forces of compliant constraints as they are at given positions, without rows: J^T (-A^-1 c).
+// Forces of compliant constraints as they are in a given state, without rows: J^T (-A^-1 (c + T J v)), T of
+// the damping where the effect lists any.
 #pragma once
 
 #include <vector>
@@ -7,9 +8,9 @@
 
 namespace pbd {
 
-/// Adds the accelerations W J^T (-A^-1 c) (m/s^2) of every compliant constraint at x; hard ones have no force
-/// by their value and add nothing.
-void add_compliant_forces(const Scene& scene, const Points& x, const std::vector<double>& inverse_mass,
+/// Adds the accelerations W J^T (-A^-1 (c + T J v)) (m/s^2) of every compliant constraint; hard ones have no
+/// force by their value and add nothing.
+void add_compliant_forces(const Scene& scene, const State& state, const std::vector<double>& inverse_mass,
                           Points& acceleration);
 
 }  // namespace pbd

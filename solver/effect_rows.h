@@ -9,7 +9,7 @@ namespace pbd {
 template <class E>
 using BlockOf = RowBlock<Constraint<E>::rows, Constraint<E>::nodes>;
 
-/// Positions of a constraint's nodes, one column a node.
+/// Positions (or velocities) of a constraint's nodes, one column a node.
 template <std::size_t K>
 Eigen::Matrix<double, 3, static_cast<int>(K)> positions_of(const std::array<int, K>& node, const Points& x) {
   Eigen::Matrix<double, 3, static_cast<int>(K)> local;

@@ -70,8 +70,10 @@ BlockResidual linearise_block(const E& effect, const StepMap& map, const Points&
     const typename Block::Positions local = positions(block, x, i);
     Constraint<E>::evaluate(effect, entry, local, value, block.jacobian[i]);
     if (directions != nullptr) take_directions(effect, *directions, i, block, block.jacobian[i]);
+    const bool damped = !block.offset.empty();  // its compliance is set for the whole step
+    if (damped) value -= block.offset[i];
     block.bias[i] = value / map.d - block.jacobian[i] * block.gather(v, i);
-    block.compliance[i] = Constraint<E>::compliance(effect, entry) / (map.s * map.d);
+    if (!damped) block.compliance[i] = Constraint<E>::compliance(effect, entry) / (map.s * map.d);
     bool singular = false;
     block.inverse_diagonal[i] = invert(diagonal_block(block, inverse_mass, i), singular);
 
@@ -155,7 +157,8 @@ double add_potential(const Effect& effect, const StepMap& map, const Points& x,
           using Value = typename BlockOf<E>::Value;
           for (std::size_t i = 0; i < block.size(); ++i) {
             const auto push =
-                push_of<E, Value>(stated, i, positions(block, x, i), [&](const Value& value) -> const Value& {
+                push_of<E, Value>(stated, i, positions(block, x, i), [&](Value value) -> const Value& {
+                  if (!block.offset.empty()) value -= block.offset[i];
                   block.impulse[i].noalias() = block.stiffness[i] * (value / -map.d);
                   potential -= value.dot(block.impulse[i]) / (2 * map.d);
                   return block.impulse[i];
@@ -185,7 +188,10 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape
             if constexpr (requires { Constraint<E>::rest(stated, i); })
               if (shape == Shape::rest) local = Constraint<E>::rest(stated, i);
             Constraint<E>::evaluate(stated, i, local, value, jacobian);
-            block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();
+            if (block.offset.empty())
+              block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();
+            else
+              block.stiffness[i] = block.compliance[i].inverse();
             for (int a = 0; a < block.nodes; ++a)
               for (int b = 0; b <= a; ++b) {
                 Eigen::Matrix3d pair = jacobian.template middleCols<3>(3 * a).transpose() *
@@ -265,6 +271,7 @@ void perturb(const Effect& effect, const StepMap& map, const Points& turned, con
           for (std::size_t i = 0; i < block.size(); ++i) {
             Constraint<E>::evaluate(stated, block.entry(i), positions(block, turned, i), value, jacobian);
             if (directions != nullptr) take_directions(stated, *directions, i, block, jacobian);
+            if (!block.offset.empty()) value -= block.offset[i];
             block.apply(inverse_mass, i, jacobian, block.impulse[i], push);
             const typename BlockOf<E>::Value before = block.bias[i] + block.jacobian[i] * block.gather(v, i);
             block.bias[i] = (value / map.d - before) / scale - block.jacobian[i] * block.gather(error, i);

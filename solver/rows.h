@@ -29,7 +29,9 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<typename Shape::Square> compliance;  // Sigma
   std::vector<typename Shape::Square> inverse_diagonal;
   std::vector<typename Shape::Value> impulse;
-  std::vector<typename Shape::Square> stiffness;  // Sigma^-1, kept for quasi_newton alone
+  std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
+  std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
+  std::vector<typename Shape::Value> begin_value;  // where there is none
 
   std::size_t size() const { return node.size(); }
 
@@ -47,7 +49,7 @@ struct RowBlock : ConstraintShape<R, K> {
 
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(
-        entries.size() * sizeof(std::size_t) +
+        entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
         size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
   }
 

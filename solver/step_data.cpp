@@ -51,6 +51,7 @@ StepData::StepData(const Scene& scene, const Method& method)
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
   make_map(scene, method, h, state);
+  begin_damping(scene, state);
   if (!method.warm_start) forget_impulses();
   v = state.v;
   previous = v;

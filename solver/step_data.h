@@ -140,6 +140,7 @@ struct StepData {
 
  private:
   void make_map(const Scene& scene, const Method& method, double h, const State& state);
+  void begin_damping(const Scene& scene, const State& state);
   const Points* directions_for(const Points& at);
   void find_free_components();
   void factor_metric(const Scene& scene, Shape shape);

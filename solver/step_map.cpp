@@ -1,12 +1,13 @@
 // From the integrator's coefficients to the affine map of a step, and from the solved map to the step's end.
 #include "compliant_forces.h"
+#include "damping.h"
 #include "step_data.h"
 
 namespace pbd {
 
 void StepData::make_map(const Scene& scene, const Method& method, double h, const State& state) {
   accelerations(scene, acceleration);
-  if (integrator.explicit_forces) add_compliant_forces(scene, state.x, inverse_mass, acceleration);
+  if (integrator.explicit_forces) add_compliant_forces(scene, state, inverse_mass, acceleration);
 
   // Whoever has changed the state since the last step begins anew.
   const bool goes_on = history.h > 0 && state.x == x && state.v == v;
@@ -16,7 +17,7 @@ void StepData::make_map(const Scene& scene, const Method& method, double h, cons
       history.q += (v - map.v_free) / map.s;
       if (coefficients.a_v > 0) history.a = (v - history.v - coefficients.a_a * history.a) / coefficients.a_v;
     } else {
-      add_compliant_forces(scene, state.x, inverse_mass, history.q);
+      add_compliant_forces(scene, state, inverse_mass, history.q);
       history.a = history.q;
     }
   }
@@ -40,6 +41,12 @@ void StepData::make_map(const Scene& scene, const Method& method, double h, cons
     history.x = state.x;
     history.v = state.v;
   }
+}
+
+void StepData::begin_damping(const Scene& scene, const State& state) {
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    if (const Effect& effect = scene.effects[effect_of_block[b]]; damped(effect))
+      pbd::begin_damping(effect, coefficients, state, history.a, rows.blocks[b]);
 }
 
 const Points* StepData::directions_for(const Points& at) {

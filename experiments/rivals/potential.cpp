@@ -112,7 +112,10 @@ Points acceleration(const Scene& scene) {
 }
 
 Potential::Potential(const Scene& scene, const std::vector<int>& block) : block_(block) {
-  for (const Effect& effect : scene.effects) std::visit(Builder<decltype(groups_)>{groups_}, effect);
+  for (const Effect& effect : scene.effects) {
+    if (damped(effect)) throw SetupError("newton", "an effect with damping", "elastic effects");
+    std::visit(Builder<decltype(groups_)>{groups_}, effect);
+  }
 }
 
 std::vector<std::array<int, 2>> Potential::pairs() const {

@@ -118,6 +118,10 @@ std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRan
   return found;
 }
 
+double read_damping(Keys& keys) {
+  return keys.number_or("damping_s", 0, Range::not_negative);
+}
+
 double read_compliance(Keys& keys) {
   const bool soft = keys.has("compliance_m_per_n");
   if (!keys.has("stiffness_n_per_m")) return keys.number_or("compliance_m_per_n", 0, Range::not_negative);

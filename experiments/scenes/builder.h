@@ -65,6 +65,18 @@ std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRan
 /// `compliance_m_per_n` or its inverse `stiffness_n_per_m`, whichever stands there; 0 if neither does.
 double read_compliance(Keys& keys);
 
+/// `damping_s`, a constraint's retardation time; 0, no damping, if absent.
+double read_damping(Keys& keys);
+
+/// Gives the constraints of an effect from the `first` on the retardation time (s); an effect that has none
+/// and gets none stays without.
+template <class Effect>
+void set_damping(Effect& effect, std::size_t first, double time) {
+  if (time == 0 && effect.damping.empty()) return;
+  effect.damping.resize(first, 0);
+  effect.damping.resize(effect.node.size(), time);
+}
+
 // One function per kind of table; each reads all tables of its kind below the root.
 void read_particles(Keys& root, Builder& builder);
 void read_chains(Keys& root, Builder& builder);

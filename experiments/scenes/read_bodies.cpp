@@ -104,8 +104,10 @@ void hold(Keys& keys, Builder& builder, const NodeRange& range) {
   if (tables.empty()) return;
   pbd::Anchor anchor;
   for (auto& anchored : tables) {
-    const double compliance = read_compliance(anchored);
+    const double compliance = read_compliance(anchored), damping = read_damping(anchored);
+    const std::size_t first_anchor = anchor.node.size();
     builder.anchor(anchored, select_nodes(anchored, builder.scene, range), compliance, anchor);
+    set_damping(anchor, first_anchor, damping);
     anchored.refuse_unknown();
   }
   builder.add(tables[0].line(), std::move(anchor));
@@ -118,6 +120,15 @@ double read_poisson(Keys& keys) {
   return poisson;
 }
 
+/// The moduli of the sub-table `damping`, none if it is absent.
+std::optional<pbd::Material> read_viscosity(Keys& keys) {
+  auto damping = keys.table("damping");
+  if (!damping) return std::nullopt;
+  const pbd::Material moduli{damping->number("young_pa_s", Range::positive), read_poisson(*damping)};
+  damping->refuse_unknown();
+  return moduli;
+}
+
 /// The table, and the file if its mesh comes from one.
 std::string mesh_name(Keys& keys) {
   return keys.has("file") ? keys.where() + ": " + keys.text("file") : keys.where();
@@ -125,19 +136,24 @@ std::string mesh_name(Keys& keys) {
 
 void add_cloth_effects(Keys& keys, const pbd::TriangleMesh& mesh, int first, Builder& builder) {
   if (auto links = keys.table("links")) {
-    builder.add(links->line(), pbd::sheet_links(mesh, first, read_compliance(*links)));
+    auto effect = pbd::sheet_links(mesh, first, read_compliance(*links));
+    set_damping(effect, 0, read_damping(*links));
+    builder.add(links->line(), std::move(effect));
     links->refuse_unknown();
   }
   if (auto strain = keys.table("strain")) {
     const double young = strain->number("young_pa", Range::positive_or_infinite);
     const double thickness = strain->number("thickness_m", Range::positive);
-    builder.add(strain->line(), pbd::sheet_strain(mesh, first, {young, read_poisson(*strain)}, thickness));
+    auto effect = pbd::sheet_strain(mesh, first, {young, read_poisson(*strain)}, thickness);
+    effect.damping = read_viscosity(*strain);
+    builder.add(strain->line(), std::move(effect));
     strain->refuse_unknown();
   }
   if (auto bending = keys.table("bending")) {
     const double compliance = bending->number_or("compliance_rad_per_n_m", 0, Range::not_negative);
-    builder.add(bending->line(),
-                located(mesh_name(keys), [&] { return pbd::sheet_bending(mesh, first, compliance); }));
+    auto effect = located(mesh_name(keys), [&] { return pbd::sheet_bending(mesh, first, compliance); });
+    set_damping(effect, 0, read_damping(*bending));
+    builder.add(bending->line(), std::move(effect));
     bending->refuse_unknown();
   }
 }
@@ -173,6 +189,7 @@ void read_solids(Keys& root, Builder& builder) {
     const int first = located(mesh_name(keys), [&] {
       return pbd::add_solid(builder.scene, mesh, density, material, static_cast<pbd::Strain>(index));
     });
+    std::get<pbd::TetStrain>(builder.scene.effects.back()).damping = read_viscosity(keys);
     builder.add(keys.line(), std::move(builder.scene.effects.back()));
     builder.scene.effects.pop_back();
     const NodeRange range{first, static_cast<int>(mesh.x.cols())};

@@ -44,6 +44,7 @@ struct Chain {
   pbd::Vec3 direction;
   pbd::Vec3 velocity;
   double compliance;
+  double damping;
   std::string hold;
 };
 
@@ -59,6 +60,7 @@ Chain read_chain(Keys& keys, Builder& builder) {
   if (chain.direction.isZero(0)) keys.refuse("direction", "the zero vector", "a direction of any length");
   chain.velocity = keys.vector_or("velocity_m_s", pbd::Vec3::Zero());
   chain.compliance = read_compliance(keys);
+  chain.damping = read_damping(keys);
   chain.hold = keys.choice_or("start", "anchored", {"anchored", "fixed", "free"});
   keys.refuse_unknown();
   return chain;
@@ -80,6 +82,7 @@ void add_chain(const Keys& keys, const Chain& chain, Builder& builder) {
     distance.rest_length.push_back(rest_length);
     distance.compliance.push_back(chain.compliance);
   }
+  set_damping(distance, 0, chain.damping);
   if (chain.hold == "anchored") {
     pbd::Anchor anchor;
     builder.anchor(keys, {first}, 0, anchor);
@@ -131,10 +134,11 @@ void read_anchors(Keys& root, Builder& builder) {
   if (tables.empty()) return;
   pbd::Anchor effect;
   for (auto& keys : tables) {
-    const double compliance = read_compliance(keys);
+    const double compliance = read_compliance(keys), damping = read_damping(keys);
     const bool moved = keys.has("target_m");
     const auto nodes = select_nodes(keys, builder.scene, all_nodes(builder.scene));
     builder.anchor(keys, nodes, compliance, effect);
+    set_damping(effect, effect.node.size() - nodes.size(), damping);
     if (moved) {
       if (nodes.size() != 1) keys.refuse("target_m", "one target for several nodes", "one node");
       effect.target.back() = keys.vector("target_m");
@@ -151,7 +155,7 @@ void read_distances(Keys& root, Builder& builder) {
   pbd::Distance effect;
   for (auto& keys : tables) {
     const auto links = keys.integer_lists("nodes", 2, 0);
-    const double compliance = read_compliance(keys);
+    const double compliance = read_compliance(keys), damping = read_damping(keys);
     std::vector<double> rest_length;
     if (keys.has("rest_length_m"))
       rest_length = keys.numbers_or_one("rest_length_m", links.size(), Range::not_negative);
@@ -165,6 +169,7 @@ void read_distances(Keys& root, Builder& builder) {
         throw pbd::SetupError(keys.where(), fmt::format("link {} hard and of rest length 0", i),
                               "a rest length or a compliance > 0");
     }
+    set_damping(effect, effect.node.size() - links.size(), damping);
     keys.refuse_unknown();
   }
   builder.add(tables[0].line(), std::move(effect));
@@ -177,6 +182,7 @@ void read_bendings(Keys& root, Builder& builder) {
   pbd::Bending effect;
   for (auto& keys : tables) {
     const double compliance = keys.number_or("compliance_rad_per_n_m", 0, Range::not_negative);
+    const std::size_t first = effect.node.size();
     for (const auto& hinge : keys.integer_lists("nodes", 4, 0)) {
       check_nodes(keys, hinge, builder.scene.nodes());
       Eigen::Matrix<double, 3, 4> at;
@@ -185,6 +191,7 @@ void read_bendings(Keys& root, Builder& builder) {
       effect.rest_angle.push_back(keys.number_or("rest_angle_rad", pbd::dihedral_angle(at), Range::finite));
       effect.compliance.push_back(compliance);
     }
+    set_damping(effect, first, read_damping(keys));
     keys.refuse_unknown();
   }
   builder.add(tables[0].line(), std::move(effect));

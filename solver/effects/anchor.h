@@ -15,6 +15,10 @@ struct Constraint<Anchor> : ConstraintShape<3, 1> {
     return effect.compliance[i] * Square::Identity();
   }
 
+  static Square retardation(const Anchor& effect, std::size_t i) {
+    return effect.damping[i] * Square::Identity();
+  }
+
   static void evaluate(const Anchor& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {
     value = x - effect.target[i];

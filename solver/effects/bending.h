@@ -22,6 +22,8 @@ struct Constraint<Bending> : ConstraintShape<1, 4> {
 
   static Square compliance(const Bending& effect, std::size_t i) { return Square(effect.compliance[i]); }
 
+  static Square retardation(const Bending& effect, std::size_t i) { return Square(effect.damping[i]); }
+
   static void evaluate(const Bending& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {
     const Vec3 edge = x.col(1) - x.col(0);

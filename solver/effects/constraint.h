@@ -1,5 +1,6 @@
 // What every effect with rows states: Constraint<Effect> gives the value c(x) of constraint i, its Jacobian J
-// = dc/dx and its compliance A, at the positions of the constraint's K nodes, and a bound B (N s/m, one a
+// = dc/dx and its compliance A, at the positions of the constraint's K nodes; the retardation time T of its
+// damping, asked for where the effect lists any; and a bound B (N s/m, one a
 // node) of the geometric stiffness of its impulses p:
 //   -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
@@ -22,6 +23,7 @@ struct ConstraintShape {
   static constexpr int nodes = K;
   static constexpr bool fills_space =
       false;  // its rows are stiff in every direction, as those of a solid are
+  static constexpr bool one_material = false;        // T is the same for all its constraints
   using Positions = Eigen::Matrix<double, 3, K>;     // one column a node, m
   using Value = Eigen::Matrix<double, R, 1>;         // c
   using Jacobian = Eigen::Matrix<double, R, 3 * K>;  // three columns a node
@@ -55,6 +57,7 @@ concept RowEffect = requires(const Effect& effect, std::size_t i,
     } -> std::same_as<typename Constraint<Effect>::NodeBounds>;
   { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
   { Constraint<Effect>::compliance(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
+  { Constraint<Effect>::retardation(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   Constraint<Effect>::evaluate(effect, i, x, value, jacobian);
 };
 

@@ -14,6 +14,8 @@ struct Constraint<Distance> : ConstraintShape<1, 2> {
 
   static Square compliance(const Distance& effect, std::size_t i) { return Square(effect.compliance[i]); }
 
+  static Square retardation(const Distance& effect, std::size_t i) { return Square(effect.damping[i]); }
+
   static void evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {
     const Vec3 link = x.col(1) - x.col(0);

@@ -23,16 +23,20 @@ namespace pbd {
 template <>
 struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   static constexpr bool fills_space = true;
+  static constexpr bool one_material = true;
 
   static Nodes node(const TetStrain& effect, std::size_t i) { return effect.node[i]; }
   static const Positions& rest(const TetStrain& effect, std::size_t i) { return effect.rest[i]; }
 
   static Square compliance(const TetStrain& effect, std::size_t i) {
-    const double nu = effect.material.poisson;
-    Square inverse = Square::Zero();
-    inverse.topLeftCorner<3, 3>().setConstant(-nu);
-    inverse.diagonal() << 1, 1, 1, 2 * (1 + nu), 2 * (1 + nu), 2 * (1 + nu);
-    return inverse / (effect.material.young * tet_volume(effect.rest[i]));
+    return inverse_elasticity(effect.material.poisson) / (effect.material.young * tet_volume(effect.rest[i]));
+  }
+
+  /// C^-1 C_d
+  static Square retardation(const TetStrain& effect, std::size_t) {
+    return inverse_elasticity(effect.material.poisson) *
+           inverse_elasticity(effect.damping->poisson).inverse() *
+           (effect.damping->young / effect.material.young);
   }
 
   /// Dm^-1, F and T at positions x, and from them c and J^T p without J.
@@ -113,6 +117,14 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   }
 
  private:
+  /// Y C^-1 at Poisson's ratio nu
+  static Square inverse_elasticity(double nu) {
+    Square inverse = Square::Zero();
+    inverse.topLeftCorner<3, 3>().setConstant(-nu);
+    inverse.diagonal() << 1, 1, 1, 2 * (1 + nu), 2 * (1 + nu), 2 * (1 + nu);
+    return inverse;
+  }
+
   static Eigen::Matrix3d symmetric(const Value& p) {
     Eigen::Matrix3d matrix;
     matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];

@@ -16,14 +16,21 @@ namespace pbd {
 
 template <>
 struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
+  static constexpr bool one_material = true;
+
   static Nodes node(const TriangleStrain& effect, std::size_t i) { return effect.node[i]; }
   static const Positions& rest(const TriangleStrain& effect, std::size_t i) { return effect.rest[i]; }
 
   static Square compliance(const TriangleStrain& effect, std::size_t i) {
-    const double nu = effect.material.poisson;
-    Square inverse;
-    inverse << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
-    return inverse / (effect.thickness * effect.material.young * triangle_area(effect.rest[i]));
+    return inverse_elasticity(effect.material.poisson) /
+           (effect.thickness * effect.material.young * triangle_area(effect.rest[i]));
+  }
+
+  /// C^-1 C_d
+  static Square retardation(const TriangleStrain& effect, std::size_t) {
+    return inverse_elasticity(effect.material.poisson) *
+           inverse_elasticity(effect.damping->poisson).inverse() *
+           (effect.damping->young / effect.material.young);
   }
 
   static void evaluate(const TriangleStrain& effect, std::size_t i, const Positions& x, Value& value,
@@ -46,6 +53,13 @@ struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
   }
 
  private:
+  /// Y C^-1 at Poisson's ratio nu
+  static Square inverse_elasticity(double nu) {
+    Square inverse;
+    inverse << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
+    return inverse;
+  }
+
   static Eigen::Matrix<double, 3, 2> gradients(const Eigen::Matrix2d& inverse) {
     Eigen::Matrix<double, 3, 2> y;
     y << -inverse.colwise().sum(), inverse;

@@ -2,6 +2,18 @@
 
 namespace pbd {
 
+bool damped(const Effect& effect) {
+  return std::visit(
+      []<class E>(const E& stated) {
+        if constexpr (requires { stated.damping.has_value(); })
+          return stated.damping.has_value();
+        else if constexpr (requires { stated.damping.empty(); })
+          return !stated.damping.empty();
+        return false;
+      },
+      effect);
+}
+
 int add_node(Scene& scene, const Vec3& position, double mass, const Vec3& velocity) {
   const int index = scene.nodes();
   scene.mass.push_back(mass);

@@ -92,6 +92,19 @@ struct EffectCheck {
     require(m.poisson > -1 && m.poisson < 0.5, name + " poisson", text(m.poisson), "-1 < poisson < 0.5");
   }
 
+  void retardation_times(std::size_t constraints, const std::vector<double>& damping) const {
+    if (damping.empty()) return;
+    same_size(constraints, damping, "damping");
+    not_negative(damping, "damping");
+  }
+
+  void viscosity(const std::optional<Material>& damping, const Material& elastic) const {
+    if (!damping) return;
+    EffectCheck{scene, name + " damping"}.material(*damping, false);
+    require(std::isfinite(elastic.young), name + " damping", "moduli of a rigid material",
+            "damping of a finite young");
+  }
+
   void operator()(const Gravity& effect) const {
     require(effect.acceleration.allFinite(), name + " acceleration", text(effect.acceleration),
             "finite numbers");
@@ -112,6 +125,7 @@ struct EffectCheck {
               text(effect.node[i]) + ", of infinite mass", "a node of finite mass, which an anchor can hold");
     finite(effect.target, "target");
     not_negative(effect.compliance, "compliance");
+    retardation_times(effect.node.size(), effect.damping);
   }
 
   void operator()(const Distance& effect) const {
@@ -120,6 +134,7 @@ struct EffectCheck {
     node_indices(effect.node);
     not_negative(effect.rest_length, "rest_length");
     not_negative(effect.compliance, "compliance");
+    retardation_times(effect.node.size(), effect.damping);
     for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
       require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
               "0 and compliance 0", "a rest length > 0 for a link without compliance");
@@ -131,12 +146,14 @@ struct EffectCheck {
     node_indices(effect.node);
     finite(effect.rest_angle, "rest_angle");
     not_negative(effect.compliance, "compliance");
+    retardation_times(effect.node.size(), effect.damping);
   }
 
   void operator()(const TriangleStrain& effect) const {
     same_size(effect.node.size(), effect.rest, "rest");
     node_indices(effect.node);
     material(effect.material, true);
+    viscosity(effect.damping, effect.material);
     require(effect.thickness > 0 && std::isfinite(effect.thickness), name + " thickness",
             text(effect.thickness), "a finite number > 0, m");
     for (std::size_t i = 0; i < effect.rest.size(); ++i)
@@ -147,6 +164,7 @@ struct EffectCheck {
     same_size(effect.node.size(), effect.rest, "rest");
     node_indices(effect.node);
     material(effect.material, false);
+    viscosity(effect.damping, effect.material);
     for (std::size_t i = 0; i < effect.rest.size(); ++i)
       require_proper(effect.rest[i], name + " tetrahedron " + text(i));
   }

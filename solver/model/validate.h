@@ -8,9 +8,9 @@
 namespace pbd {
 
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
-/// out of range or repeated, masses <= 0 or NaN, compliances < 0, non-finite numbers, degenerate or inverted
-/// rest elements, elastic constants out of range, links of rest length 0 without compliance (their direction
-/// is undefined), anchors on nodes of infinite mass (nothing moves these).
+/// out of range or repeated, masses <= 0 or NaN, compliances and damping times < 0, non-finite numbers,
+/// degenerate or inverted rest elements, elastic constants out of range, links of rest length 0 without
+/// compliance (their direction is undefined), anchors on nodes of infinite mass (nothing moves these).
 void validate(const Scene& scene);
 
 /// Throws SetupError, beginning with `where`, unless a rest tetrahedron has a positive volume (or a rest

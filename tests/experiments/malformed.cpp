@@ -86,6 +86,16 @@ const std::vector<Mistake> mistakes{
     {"[[distance]]\nnodes = [0, 1]\nrest_length_m = 0\n",
      {"scene.toml:10: distance.0", "link 0 hard and of rest length 0", "a compliance > 0"}},
     {"[[distance]]\nnodes = [0, 99999999999]\n", {"scene.toml:11", "99999999999", "from 0 to 2147483647"}},
+    {"[[distance]]\nnodes = [0, 1]\ndamping_s = -1\n",
+     {"scene.toml:12: distance.0.damping_s", "got -1", ">= 0"}},
+    {cloth +
+         "size_m = [1, 1]\nstrain = { young_pa = inf, poisson = 0.3, thickness_m = 1, damping = { young_pa_s "
+         "= 1, poisson = 0.3 } }\n",
+     {"scene.toml", "triangle_strain damping", "damping of a finite young"}},
+    {cloth +
+         "size_m = [1, 1]\nstrain = { young_pa = 1, poisson = 0.3, thickness_m = 1, damping = { young_pa = 1 "
+         "} }\n",
+     {"scene.toml:14: cloth.0.strain.damping.young_pa_s", "got nothing"}},
     {"[[bending]]\nnodes = [0, 1, 1, 0]\n", {"scene.toml:11: bending.0.nodes", "twice"}},
     {"[[force]]\nnode = 0\n", {"scene.toml:10: force.0.force_n", "got nothing"}},
     {"[[chain]]\nlength_m = 1\nmass_kg = 1\nlinks = 2000000000\n",

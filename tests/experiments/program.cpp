@@ -315,6 +315,8 @@ TEST_CASE("what the command line does not allow is refused with option, value an
        "--at-step: got `1.5`; allowed: an"},
       {{"compare", chain, "--method", "outer=plain", "--reference", ""},
        "--reference: got ``; allowed: one of primal_newton, ipopt"},
+      {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1"},
+       "effects[1] damping: got damping; allowed: none: this judge knows elastic forces only"},
       {{"simulate", chain, "--export", ""}, "--export: got ``; allowed: only vtk"},
       {{"list", "--json=abc"}, "--json: got `abc`; allowed: only true"}};
   const std::vector<std::pair<std::string, std::string>> refused_methods{

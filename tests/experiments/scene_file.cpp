@@ -75,6 +75,46 @@ force_n = [1, 2, 3]
   CHECK(effect<pbd::ExternalForce>(file, 4).node == std::vector<int>{1, 3});
 }
 
+TEST_CASE("damping is read where it stands, and only there") {
+  const auto file = read(R"(
+[particles]
+position_m = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]
+mass_kg = 1
+[[distance]]
+nodes = [[0, 1], [1, 2]]
+stiffness_n_per_m = 10
+[[distance]]
+nodes = [0, 2]
+damping_s = 0.25
+[[anchor]]
+node = 1
+[[solid]]
+cells = [1, 1, 1]
+size_m = [1, 1, 1]
+density_kg_m3 = 1
+young_pa = 100
+poisson = 0.3
+damping = { young_pa_s = 2, poisson = 0.1 }
+anchored = { node = 0, damping_s = 0.5 }
+[[cloth]]
+cells = [1, 1]
+size_m = [1, 1]
+area_density_kg_m2 = 1
+links = { damping_s = 0.125 }
+strain = { young_pa = 1, poisson = 0, thickness_m = 1 }
+bending = { damping_s = 2 }
+)");
+  CHECK(effect<pbd::Distance>(file, 0).damping == std::vector<double>{0, 0, 0.25});
+  CHECK(effect<pbd::Anchor>(file, 1).damping.empty());
+  const auto& solid = effect<pbd::TetStrain>(file, 2);
+  CHECK(solid.damping.value().young == 2);
+  CHECK(solid.damping.value().poisson == 0.1);
+  CHECK(effect<pbd::Anchor>(file, 3).damping == std::vector<double>{0.5});
+  CHECK(effect<pbd::Distance>(file, 4).damping == std::vector<double>(5, 0.125));
+  CHECK_FALSE(effect<pbd::TriangleStrain>(file, 5).damping.has_value());
+  CHECK(effect<pbd::Bending>(file, 6).damping == std::vector<double>{2});
+}
+
 TEST_CASE("texts and comments full of dots are no deep keys, and a byte order mark is skipped") {
   const std::string dots(100, '.');
   const auto file = read("\xEF\xBB\xBF# " + dots + "\ndescription = \"a # \\\"" + dots +

@@ -289,6 +289,13 @@ TEST_CASE("an observer sees iterates that end at the result, with increasing tim
   CHECK((seen - j.x).norm() == 0);
 }
 
+TEST_CASE("judges refuse damping, which they do not know") {
+  Scene scene = cantilever(4, 1e5, 0.3, Strain::green);
+  std::get<TetStrain>(scene.effects[0]).damping = Material{1e3, 0.3};
+  for (const auto& judge : judges())
+    CHECK_THROWS_WITH(judge.judge(scene, scene.initial, 0.01), Catch::Contains("effects[0] damping"));
+}
+
 TEST_CASE("judges are found by name") {
   CHECK(find_judge("primal_newton") == static_cast<Judge>(primal_newton));
   CHECK(find_judge("ipopt") == static_cast<Judge>(ipopt));

@@ -167,6 +167,9 @@ TEST_CASE("what the rival cannot do is refused") {
   scene = sheet(true, true, true);
   std::get<Distance>(scene.effects[3]).node[0] = {0, 99};
   CHECK(refusal(scene).find("a node index") != std::string::npos);
+  scene = sheet(true, true, true);
+  std::get<TriangleStrain>(scene.effects[4]).damping = Material{1, 0.3};
+  CHECK(refusal(scene) == "newton: got an effect with damping; allowed: elastic effects");
   scene.effects.clear();
   for (double& mass : scene.mass) mass = infinity;
   CHECK(refusal(scene).rfind("newton: scene mass", 0) == 0);

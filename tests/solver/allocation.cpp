@@ -42,14 +42,17 @@ long allocations_of(const Scene& scene, const Method& method) {
   return allocations - before;
 }
 
-/// A solid, a sheet and an anchor: every kind of rows, hard and compliant ones.
+/// A solid, a sheet and an anchor: every kind of rows, hard and compliant ones, with damping and without.
 Scene all_rows() {
   Scene scene = cantilever(8, {1e5, 0.3}, Strain::corotational);
+  std::get<TetStrain>(scene.effects[1]).damping = Material{10, 0.3};
   const TriangleMesh mesh = grid_sheet({6, 6}, {1, 1});
   const int first = add_sheet_nodes(scene, mesh, 0.2);
   scene.effects.emplace_back(sheet_links(mesh, first, 0));
   scene.effects.emplace_back(sheet_strain(mesh, first, {1e5, 0.3}, 1e-3));
-  scene.effects.emplace_back(sheet_bending(mesh, first, 1e2));
+  auto bending = sheet_bending(mesh, first, 1e2);
+  bending.damping.assign(bending.node.size(), 0.001);
+  scene.effects.emplace_back(std::move(bending));
   scene.effects.emplace_back(Anchor{.node = {first}, .target = {Vec3::Zero()}, .compliance = {0.0}});
   return scene;
 }

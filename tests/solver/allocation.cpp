@@ -80,7 +80,8 @@ TEST_CASE("a step allocates nothing on the heap after the first frame") {
 
 TEST_CASE("no integrator allocates after the first frame, whatever its history and its directions") {
   const double blend = GENERATE(1.0, 0.5);
-  const std::string outer = GENERATE("plain", "proximal");  // auto may come to need the second in a later frame
+  const std::string outer =
+      GENERATE("plain", "proximal");  // auto may come to need the second in a later frame
   const Scene scene = all_rows();
   for (const auto& integrator : integrators()) {
     Method method;

@@ -53,7 +53,7 @@ double link_error(const Scene& scene, const State& state) {
     if (const auto* links = std::get_if<Distance>(&effect))
       if (std::count(links->compliance.begin(), links->compliance.end(), 0.0) > 0)
         largest =
-            std::max(largest, constraint_error(effect, state) /
+            std::max(largest, constraint_error(scene, effect, state) /
                                   *std::min_element(links->rest_length.begin(), links->rest_length.end()));
   return largest;
 }

@@ -4,27 +4,39 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <functional>
 
-#include "effects/effects.h"
+#include "effect_rows.h"
 
 namespace pbdcheck {
 namespace {
 
 /// Calls f(c, A) for every constraint of the effect; does nothing for a force.
 template <class E, class F>
-void for_each_constraint(const E& effect, const pbd::Points& at, F&& f) {
+void for_each_constraint(const pbd::Scene& scene, const E& effect, const pbd::Configuration& at, F&& f) {
   if constexpr (pbd::RowEffect<E>) {
     using Constraint = pbd::Constraint<E>;
-    typename Constraint::Positions x;
     typename Constraint::Value value;
     typename Constraint::Jacobian jacobian;
-    for (std::size_t i = 0; i < effect.node.size(); ++i) {
-      const auto nodes = Constraint::node(effect, i);
-      for (int a = 0; a < Constraint::nodes; ++a) x.col(a) = at.col(nodes[static_cast<std::size_t>(a)]);
-      Constraint::evaluate(effect, i, x, value, jacobian);
+    for (std::size_t i = 0; i < pbd::constraint_count(effect); ++i) {
+      Constraint::evaluate(effect, i, pbd::local(effect, i, pbd::columns_of(scene, effect, i), at), value,
+                           jacobian);
       f(value, Constraint::compliance(effect, i));
     }
   }
+}
+
+/// Calls f(c, A) for every constraint of all effects chosen.
+template <class Effects, class F>
+void for_each_constraint_of(const pbd::Scene& scene, const Effects& effects, const pbd::State& state, F&& f) {
+  pbd::Bodies bodies(scene);
+  pbd::Points x, v;
+  std::vector<pbd::Pose> poses;
+  bodies.begin(state, x, v);
+  bodies.place(x, poses);
+  const pbd::Configuration at{x, poses, state.time};
+  for (const pbd::Effect& effect : effects)
+    std::visit([&](const auto& typed) { for_each_constraint(scene, typed, at, f); }, effect);
 }
 
 /// An infinite stiffness is a compliance of zero; no effect has both kinds of rows in one constraint.
@@ -40,10 +52,30 @@ void for_finite_nodes(const pbd::Scene& scene, F&& f) {
   }
 }
 
-std::string_view error_unit(const pbd::Effect& effect) {
-  if (std::holds_alternative<pbd::Anchor>(effect) || std::holds_alternative<pbd::Distance>(effect))
+template <class F>
+void for_turning_bodies(const pbd::Scene& scene, F&& f) {
+  for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body)
+    if (const auto& inertia = scene.bodies[static_cast<std::size_t>(body)].inertia; inertia.allFinite())
+      f(body, inertia);
+}
+
+/// Of the values of an effect, as columns end.
+struct Unit {
+  std::string_view operator()(const pbd::TriangleStrain&) const { return ""; }
+  std::string_view operator()(const pbd::TetStrain&) const { return ""; }
+  std::string_view operator()(const pbd::Bending&) const { return "_rad"; }
+  std::string_view operator()(const pbd::AxisJoint&) const { return "_rad"; }
+  std::string_view operator()(const pbd::PerpendicularJoint&) const { return "_rad"; }
+  std::string_view operator()(const pbd::RotationJoint&) const { return "_rad"; }
+  std::string_view operator()(const pbd::AngleJoint&) const { return "_rad"; }
+  template <class OfLengths>
+  std::string_view operator()(const OfLengths&) const {
     return "_m";
-  return std::holds_alternative<pbd::Bending>(effect) ? "_rad" : "";
+  }
+};
+
+std::string_view error_unit(const pbd::Effect& effect) {
+  return std::visit(Unit{}, effect);
 }
 
 bool has_rows(const pbd::Effect& effect) {
@@ -61,6 +93,10 @@ void append_momentum(const pbd::Scene& scene, const pbd::State& state, std::vect
     const pbd::Vec3 momentum = mass * state.v.col(node);
     linear += momentum;
     angular += pbd::Vec3(state.x.col(node)).cross(momentum);
+  });
+  for_turning_bodies(scene, [&](int body, const pbd::Vec3& inertia) {
+    angular += state.orientation[static_cast<std::size_t>(body)] *
+               inertia.cwiseProduct(pbd::Vec3(state.spin.col(body)));
   });
   append(row, linear);
   append(row, angular);
@@ -97,6 +133,10 @@ double kinetic_energy(const pbd::Scene& scene, const pbd::State& state) {
   double energy = 0;
   for_finite_nodes(scene,
                    [&](int node, double mass) { energy += mass / 2 * state.v.col(node).squaredNorm(); });
+  for_turning_bodies(scene, [&](int body, const pbd::Vec3& inertia) {
+    const pbd::Vec3 spin = state.spin.col(body);
+    energy += spin.dot(inertia.cwiseProduct(spin)) / 2;
+  });
   return energy;
 }
 
@@ -112,26 +152,18 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state) {
 
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state) {
   double energy = 0;
-  for (const auto& effect : scene.effects)
-    std::visit(
-        [&](const auto& typed) {
-          for_each_constraint(typed, state.x, [&](const auto& value, const auto& compliance) {
-            if (!is_hard(compliance)) energy += value.dot(compliance.llt().solve(value)) / 2;
-          });
-        },
-        effect);
+  for_each_constraint_of(scene, scene.effects, state, [&](const auto& value, const auto& compliance) {
+    if (!is_hard(compliance)) energy += value.dot(compliance.llt().solve(value)) / 2;
+  });
   return energy;
 }
 
-double constraint_error(const pbd::Effect& effect, const pbd::State& state) {
+double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state) {
   double largest = 0;
-  std::visit(
-      [&](const auto& typed) {
-        for_each_constraint(typed, state.x, [&](const auto& value, const auto& compliance) {
-          if (is_hard(compliance)) largest = std::max(largest, value.norm());
-        });
-      },
-      effect);
+  for_each_constraint_of(scene, std::array{std::cref(effect)}, state,
+                         [&](const auto& value, const auto& compliance) {
+                           if (is_hard(compliance)) largest = std::max(largest, value.norm());
+                         });
   return largest;
 }
 
@@ -153,7 +185,7 @@ void append_probes(const std::vector<Probe>& probes, const pbd::Scene& scene, co
     if (probe.kind == "momentum") append_momentum(scene, state, row);
     if (probe.kind == "constraint_error")
       for (const auto& effect : scene.effects)
-        if (has_rows(effect)) row.emplace_back(constraint_error(effect, state));
+        if (has_rows(effect)) row.emplace_back(constraint_error(scene, effect, state));
   }
 }
 

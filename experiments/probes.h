@@ -16,7 +16,7 @@ std::vector<std::string> probe_columns(const std::vector<Probe>& probes, const p
 void append_probes(const std::vector<Probe>& probes, const pbd::Scene& scene, const pbd::State& state,
                    std::vector<Cell>& row);
 
-/// Sum of 1/2 m v^2 over the nodes of finite mass, J.
+/// Sum of 1/2 m v^2 over the nodes of finite mass and 1/2 w . I w over the bodies of finite inertia, J.
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
 
 /// Minus the sum of m a . x over the nodes of finite mass, J; zero at the origin.
@@ -26,6 +26,6 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
 /// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
-double constraint_error(const pbd::Effect& effect, const pbd::State& state);
+double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state);
 
 }  // namespace pbdcheck

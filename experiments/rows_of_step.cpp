@@ -44,14 +44,18 @@ LinearStep linear_step(const Scene& scene, const State& state, double h) {
   LinearStep step;
   std::vector<std::size_t> effect_of_block;
   step.rows = allocate_rows(scene, effect_of_block);
-  Points acceleration;
-  accelerations(scene, acceleration);
-  step.v_free = state.v + h * acceleration;
-  const StepMap map{state.x, step.v_free, h, h};
-  const Points at_rest = Points::Zero(3, scene.nodes());
+  Bodies bodies(scene);
+  Points x, v, acceleration;
+  std::vector<Pose> poses;
+  bodies.begin(state, x, v);
+  bodies.place(x, poses);
+  accelerations(scene, {bodies, poses, v, false}, acceleration);
+  step.v_free = v + h * acceleration;
+  const StepMap map{x, step.v_free, h, h};
+  const Points at_rest = Points::Zero(3, bodies.columns());
   for (std::size_t b = 0; b < step.rows.blocks.size(); ++b)
-    linearise(scene.effects[effect_of_block[b]], map, state.x, at_rest, step.rows.inverse_mass, 1,
-              step.rows.blocks[b]);
+    linearise(scene.effects[effect_of_block[b]], map, {x, poses, state.time}, at_rest, step.rows.inverse_mass,
+              1, step.rows.blocks[b]);
   return step;
 }
 

@@ -33,6 +33,41 @@ struct Units {
     for (auto& rest : e.rest) rest *= length;
     e.material.young *= mass / length;
   }
+  void operator()(ExternalTorque& e) const {
+    for (auto& torque : e.torque) torque *= mass * length * length;
+  }
+  void operator()(Gyroscopic&) const {}
+  void operator()(PointJoint& e) const { of_lengths(e); }
+  void operator()(LineJoint& e) const { of_lengths(e); }
+  void operator()(BodyDistance& e) const {
+    of_lengths(e);
+    for (auto& rest : e.rest_length) rest *= length;
+  }
+  void operator()(SlideJoint& e) const {
+    of_lengths(e);
+    for (auto& rest : e.rest_position) rest *= length;
+    for (auto& rate : e.rate) rate *= length;
+  }
+  void operator()(Attachment& e) const {
+    for (auto& point : e.point) point *= length;
+    for (auto& compliance : e.compliance) compliance /= mass;
+  }
+  void operator()(AxisJoint& e) const { of_angles(e); }
+  void operator()(PerpendicularJoint& e) const { of_angles(e); }
+  void operator()(RotationJoint& e) const { of_angles(e); }
+  void operator()(AngleJoint& e) const { of_angles(e); }
+
+ private:
+  template <class Joint>
+  void of_lengths(Joint& e) const {
+    for (auto& pair : e.point)
+      for (auto& point : pair) point *= length;
+    for (auto& compliance : e.compliance) compliance /= mass;
+  }
+  template <class Joint>
+  void of_angles(Joint& e) const {
+    for (auto& compliance : e.compliance) compliance /= mass * length * length;
+  }
 };
 
 }  // namespace
@@ -41,6 +76,7 @@ Scene in_units(Scene scene, double length, double mass) {
   for (auto& value : scene.mass) value *= mass;
   scene.initial.x *= length;
   scene.initial.v *= length;
+  for (auto& body : scene.bodies) body.inertia *= mass * length * length;
   for (auto& effect : scene.effects) std::visit(Units{length, mass}, effect);
   return scene;
 }

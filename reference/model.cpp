@@ -78,6 +78,9 @@ struct Builder {
       if (unknown >= 0) model.force.segment<3>(unknown) += external.force[i];
     }
   }
+  /// Effects of rigid bodies, of which the scene has none.
+  template <class BodyEffect>
+  void operator()(const BodyEffect&) {}
   void operator()(const Anchor& anchor) {
     for (std::size_t i = 0; i < anchor.node.size(); ++i) {
       Element element = element_of(Kind::anchor, std::array{anchor.node[i]}, 1, 3);
@@ -134,6 +137,9 @@ struct Builder {
 
 Model make_model(const Scene& scene) {
   validate(scene);
+  if (!scene.bodies.empty())
+    throw SetupError("bodies", std::to_string(scene.bodies.size()) + " rigid bodies",
+                     "none: this judge knows nodes only");
   Model model;
   for (const double mass : scene.mass) {
     const bool fixed = std::isinf(mass);

@@ -8,17 +8,16 @@ namespace pbd {
 namespace {
 
 template <class E>
-void add_forces(const E& effect, bool with_damping, const State& state,
-                const std::vector<double>& inverse_mass, Points& acceleration) {
+void add_forces(const Scene& scene, const E& effect, bool with_damping, const Configuration& at,
+                const Points& v, const std::vector<double>& inverse_mass, Points& acceleration) {
   using C = Constraint<E>;
   typename C::Value value;
   typename C::Jacobian jacobian;
-  for (std::size_t i = 0; i < effect.node.size(); ++i) {
+  for (std::size_t i = 0; i < constraint_count(effect); ++i) {
     if (!compliant(effect, i)) continue;
-    const auto node = C::node(effect, i);
-    C::evaluate(effect, i, positions_of(node, state.x), value, jacobian);
-    if (with_damping)
-      value += C::retardation(effect, i) * (jacobian * positions_of(node, state.v).reshaped());
+    const auto node = columns_of(scene, effect, i);
+    C::evaluate(effect, i, local(effect, i, node, at), value, jacobian);
+    if (with_damping) value += C::retardation(effect, i) * (jacobian * positions_of(node, v).reshaped());
     const typename C::Value force = -C::compliance(effect, i).llt().solve(value);
     const Eigen::Matrix<double, 3, C::nodes> push = (jacobian.transpose() * force).reshaped(3, C::nodes);
     for (int a = 0; a < C::nodes; ++a) {
@@ -30,12 +29,13 @@ void add_forces(const E& effect, bool with_damping, const State& state,
 
 }  // namespace
 
-void add_compliant_forces(const Scene& scene, const State& state, const std::vector<double>& inverse_mass,
-                          Points& acceleration) {
+void add_compliant_forces(const Scene& scene, const Configuration& at, const Points& v,
+                          const std::vector<double>& inverse_mass, Points& acceleration) {
   for (const auto& any : scene.effects)
     std::visit(
         [&]<class E>(const E& effect) {
-          if constexpr (RowEffect<E>) add_forces(effect, damped(any), state, inverse_mass, acceleration);
+          if constexpr (RowEffect<E>)
+            add_forces(scene, effect, damped(any), at, v, inverse_mass, acceleration);
         },
         any);
 }

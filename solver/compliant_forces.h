@@ -4,13 +4,13 @@
 
 #include <vector>
 
-#include "scene.h"
+#include "bodies.h"
 
 namespace pbd {
 
 /// Adds the accelerations W J^T (-A^-1 (c + T J v)) (m/s^2) of every compliant constraint; hard ones have no
 /// force by their value and add nothing.
-void add_compliant_forces(const Scene& scene, const State& state, const std::vector<double>& inverse_mass,
-                          Points& acceleration);
+void add_compliant_forces(const Scene& scene, const Configuration& at, const Points& v,
+                          const std::vector<double>& inverse_mass, Points& acceleration);
 
 }  // namespace pbd

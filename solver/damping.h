@@ -8,14 +8,24 @@
 // energy and d/2 (dc/dt)^T A^-1 T (dc/dt) (Servin, Lacoursiere, Melin 2006).
 #pragma once
 
+#include "bodies.h"
 #include "integrators.h"
 #include "rows.h"
 
 namespace pbd {
 
-/// Sets offset and compliance of a block whose effect lists damping for a step from `state`, a the
+/// Where a step begins, and d further and back along its velocities v.
+struct DampingBegin {
+  const Configuration &at, &ahead, &behind;
+  const Points& v;
+};
+
+/// Sets offset and compliance of a block whose effect lists damping for a step from `begin`, a the
 /// acceleration that the integrator carries on (empty if none). Later linearisations keep both.
-void begin_damping(const Effect& effect, const StepCoefficients& coefficients, const State& state,
+void begin_damping(const Effect& effect, const StepCoefficients& coefficients, const DampingBegin& begin,
                    const Points& a, AnyBlock& block);
+
+/// True if c0 has a term k v_l^T c'' v_l: `ahead` and `behind` are read.
+bool bends(const StepCoefficients& coefficients);
 
 }  // namespace pbd

@@ -9,12 +9,55 @@ namespace pbd {
 template <class E>
 using BlockOf = RowBlock<Constraint<E>::rows, Constraint<E>::nodes>;
 
+template <class E>
+std::size_t constraint_count(const E& effect) {
+  if constexpr (BodyEffect<E>)
+    return effect.body.size();
+  else
+    return effect.node.size();
+}
+
+/// Columns of constraint i: its nodes, or two a body.
+template <class E>
+typename Constraint<E>::Nodes columns_of(const Scene& scene, const E& effect, std::size_t i) {
+  if constexpr (BodyEffect<E>) {
+    typename Constraint<E>::Nodes columns{};
+    std::size_t next = 0;
+    for (const int body : Constraint<E>::body(effect, i)) {
+      columns[next++] = scene.bodies[static_cast<std::size_t>(body)].node;
+      columns[next++] = scene.nodes() + body;
+    }
+    if constexpr (Constraint<E>::nodes > 2 * Constraint<E>::bodies) columns[next] = effect.node[i];
+    return columns;
+  } else {
+    return Constraint<E>::node(effect, i);
+  }
+}
+
 /// Positions (or velocities) of a constraint's nodes, one column a node.
 template <std::size_t K>
 Eigen::Matrix<double, 3, static_cast<int>(K)> positions_of(const std::array<int, K>& node, const Points& x) {
   Eigen::Matrix<double, 3, static_cast<int>(K)> local;
   for (std::size_t a = 0; a < K; ++a) local.col(static_cast<Eigen::Index>(a)) = x.col(node[a]);
   return local;
+}
+
+/// What constraint i with these columns is evaluated at.
+template <class E>
+typename Constraint<E>::Positions local(const E& effect, std::size_t i,
+                                        const typename Constraint<E>::Nodes& columns,
+                                        const Configuration& at) {
+  if constexpr (BodyEffect<E>) {
+    typename Constraint<E>::Positions own;
+    std::size_t next = 0;
+    for (const int body : Constraint<E>::body(effect, i))
+      own.body[next++] = &at.pose[static_cast<std::size_t>(body)];
+    if constexpr (Constraint<E>::nodes > 2 * Constraint<E>::bodies) own.node = at.x.col(columns.back());
+    own.time = at.time;
+    return own;
+  } else {
+    return positions_of(columns, at.x);
+  }
 }
 
 /// True if constraint i gives way: its A is positive definite.

@@ -46,6 +46,19 @@ typename Block::Square diagonal_block(const Block& block, const std::vector<doub
 /// Of a constraint's value, as part of its largest coordinate.
 constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
 
+/// Largest coordinate of a constraint, m.
+template <class Positions>
+double largest(const Positions& at) {
+  if constexpr (requires { at.body; }) {
+    double most = at.node.size() > 0 ? at.node.cwiseAbs().sum() : 0.0;
+    for (const Pose* pose : at.body)
+      most = std::max({most, pose->x.cwiseAbs().maxCoeff(), 1 / pose->turning.row(0).norm()});
+    return most;
+  } else {
+    return at.cwiseAbs().maxCoeff();
+  }
+}
+
 template <class Block>
 typename Block::Positions positions(const Block& block, const Points& x, std::size_t i) {
   return positions_of(block.node[i], x);
@@ -53,22 +66,23 @@ typename Block::Positions positions(const Block& block, const Points& x, std::si
 
 /// J of constraint i at other positions than its value's.
 template <class E, class Block>
-void take_directions(const E& effect, const Points& x, std::size_t i, const Block& block,
+void take_directions(const E& effect, const Configuration& at, std::size_t i, const Block& block,
                      typename Block::Jacobian& jacobian) {
   typename Block::Value value;
-  Constraint<E>::evaluate(effect, block.entry(i), positions(block, x, i), value, jacobian);
+  const std::size_t entry = block.entry(i);
+  Constraint<E>::evaluate(effect, entry, local(effect, entry, block.node[i], at), value, jacobian);
 }
 
 template <class E, class Block>
-BlockResidual linearise_block(const E& effect, const StepMap& map, const Points& x, const Points& v,
+BlockResidual linearise_block(const E& effect, const StepMap& map, const Configuration& at, const Points& v,
                               const std::vector<double>& inverse_mass, double unreachable_mass,
-                              const Points* directions, Block& block) {
+                              const Configuration* directions, Block& block) {
   BlockResidual sums;
   typename Block::Value value;
   for (std::size_t i = 0; i < block.size(); ++i) {
     const std::size_t entry = block.entry(i);
-    const typename Block::Positions local = positions(block, x, i);
-    Constraint<E>::evaluate(effect, entry, local, value, block.jacobian[i]);
+    const auto own = local(effect, entry, block.node[i], at);
+    Constraint<E>::evaluate(effect, entry, own, value, block.jacobian[i]);
     if (directions != nullptr) take_directions(effect, *directions, i, block, block.jacobian[i]);
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
     if (damped) value -= block.offset[i];
@@ -79,7 +93,7 @@ BlockResidual linearise_block(const E& effect, const StepMap& map, const Points&
 
     const typename Block::Value r = value / map.d + block.compliance[i] * block.impulse[i];
     sums.squared += singular ? unreachable_mass * r.squaredNorm() : r.dot(block.inverse_diagonal[i] * r);
-    const double size = roundoff * local.cwiseAbs().maxCoeff() / map.d;
+    const double size = roundoff * largest(own) / map.d;
     sums.rounding_squared +=
         size * size * block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
   }
@@ -104,7 +118,7 @@ Positions push_of(const E& effect, std::size_t i, const Positions& x, const Resp
 template <class E>
 std::vector<std::size_t> entries_of(const E& effect, bool hard_alone) {
   std::vector<std::size_t> entries;
-  for (std::size_t i = 0; i < effect.node.size(); ++i)
+  for (std::size_t i = 0; i < constraint_count(effect); ++i)
     if (!hard_alone || !compliant(effect, i)) entries.push_back(i);
   return entries;
 }
@@ -113,7 +127,7 @@ std::vector<std::size_t> entries_of(const E& effect, bool hard_alone) {
 
 Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block, bool hard_alone) {
   Rows rows;
-  for (const double mass : scene.mass) rows.inverse_mass.push_back(std::isfinite(mass) ? 1 / mass : 0.0);
+  rows.inverse_mass = Bodies(scene).inverse_masses(scene);
   for (std::size_t index = 0; index < scene.effects.size(); ++index)
     std::visit(
         [&]<class E>(const E& effect) {
@@ -123,8 +137,8 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
             BlockOf<E> block;
             block.resize(entries.size());
             for (std::size_t i = 0; i < block.size(); ++i)
-              block.node[i] = Constraint<E>::node(effect, entries[i]);
-            if (entries.size() < effect.node.size()) block.entries = entries;
+              block.node[i] = columns_of(scene, effect, entries[i]);
+            if (entries.size() < constraint_count(effect)) block.entries = entries;
             rows.blocks.emplace_back(std::move(block));
             effect_of_block.push_back(index);
           }
@@ -133,13 +147,13 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
   return rows;
 }
 
-BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
+BlockResidual linearise(const Effect& effect, const StepMap& map, const Configuration& at, const Points& v,
                         const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block,
-                        const Points* directions) {
+                        const Configuration* directions) {
   return std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>)
-          return linearise_block(stated, map, x, v, inverse_mass, unreachable_mass, directions,
+          return linearise_block(stated, map, at, v, inverse_mass, unreachable_mass, directions,
                                  std::get<BlockOf<E>>(block));
         else
           return BlockResidual{};
@@ -152,7 +166,7 @@ double add_potential(const Effect& effect, const StepMap& map, const Points& x,
   return std::visit(
       [&]<class E>(const E& stated) {
         double potential = 0;
-        if constexpr (RowEffect<E>) {
+        if constexpr (RowEffect<E> && !BodyEffect<E>) {
           auto& block = std::get<BlockOf<E>>(any);
           using Value = typename BlockOf<E>::Value;
           for (std::size_t i = 0; i < block.size(); ++i) {
@@ -178,7 +192,7 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape
                 std::vector<MetricEntry>& entries) {
   std::visit(
       [&]<class E>(const E& stated) {
-        if constexpr (RowEffect<E>) {
+        if constexpr (RowEffect<E> && !BodyEffect<E>) {
           auto& block = std::get<BlockOf<E>>(any);
           block.stiffness.resize(block.size());
           for (std::size_t i = 0; i < block.size(); ++i) {
@@ -225,31 +239,36 @@ bool all_compliant(const Effect& effect) {
   return std::visit(
       []<class E>(const E& stated) {
         if constexpr (RowEffect<E>)
-          for (std::size_t i = 0; i < stated.node.size(); ++i)
+          for (std::size_t i = 0; i < constraint_count(stated); ++i)
             if (!compliant(stated, i)) return false;
         return true;
       },
       effect);
 }
 
+bool of_bodies(const Effect& effect) {
+  return std::visit([]<class E>(const E&) { return BodyEffect<E>; }, effect);
+}
+
 bool fills_space(const Effect& effect) {
   return std::visit(
       []<class E>(const E& stated) {
-        if constexpr (RowEffect<E>) return Constraint<E>::fills_space || stated.node.empty();
+        if constexpr (RowEffect<E>) return Constraint<E>::fills_space || constraint_count(stated) == 0;
         return true;
       },
       effect);
 }
 
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, double factor,
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Configuration& at, double factor,
                            const AnyBlock& any, std::vector<double>& inertia) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
           const auto& block = std::get<BlockOf<E>>(any);
           for (std::size_t i = 0; i < block.size(); ++i) {
-            const auto bound = Constraint<E>::geometric_bound(stated, block.entry(i), positions(block, x, i),
-                                                              factor * block.impulse[i]);
+            const std::size_t entry = block.entry(i);
+            const auto bound = Constraint<E>::geometric_bound(
+                stated, entry, local(stated, entry, block.node[i], at), factor * block.impulse[i]);
             for (int a = 0; a < block.nodes; ++a)
               inertia[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] +=
                   map.d / 2 * bound[a];
@@ -259,9 +278,9 @@ void add_geometric_inertia(const Effect& effect, const StepMap& map, const Point
       effect);
 }
 
-void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
-             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& any, Points& push,
-             const Points* directions) {
+void perturb(const Effect& effect, const StepMap& map, const Configuration& turned, const Points& v,
+             double scale, const Points& error, const std::vector<double>& inverse_mass, AnyBlock& any,
+             Points& push, const Configuration* directions) {
   std::visit(
       [&]<class E>(const E& stated) {
         if constexpr (RowEffect<E>) {
@@ -269,7 +288,9 @@ void perturb(const Effect& effect, const StepMap& map, const Points& turned, con
           typename BlockOf<E>::Value value;
           typename BlockOf<E>::Jacobian jacobian;
           for (std::size_t i = 0; i < block.size(); ++i) {
-            Constraint<E>::evaluate(stated, block.entry(i), positions(block, turned, i), value, jacobian);
+            const std::size_t entry = block.entry(i);
+            Constraint<E>::evaluate(stated, entry, local(stated, entry, block.node[i], turned), value,
+                                    jacobian);
             if (directions != nullptr) take_directions(stated, *directions, i, block, jacobian);
             if (!block.offset.empty()) value -= block.offset[i];
             block.apply(inverse_mass, i, jacobian, block.impulse[i], push);
@@ -290,12 +311,12 @@ void refresh_inverse_diagonal(Rows& rows) {
   });
 }
 
-void accelerations(const Scene& scene, Points& acceleration) {
-  acceleration.setZero(3, scene.nodes());
+void accelerations(const Scene& scene, const StepBegin& begin, Points& acceleration) {
+  acceleration.setZero(3, begin.bodies.columns());
   for (const auto& any : scene.effects)
     std::visit(
         [&]<class E>(const E& effect) {
-          if constexpr (ForceEffect<E>) Force<E>::add(effect, scene, acceleration);
+          if constexpr (ForceEffect<E>) Force<E>::add(effect, scene, begin, acceleration);
         },
         any);
 }

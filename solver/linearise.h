@@ -24,12 +24,12 @@ struct BlockResidual {
   }
 };
 
-/// Refreshes one block of rows from its effect at positions x and velocities v. Where N_ii is singular and r
+/// Refreshes one block of rows from its effect at `at` = x(v) and velocities v. Where N_ii is singular and r
 /// is not zero, nothing can meet the constraint: its share of the residual is then r^2 weighted with
 /// `unreachable_mass` (kg). J is taken at `directions` if given, else at x.
-BlockResidual linearise(const Effect& effect, const StepMap& map, const Points& x, const Points& v,
+BlockResidual linearise(const Effect& effect, const StepMap& map, const Configuration& at, const Points& v,
                         const std::vector<double>& inverse_mass, double unreachable_mass, AnyBlock& block,
-                        const Points* directions = nullptr);
+                        const Configuration* directions = nullptr);
 
 /// The step's potential as one block of compliant rows gives it, 1/2 (c/d)^T Sigma^-1 (c/d) in J: sets
 /// impulses p = -Sigma^-1 c/d at positions x and adds W J^T p to `v`.
@@ -50,27 +50,30 @@ void add_deformation(const Effect& effect, const Points& x, std::vector<Eigen::M
 /// True if every row of the effect gives way: A is positive definite.
 bool all_compliant(const Effect& effect);
 
+/// True if the effect's constraints are those of rigid bodies: they have no potential by the columns.
+bool of_bodies(const Effect& effect);
+
 /// True if the effect has no rows, or rows that are stiff in every direction: one number a pair of nodes is
 /// then a good metric of them.
 bool fills_space(const Effect& effect);
 
-/// Adds half the effect's geometric bounds at positions x times d to `inertia` (kg, one a node): the inertia
+/// Adds half the effect's geometric bounds at `at` times d to `inertia` (kg, one a node): the inertia
 /// D that the proximal outer iteration adds, and half a bound of the geometric stiffness. Of `factor` times
 /// the impulses.
-void add_geometric_inertia(const Effect& effect, const StepMap& map, const Points& x, double factor,
+void add_geometric_inertia(const Effect& effect, const StepMap& map, const Configuration& at, double factor,
                            const AnyBlock& block, std::vector<double>& inertia);
 
 /// Rows of the error's map: adds W J(turned)^T p to `push`, then sets the impulses to zero and the biases to
 /// what the values at `turned` = x(v + scale * error) have beyond J, (c(turned) - c(x))/(d scale) - J error.
 /// The turned J is taken at `directions` if given.
-void perturb(const Effect& effect, const StepMap& map, const Points& turned, const Points& v, double scale,
-             const Points& error, const std::vector<double>& inverse_mass, AnyBlock& block, Points& push,
-             const Points* directions = nullptr);
+void perturb(const Effect& effect, const StepMap& map, const Configuration& turned, const Points& v,
+             double scale, const Points& error, const std::vector<double>& inverse_mass, AnyBlock& block,
+             Points& push, const Configuration* directions = nullptr);
 
 /// Refreshes N_ii^-1 for other inverse masses than `linearise` was given.
 void refresh_inverse_diagonal(Rows& rows);
 
-/// Sum of the given forces' accelerations, m/s^2.
-void accelerations(const Scene& scene, Points& acceleration);
+/// Sum of the given forces' accelerations, m/s^2, of all columns.
+void accelerations(const Scene& scene, const StepBegin& begin, Points& acceleration);
 
 }  // namespace pbd

@@ -53,6 +53,7 @@ void StepData::find_free_components() {
   std::vector<int> of_node(nodes);
   for (std::size_t node = 0; node < nodes; ++node)
     of_node[node] = index[static_cast<std::size_t>(root(static_cast<int>(node)))];
+  std::fill(of_node.begin() + bodies.nodes(), of_node.end(), -1);  // rotations have no linear momentum
   component = of_node;
   momentum.resize(static_cast<std::size_t>(count));
 }

@@ -12,6 +12,7 @@ BlockResidual StepData::potential_at_v(const Scene& scene) {
 
 BlockResidual StepData::evaluate_potential(const Scene& scene) {
   x = map.x0 + map.d * v;
+  const Configuration here = placed(x, poses, x_time);
   rows.inverse_mass = inverse_mass;
   rebuilt = map.v_free;
   potential = std::pow(distance(v, map.v_free), 2) / 2;
@@ -22,13 +23,16 @@ BlockResidual StepData::evaluate_potential(const Scene& scene) {
     if (eliminated[b])
       potential += add_potential(effect, map, x, inverse_mass, rows.blocks[b], rebuilt);
     else
-      sums += linearise(effect, map, x, v, inverse_mass, finite_mass, rows.blocks[b]);
+      sums += linearise(effect, map, here, v, inverse_mass, finite_mass, rows.blocks[b]);
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   gradient = v - rebuilt;
+  for (int b = 0; b < bodies.count() && implicit_gyroscopic; ++b)
+    gradient.col(bodies.column(b)) -= map.s * bodies.gyroscopic(b, v.col(bodies.column(b)));
   for (std::size_t node = 0; node < inverse_mass.size(); ++node)
     gradient.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
   apply_impulses(rows, rebuilt, eliminated);
+  add_gyroscopic(rebuilt);
   evaluated = on_potential;
   return sums;
 }

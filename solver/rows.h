@@ -1,7 +1,8 @@
 // Rows: all that a relaxation sees of a scene. Find impulses p and velocities v with
 //   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node).
 // Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
-// contiguous, one entry a constraint. Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
+// contiguous, one entry a constraint; a rigid body counts as
+// two nodes (bodies.h). Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
 // second.
 //
 // `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
@@ -83,7 +84,8 @@ struct RowBlock : ConstraintShape<R, K> {
   }
 };
 
-using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>>;
+using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
+                              RowBlock<2, 4>, RowBlock<3, 4>>;
 
 struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass

@@ -159,7 +159,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   w.begin(scene, method, h, state);
 
   Report report;
-  const double free_change = w.distance(w.map.v_free, state.v);
+  const double free_change = w.distance(w.map.v_free, w.start_v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
   double first_residual = 0;
   double lowest = std::numeric_limits<double>::infinity();
@@ -169,7 +169,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   const auto measure = [&](const BlockResidual& found) {
     report.dual = std::sqrt(found.squared);
     report.primal = w.distance(w.v, w.rebuilt);
-    report.scale = w.distance(w.v, state.v) + free_change;
+    report.scale = w.distance(w.v, w.start_v) + free_change;
     rounding = velocity_rounding + std::sqrt(found.rounding_squared);
   };
 

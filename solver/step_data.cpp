@@ -15,8 +15,9 @@ StepData::StepData(const Scene& scene, const Method& method)
       outer(find_named(outers(), "outer", method.outer)),
       relaxation(make_relaxation(method.relaxation)),
       rows(allocate_rows(scene, effect_of_block, integrator.explicit_forces)),
+      bodies(scene),
       inverse_mass(rows.inverse_mass),
-      zero(Points::Zero(3, scene.nodes())),
+      zero(Points::Zero(3, bodies.columns())),
       seconds(rows.blocks.size(), 0.0),
       inertia(rows.inverse_mass.size(), 0.0),
       anderson(method.memory),
@@ -34,14 +35,18 @@ StepData::StepData(const Scene& scene, const Method& method)
          row_count(rows.blocks[b]),
          std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]), 0.0});
   find_free_components();
+  for (const Effect& effect : scene.effects)
+    if (const auto* gyroscopic = std::get_if<Gyroscopic>(&effect))
+      implicit_gyroscopic = gyroscopic->implicit && !integrator.explicit_forces;
   hard_constraints = !std::all_of(scene.effects.begin(), scene.effects.end(), all_compliant);
   const bool gradient_at_x = method.direction_blend == 1 && !integrator.explicit_forces;
   if (outer.potential == OnPotential::always && !gradient_at_x)
     throw SetupError("outer", std::string(outer.name) + " with directions that are not those at x",
                      "direction_blend 1 and an implicit integrator, or another outer iteration");
   for (const std::size_t index : effect_of_block)
-    eliminated.push_back(outer.potential != OnPotential::never && all_compliant(scene.effects[index]));
-  on_potential = !eliminated.empty() && gradient_at_x &&
+    eliminated.push_back(outer.potential != OnPotential::never && all_compliant(scene.effects[index]) &&
+                         !of_bodies(scene.effects[index]));
+  on_potential = !eliminated.empty() && gradient_at_x && bodies.count() == 0 &&
                  std::all_of(eliminated.begin(), eliminated.end(), [](bool own) { return own; });
   for (const std::size_t index : effect_of_block)
     if (outer.potential == OnPotential::where_possible && !fills_space(scene.effects[index]))
@@ -51,13 +56,12 @@ StepData::StepData(const Scene& scene, const Method& method)
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
   make_map(scene, method, h, state);
-  begin_damping(scene, state);
+  begin_damping(scene, state.time);
   if (!method.warm_start) forget_impulses();
-  v = state.v;
+  v = start_v;
   previous = v;
   direction_blend = integrator.explicit_forces ? 0 : method.direction_blend;
   if (direction_blend != 1) {
-    start_x = state.x;
     contraction = 0;  // until the iterates show otherwise
   }
   anderson.forget();
@@ -92,33 +96,37 @@ double StepData::inner_product(const Points& a, const Points& b) const {
 
 BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   x = map.x0 + map.d * at;
-  const Points* const directions = directions_for(x);
+  const Configuration here = placed(x, poses, x_time);
+  const Configuration* const where = directions_for(x);
   rows.inverse_mass = inverse_mass;
   BlockResidual sums;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const auto start = std::chrono::steady_clock::now();
-    const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, x, at, rows.inverse_mass,
-                                          finite_mass, rows.blocks[b], directions);
+    const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, here, at, rows.inverse_mass,
+                                          finite_mass, rows.blocks[b], where);
     sums += share;
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   rebuilt = map.v_free;
   apply_impulses(rows, rebuilt);
+  add_gyroscopic(rebuilt);
   return sums;
 }
 
 double StepData::bound_contraction(const Scene& scene, int sign) {
   std::fill(inertia.begin(), inertia.end(), 0.0);
   double bound = 0;
+  const Configuration here{x, poses, x_time};
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const double before = bound;
-    add_geometric_inertia(scene.effects[effect_of_block[b]], map, x, sign * direction_blend, rows.blocks[b],
-                          inertia);
+    add_geometric_inertia(scene.effects[effect_of_block[b]], map, here, sign * direction_blend,
+                          rows.blocks[b], inertia);
     bound = 0;
     for (std::size_t node = 0; node < inertia.size(); ++node)
       bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
     costs[b].contraction = std::max(sign < 0 ? costs[b].contraction : 0.0, bound - before);
   }
+  if (bodies.count() > 0) bound += bodies.contraction(v, map.d, map.s, implicit_gyroscopic);
   return bound;
 }
 
@@ -134,6 +142,7 @@ void StepData::add_inertia() {
   }
   refresh_inverse_diagonal(rows);
   apply_impulses(rows, rebuilt);
+  add_gyroscopic(rebuilt);
 }
 
 std::int64_t StepData::relax(bool fresh, const InnerBudget& budget) {
@@ -148,15 +157,18 @@ std::int64_t StepData::relax(bool fresh, const InnerBudget& budget) {
 /// along turned directions, and the rows miss what their value does beyond J.
 std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   constexpr double turned = 1e-6;  // of the scene's extent
-  const double extent = (map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff();
+  const double extent = std::max((map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff(),
+                                 bodies.largest_radius());
   const double scale = turned * extent / (map.d * error.colwise().norm().maxCoeff());
   turned_x = map.x0 + map.d * (v + scale * error);
-  const Points* const directions = directions_for(turned_x);
+  const Configuration turned_here = placed(turned_x, other_poses, x_time);
+  const Configuration* const where = directions_for(turned_x);
   push = map.v_free;
   keep_impulses_and_biases(rows, kept);
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    perturb(scene.effects[effect_of_block[b]], map, turned_x, v, scale, error, inverse_mass, rows.blocks[b],
-            push, directions);
+    perturb(scene.effects[effect_of_block[b]], map, turned_here, v, scale, error, inverse_mass,
+            rows.blocks[b], push, where);
+  add_gyroscopic(push);
   error = (push - rebuilt) / scale;
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
   const std::int64_t sweeps = pbd::relax(relaxation, rows, error, true, rough, nullptr);

@@ -1,6 +1,7 @@
 // What a step works on: rows, iterates and the tools of the outer iterations. Allocated once a workspace.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "acceleration.h"
@@ -32,15 +33,22 @@ struct StepData {
   Relaxation relaxation;
   std::vector<std::size_t> effect_of_block;
   Rows rows;
-  std::vector<double> inverse_mass;  // 1/kg; the rows' own is changed by a proximal term
-  double finite_mass = 0;            // kg, of all nodes that can move
+  Bodies bodies;
+  bool implicit_gyroscopic = false;
+  std::vector<Pose> start_poses, poses, other_poses;  // at start_x, x and where else a constraint is taken
+  std::vector<double> inverse_mass;                   // 1/kg; the rows' own is changed by a proximal term
+  double finite_mass = 0;                             // kg, of all nodes that can move
 
   StepMap map;
   StepCoefficients coefficients{};  // of this step, and of the last one until the next begins
   History history;
   bool hard_constraints = false;
-  double direction_blend = 1;    // of this step
-  Points start_x, directions_x;  // m, x_l and where J is taken; empty if that is x
+  double direction_blend = 1;  // of this step
+  Points start_x, start_v;     // m, m/s, of all columns, where the step begins
+  Points directions_x;         // m, where J is taken; empty if that is x
+  std::vector<Pose> direction_poses;
+  double x_time = 0;  // s, of x
+  State ended;        // where the last step ended, kept where there are rigid bodies
   Points acceleration, zero, v, x, rebuilt, previous;
   double change = 0, last_change = 0;  // |v_k - v_k-1|_M, and the one before
   std::vector<double> seconds;         // per block, of the current outer iteration's first sweep
@@ -63,7 +71,8 @@ struct StepData {
   Points gradient, last_gradient, direction, search_from;
 
   double contraction = std::nan("");  // of plain, at the end of the last step
-  int slow_changes = 0;               // of v in this step, in a row
+  std::optional<Configuration> directions;
+  int slow_changes = 0;  // of v in this step, in a row
   static constexpr int most_krylov = 12;
   std::vector<Points> krylov;  // orthonormal in M; the first one is what plain reduces least, if known
   bool mode_known = false;
@@ -76,7 +85,7 @@ struct StepData {
   void begin(const Scene& scene, const Method& method, double h, const State& state);
 
   /// Carries the solved map on to the step's end.
-  void end(double h, State& state) const;
+  void end(double h, State& state);
 
   /// |a - b|_M and |velocity|_M over the nodes that can move, sqrt(J).
   double distance(const Points& a, const Points& b) const;
@@ -140,8 +149,11 @@ struct StepData {
 
  private:
   void make_map(const Scene& scene, const Method& method, double h, const State& state);
-  void begin_damping(const Scene& scene, const State& state);
-  const Points* directions_for(const Points& at);
+  bool goes_on(const State& state) const;
+  void begin_damping(const Scene& scene, double time);
+  const Configuration* directions_for(const Points& at);
+  Configuration placed(const Points& at, std::vector<Pose>& storage, double time);
+  void add_gyroscopic(Points& velocity) const;
   void find_free_components();
   void factor_metric(const Scene& scene, Shape shape);
   bool start_low(const Scene& scene);

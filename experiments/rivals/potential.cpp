@@ -56,6 +56,9 @@ struct Builder {
 
   void operator()(const Gravity&) const {}
   void operator()(const ExternalForce&) const {}
+  /// Effects of rigid bodies, which no scene has here.
+  template <class BodyEffect>
+  void operator()(const BodyEffect&) const {}
   void operator()(const Anchor& e) const {
     for (std::size_t i = 0; i < e.node.size(); ++i)
       group<AnchorElement>().add({e.node[i]}, {e.target[i], constant(e, i)});
@@ -112,6 +115,8 @@ Points acceleration(const Scene& scene) {
 }
 
 Potential::Potential(const Scene& scene, const std::vector<int>& block) : block_(block) {
+  if (!scene.bodies.empty())
+    throw SetupError("newton", std::to_string(scene.bodies.size()) + " rigid bodies", "nodes only");
   for (const Effect& effect : scene.effects) {
     if (damped(effect)) throw SetupError("newton", "an effect with damping", "elastic effects");
     std::visit(Builder<decltype(groups_)>{groups_}, effect);

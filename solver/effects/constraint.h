@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 
+#include "bodies.h"
 #include "scene.h"
 
 namespace pbd {
@@ -32,6 +33,18 @@ struct ConstraintShape {
   using NodeBounds = Eigen::Matrix<double, 1, K>;  // of the geometric stiffness, one a node
 };
 
+/// A constraint of B rigid bodies and P nodes: two nodes a body, its centre of mass and its rotation, then
+/// the other nodes. Its Jacobian has for a body the columns dc/dx and dc/dphi R/r (bodies.h).
+template <int R, int B, int P = 0>
+struct BodyConstraintShape : ConstraintShape<R, 2 * B + P> {
+  static constexpr int bodies = B;
+  struct Positions {
+    std::array<const Pose*, static_cast<std::size_t>(B)> body;
+    Eigen::Matrix<double, 3, P> node;
+    double time;  // s
+  };
+};
+
 /// Row sums of |Y P Y^T|, P the positive part of the symmetric matrix `stress`: where a constraint's value is
 /// F^T F contracted with -stress, F = X Y, this is its geometric bound.
 template <class Gradients, class Square>
@@ -48,6 +61,11 @@ template <class Effect>
 struct Constraint;
 
 template <class Effect>
+concept BodyEffect = requires {
+  Constraint<Effect>::bodies;
+};
+
+template <class Effect>
 concept RowEffect = requires(const Effect& effect, std::size_t i,
                              const typename Constraint<Effect>::Positions& x,
                              typename Constraint<Effect>::Value& value,
@@ -55,20 +73,31 @@ concept RowEffect = requires(const Effect& effect, std::size_t i,
   {
     Constraint<Effect>::geometric_bound(effect, i, x, value)
     } -> std::same_as<typename Constraint<Effect>::NodeBounds>;
-  { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
+  requires BodyEffect<Effect> || requires {
+    { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
+  };
   { Constraint<Effect>::compliance(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   { Constraint<Effect>::retardation(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   Constraint<Effect>::evaluate(effect, i, x, value, jacobian);
 };
 
-/// Specialised by each effect that is a given force: adds the accelerations (m/s^2) of nodes with finite
+/// Where a step begins.
+struct StepBegin {
+  const Bodies& bodies;
+  const std::vector<Pose>& pose;
+  const Points& v;       // of all columns
+  bool explicit_forces;  // of the integrator
+};
+
+/// Specialised by each effect that is a given force: adds the accelerations (m/s^2) of columns with finite
 /// mass.
 template <class Effect>
 struct Force;
 
 template <class Effect>
-concept ForceEffect = requires(const Effect& effect, const Scene& scene, Points& acceleration) {
-  Force<Effect>::add(effect, scene, acceleration);
+concept ForceEffect = requires(const Effect& effect, const Scene& scene, const StepBegin& begin,
+                               Points& acceleration) {
+  Force<Effect>::add(effect, scene, begin, acceleration);
 };
 
 }  // namespace pbd

@@ -7,7 +7,10 @@
 #include "effects/constraint.h"
 #include "effects/distance.h"
 #include "effects/external_force.h"
+#include "effects/external_torque.h"
 #include "effects/gravity.h"
+#include "effects/gyroscopic.h"
+#include "effects/joints.h"
 #include "effects/tet_strain.h"
 #include "effects/triangle_strain.h"
 

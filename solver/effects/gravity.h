@@ -9,7 +9,7 @@ namespace pbd {
 
 template <>
 struct Force<Gravity> {
-  static void add(const Gravity& effect, const Scene& scene, Points& acceleration) {
+  static void add(const Gravity& effect, const Scene& scene, const StepBegin&, Points& acceleration) {
     for (int node = 0; node < scene.nodes(); ++node)
       if (std::isfinite(scene.mass[static_cast<std::size_t>(node)]))
         acceleration.col(node) += effect.acceleration;

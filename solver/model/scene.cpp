@@ -24,4 +24,14 @@ int add_node(Scene& scene, const Vec3& position, double mass, const Vec3& veloci
   return index;
 }
 
+int add_body(Scene& scene, const Vec3& position, double mass, const Vec3& inertia,
+             const Eigen::Quaterniond& orientation, const Vec3& velocity, const Vec3& spin) {
+  scene.bodies.push_back({add_node(scene, position, mass, velocity), inertia});
+  scene.initial.orientation.push_back(orientation);
+  const auto count = static_cast<Eigen::Index>(scene.bodies.size());
+  scene.initial.spin.conservativeResize(3, count);
+  scene.initial.spin.col(count - 1) = spin;
+  return static_cast<int>(count) - 1;
+}
+
 }  // namespace pbd

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 #include <optional>
@@ -24,11 +25,23 @@ using Points = Eigen::Matrix3Xd;  // one column a node
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Positions x (m) and velocities v (m/s) of all nodes, 3 x N each, at `time` (s).
+/// Positions x (m) and velocities v (m/s) of all nodes, 3 x N each, at `time` (s). Of each rigid body the
+/// orientation, which takes its frame to the world's, and the angular velocity in its own frame (3 x B,
+/// rad/s).
 struct State {
   double time = 0;
   Points x;
   Points v;
+  std::vector<Eigen::Quaterniond> orientation{};
+  Points spin = Points(3, 0);
+};
+
+/// A rigid body. Its centre of mass is a node of the scene, whose mass is the body's; its frame has its
+/// origin there and its axes along the principal axes of inertia. `inertia` holds the principal moments
+/// (kg m^2); infinite ones keep the angular velocity as it is.
+struct RigidBody {
+  int node = 0;
+  Vec3 inertia = Vec3::Ones();
 };
 
 /// Linear elastic constants: Young's modulus (Pa) and Poisson's ratio (-1 < poisson < 1/2).
@@ -112,7 +125,126 @@ struct TetStrain {
   std::optional<Material> damping{};
 };
 
-using Effect = std::variant<Gravity, ExternalForce, Anchor, Distance, Bending, TriangleStrain, TetStrain>;
+/// Constant torques on rigid bodies, N m in the world's axes, as they are where a step begins.
+struct ExternalTorque {
+  static constexpr std::string_view name = "external_torque";
+  std::vector<int> body;
+  std::vector<Vec3> torque;
+};
+
+/// The torque -w x I w that turns a rigid body's angular velocity w; without it, w stays as it is in the
+/// body's frame. Explicit: as it is where a step begins. Implicit: where its forces act, as those of
+/// constraints do.
+struct Gyroscopic {
+  static constexpr std::string_view name = "gyroscopic";
+  bool implicit = true;
+};
+
+// Joints of two rigid bodies a, b: points p (m) and unit axes u are given in the bodies' frames, y = x + R p
+// and R u are theirs in the world. Each removes what its value states; a hinge is a point_joint and an
+// axis_joint, a slider a line_joint and a rotation_joint, a universal joint a point_joint and a
+// perpendicular_joint, a weld a point_joint and a rotation_joint. A body of infinite mass and inertia stands
+// for the world.
+
+/// c = y_b - y_a (3 rows, m). Compliance in m/N.
+struct PointJoint {
+  static constexpr std::string_view name = "point_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> point;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = t . R_b u_b for two unit vectors t of body a, at right angles to u_a and each other (2 rows, rad where
+/// small): the axes are parallel. Compliance in rad/(N m).
+struct AxisJoint {
+  static constexpr std::string_view name = "axis_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> axis;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = R_a u_a . R_b u_b (1 row, rad where small): the axes are at right angles.
+struct PerpendicularJoint {
+  static constexpr std::string_view name = "perpendicular_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> axis;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = 2 vec(r^-1 q_a^-1 q_b), its scalar part not negative (3 rows, rad where small): the orientation of b
+/// in a's frame is r.
+struct RotationJoint {
+  static constexpr std::string_view name = "rotation_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<Eigen::Quaterniond> rest;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = t . (y_b - y_a) for two unit vectors t of body a, at right angles to the axis u_a and each other (2
+/// rows, m): y_b stays on the line through y_a along u_a.
+struct LineJoint {
+  static constexpr std::string_view name = "line_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> point;
+  std::vector<Vec3> axis;  // u_a
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = |y_b - y_a| - rest_length (1 row, m).
+struct BodyDistance {
+  static constexpr std::string_view name = "body_distance";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> point;
+  std::vector<double> rest_length;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = angle - (rest_angle + rate t) modulo 2 pi in (-pi, pi] (1 row, rad): the angle that body b is turned
+/// by about a's axis u_a, from the reference direction of a to that of b, both at right angles to the axis.
+/// With compliance a spring; a rate (rad/s) makes it a motor.
+struct AngleJoint {
+  static constexpr std::string_view name = "angle_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<Vec3> axis;                      // u_a
+  std::vector<std::array<Vec3, 2>> reference;  // unit vectors
+  std::vector<double> rest_angle;
+  std::vector<double> rate;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = R_a u_a . (y_b - y_a) - (rest_position + rate t) (1 row, m). With compliance a spring; a rate (m/s)
+/// makes it a motor.
+struct SlideJoint {
+  static constexpr std::string_view name = "slide_joint";
+  std::vector<std::array<int, 2>> body;
+  std::vector<std::array<Vec3, 2>> point;
+  std::vector<Vec3> axis;  // u_a
+  std::vector<double> rest_position;
+  std::vector<double> rate;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+/// c = x_node - y (3 rows, m): a node held by a point of a rigid body.
+struct Attachment {
+  static constexpr std::string_view name = "attachment";
+  std::vector<int> body;
+  std::vector<int> node;
+  std::vector<Vec3> point;
+  std::vector<double> compliance;
+  std::vector<double> damping{};
+};
+
+using Effect = std::variant<Gravity, ExternalForce, Anchor, Distance, Bending, TriangleStrain, TetStrain,
+                            ExternalTorque, Gyroscopic, PointJoint, AxisJoint, PerpendicularJoint,
+                            RotationJoint, LineJoint, BodyDistance, AngleJoint, SlideJoint, Attachment>;
 
 /// `mass` in kg, one per node; infinite mass keeps the node's velocity as it is.
 /// The order of `effects` is the order of Gauss-Seidel.
@@ -120,12 +252,19 @@ struct Scene {
   std::vector<double> mass;
   State initial;
   std::vector<Effect> effects;
+  std::vector<RigidBody> bodies{};
 
   int nodes() const { return static_cast<int>(mass.size()); }
 };
 
 /// True if the effect lists damping.
 bool damped(const Effect& effect);
+
+/// Adds a rigid body and its node, and returns the body's index. Position of the centre of mass in m, angular
+/// velocity in the body's frame, rad/s.
+int add_body(Scene& scene, const Vec3& position, double mass, const Vec3& inertia,
+             const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity(),
+             const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero());
 
 /// Adds a node and returns its index. Position m, mass kg, velocity m/s.
 int add_node(Scene& scene, const Vec3& position, double mass, const Vec3& velocity = Vec3::Zero());

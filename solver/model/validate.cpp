@@ -105,6 +105,121 @@ struct EffectCheck {
             "damping of a finite young");
   }
 
+  void body_index(int body, const std::string& where) const {
+    const auto count = static_cast<int>(scene.bodies.size());
+    require(body >= 0 && body<count, where, text(body), count> 0
+                ? "a rigid body's index from 0 to " + text(count - 1)
+                : "no body: the scene has none");
+  }
+
+  /// Two bodies each, and one entry a joint of everything else.
+  template <class Joint>
+  void joint(const Joint& effect) const {
+    const std::size_t count = effect.body.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const int body : effect.body[i]) body_index(body, at(i, "body"));
+      require(effect.body[i][0] != effect.body[i][1], at(i, "body"), text(effect.body[i][0]) + " twice",
+              "two different bodies");
+    }
+    same_size(count, effect.compliance, "compliance");
+    not_negative(effect.compliance, "compliance");
+    retardation_times(count, effect.damping);
+    if constexpr (requires { effect.point; }) {
+      same_size(count, effect.point, "point");
+      for (std::size_t i = 0; i < count; ++i)
+        for (const Vec3& point : effect.point[i])
+          require(point.allFinite(), at(i, "point"), text(point), "finite numbers");
+    }
+    if constexpr (requires { effect.axis; }) {
+      same_size(count, effect.axis, "axis");
+      for (std::size_t i = 0; i < count; ++i) unit(effect.axis[i], at(i, "axis"));
+    }
+  }
+
+  void unit(const Vec3& vector, const std::string& where) const {
+    constexpr double slack = 1e-9;
+    require(std::abs(vector.norm() - 1) <= slack, where, text(vector), "a vector of length 1");
+  }
+  void unit(const std::array<Vec3, 2>& pair, const std::string& where) const {
+    for (const Vec3& vector : pair) unit(vector, where);
+  }
+
+  void operator()(const ExternalTorque& effect) const {
+    same_size(effect.body.size(), effect.torque, "torque");
+    for (std::size_t i = 0; i < effect.body.size(); ++i) body_index(effect.body[i], at(i, "body"));
+    finite(effect.torque, "torque");
+  }
+
+  void operator()(const Gyroscopic&) const {
+    int count = 0;
+    for (const Effect& effect : scene.effects) count += std::holds_alternative<Gyroscopic>(effect);
+    require(count == 1, name, text(count) + " of them", "one in a scene");
+  }
+
+  void operator()(const PointJoint& effect) const { joint(effect); }
+  void operator()(const AxisJoint& effect) const { joint(effect); }
+  void operator()(const PerpendicularJoint& effect) const { joint(effect); }
+  void operator()(const LineJoint& effect) const { joint(effect); }
+
+  void operator()(const RotationJoint& effect) const {
+    joint(effect);
+    same_size(effect.body.size(), effect.rest, "rest");
+    for (std::size_t i = 0; i < effect.rest.size(); ++i) quaternion(effect.rest[i], at(i, "rest"));
+  }
+
+  void operator()(const BodyDistance& effect) const {
+    joint(effect);
+    same_size(effect.body.size(), effect.rest_length, "rest_length");
+    not_negative(effect.rest_length, "rest_length");
+    for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
+      require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
+              "0 and compliance 0", "a rest length > 0 for a link without compliance, or a point_joint");
+  }
+
+  void operator()(const AngleJoint& effect) const {
+    joint(effect);
+    same_size(effect.body.size(), effect.reference, "reference");
+    same_size(effect.body.size(), effect.rest_angle, "rest_angle");
+    same_size(effect.body.size(), effect.rate, "rate");
+    finite(effect.rest_angle, "rest_angle");
+    finite(effect.rate, "rate");
+    for (std::size_t i = 0; i < effect.reference.size(); ++i) {
+      unit(effect.reference[i], at(i, "reference"));
+      constexpr double slack = 1e-9;
+      require(std::abs(effect.reference[i][0].dot(effect.axis[i])) <= slack, at(i, "reference"),
+              text(effect.reference[i][0]), "a direction at right angles to the axis");
+    }
+  }
+
+  void operator()(const SlideJoint& effect) const {
+    joint(effect);
+    same_size(effect.body.size(), effect.rest_position, "rest_position");
+    same_size(effect.body.size(), effect.rate, "rate");
+    finite(effect.rest_position, "rest_position");
+    finite(effect.rate, "rate");
+  }
+
+  void operator()(const Attachment& effect) const {
+    const std::size_t count = effect.body.size();
+    same_size(count, effect.node, "node");
+    same_size(count, effect.point, "point");
+    same_size(count, effect.compliance, "compliance");
+    node_indices(effect.node);
+    for (std::size_t i = 0; i < count; ++i) {
+      body_index(effect.body[i], at(i, "body"));
+      require(effect.node[i] != scene.bodies[static_cast<std::size_t>(effect.body[i])].node, at(i, "node"),
+              text(effect.node[i]) + ", the body's own", "another node than the body's centre of mass");
+    }
+    finite(effect.point, "point");
+    not_negative(effect.compliance, "compliance");
+    retardation_times(count, effect.damping);
+  }
+
+  static void quaternion(const Eigen::Quaterniond& q, const std::string& where) {
+    constexpr double slack = 1e-9;
+    require(std::abs(q.norm() - 1) <= slack, where, "a quaternion of norm " + text(q.norm()), "norm 1");
+  }
+
   void operator()(const Gravity& effect) const {
     require(effect.acceleration.allFinite(), name + " acceleration", text(effect.acceleration),
             "finite numbers");
@@ -185,6 +300,33 @@ void require_proper(const Eigen::Matrix3d& rest, const std::string& where) {
           "a positive area");
 }
 
+/// The bodies, before any effect refers to them.
+static void validate_bodies(const Scene& scene) {
+  const std::size_t count = scene.bodies.size();
+  require(scene.initial.orientation.size() == count, "initial orientation",
+          text(scene.initial.orientation.size()) + " entries", "one per rigid body, " + text(count));
+  require(scene.initial.spin.cols() == static_cast<Eigen::Index>(count), "initial spin",
+          text(scene.initial.spin.cols()) + " columns", "one per rigid body, " + text(count));
+  std::vector<bool> taken(scene.mass.size(), false);
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& [node, inertia] = scene.bodies[b];
+    const auto where = [&](const char* field) { return "bodies[" + text(b) + "] " + field; };
+    require(node >= 0 && node < scene.nodes() && !taken[static_cast<std::size_t>(node)], where("node"),
+            text(node), "a node's index, a different one for each body");
+    taken[static_cast<std::size_t>(node)] = true;
+    const bool turns = inertia.allFinite() && inertia.minCoeff() > 0;
+    const bool kept = inertia.minCoeff() == infinity;
+    require(turns || kept, where("inertia"), text(inertia),
+            "three principal moments > 0, kg m^2 (all inf for a body that keeps its angular velocity)");
+    constexpr double slack = 1e-9;  // of the largest
+    require(kept || 2 * inertia.maxCoeff() <= (1 + slack) * inertia.sum(), where("inertia"), text(inertia),
+            "no moment larger than the sum of the other two: no mass has such");
+    EffectCheck::quaternion(scene.initial.orientation[b], where("orientation"));
+    const Vec3 spin = scene.initial.spin.col(static_cast<Eigen::Index>(b));
+    require(spin.allFinite(), where("spin"), text(spin), "finite numbers");
+  }
+}
+
 void validate(const Scene& scene) {
   const auto size_of = [](const Points& points) { return text(points.cols()) + " columns"; };
   const auto one_per_node = "one column per node, " + text(scene.nodes());
@@ -199,6 +341,7 @@ void validate(const Scene& scene) {
     require(scene.initial.v.col(node).allFinite(), where("velocity"), text(Vec3(scene.initial.v.col(node))),
             "finite numbers");
   }
+  validate_bodies(scene);
   for (std::size_t i = 0; i < scene.effects.size(); ++i)
     std::visit(
         [&](const auto& effect) {

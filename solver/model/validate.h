@@ -9,7 +9,8 @@ namespace pbd {
 
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
 /// out of range or repeated, masses <= 0 or NaN, compliances and damping times < 0, non-finite numbers,
-/// degenerate or inverted rest elements, elastic constants out of range, links of rest length 0 without
+/// degenerate or inverted rest elements, elastic constants out of range, principal moments of inertia that no
+/// body has, axes that are not of length 1, links of rest length 0 without
 /// compliance (their direction is undefined), anchors on nodes of infinite mass (nothing moves these).
 void validate(const Scene& scene);
 

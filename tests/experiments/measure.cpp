@@ -60,10 +60,10 @@ TEST_CASE("energies and constraint errors are those of the formulas") {
   CHECK(kinetic_energy(scene, scene.initial) == Approx(mass * 9 / 2));
   CHECK(elastic_energy(scene, scene.initial) == Approx(stiffness * stretch * stretch / 2));
   CHECK(gravity_energy(scene, scene.initial) == 0);
-  CHECK(constraint_error(scene.effects[0], scene.initial) == 0);  // a spring is no constraint
+  CHECK(constraint_error(scene, scene.effects[0], scene.initial) == 0);  // a spring is no constraint
   scene.effects.push_back(pbd::Gravity{{-4, 0, 0}});
   CHECK(gravity_energy(scene, scene.initial) == Approx(mass * 4 * (1 + stretch)));
   std::get<pbd::Distance>(scene.effects[0]).compliance[0] = 0;
   CHECK(elastic_energy(scene, scene.initial) == 0);
-  CHECK(constraint_error(scene.effects[0], scene.initial) == Approx(stretch));
+  CHECK(constraint_error(scene, scene.effects[0], scene.initial) == Approx(stretch));
 }

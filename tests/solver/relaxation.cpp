@@ -24,8 +24,8 @@ struct Planted {
     StepMap map{scene.initial.x, scene.initial.v, h, h};
     v_free = Points::Zero(3, scene.nodes());
     for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-      linearise(scene.effects[effect_of_block[b]], map, scene.initial.x, scene.initial.v, rows.inverse_mass,
-                1, rows.blocks[b]);
+      linearise(scene.effects[effect_of_block[b]], map, {scene.initial.x, {}, 0}, scene.initial.v,
+                rows.inverse_mass, 1, rows.blocks[b]);
     for_each_block(rows.blocks, [](auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i)
         for (int r = 0; r < block.rows; ++r)

@@ -1,0 +1,133 @@
+#include "bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+namespace pbd {
+namespace {
+
+Eigen::Matrix3d cross(const Vec3& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+Eigen::Quaterniond rotation_by(const Vec3& angle) {
+  const double half = angle.norm() / 2;
+  constexpr double small = 1e-4;  // sin(half)/half = 1 - half^2/6 up to half^4/120
+  const double ratio = half > small ? std::sin(half) / half : 1 - half * half / 6;
+  const Vec3 vector = ratio / 2 * angle;
+  return {std::cos(half), vector.x(), vector.y(), vector.z()};
+}
+
+Bodies::Bodies(const Scene& scene) : nodes_(scene.nodes()) {
+  for (const RigidBody& body : scene.bodies) {
+    const double mass = scene.mass[static_cast<std::size_t>(body.node)];
+    const bool turns = std::isfinite(body.inertia[0]);
+    const double own = std::isfinite(mass) ? mass : 1;
+    node_.push_back(body.node);
+    radius_.push_back(turns ? Vec3((body.inertia / own).cwiseSqrt()) : Vec3(Vec3::Ones()));
+    inverse_mass_.push_back(turns ? 1 / own : 0);
+  }
+  start_ = scene.initial.orientation;
+}
+
+std::vector<double> Bodies::inverse_masses(const Scene& scene) const {
+  std::vector<double> inverse;
+  for (const double mass : scene.mass) inverse.push_back(std::isfinite(mass) ? 1 / mass : 0.0);
+  inverse.insert(inverse.end(), inverse_mass_.begin(), inverse_mass_.end());
+  return inverse;
+}
+
+void Bodies::begin(const State& state, Points& x, Points& v) {
+  if (count() == 0) {
+    x = state.x;
+    v = state.v;
+    return;
+  }
+  x.setZero(3, columns());
+  v.resize(3, columns());
+  x.leftCols(nodes_) = state.x;
+  v.leftCols(nodes_) = state.v;
+  for (int b = 0; b < count(); ++b) v.col(column(b)) = radius_[b].cwiseProduct(state.spin.col(b));
+  start_ = state.orientation;
+}
+
+void Bodies::end(const Points& x, const Points& v, State& state) const {
+  state.x = x.leftCols(nodes_);
+  state.v = v.leftCols(nodes_);
+  for (int b = 0; b < count(); ++b) {
+    state.orientation[b] = (start_[b] * rotation_by(x.col(column(b)).cwiseQuotient(radius_[b]))).normalized();
+    state.spin.col(b) = v.col(column(b)).cwiseQuotient(radius_[b]);
+  }
+}
+
+void Bodies::place(const Points& x, std::vector<Pose>& poses) const {
+  poses.resize(radius_.size());
+  for (int b = 0; b < count(); ++b) {
+    Pose& pose = poses[b];
+    pose.x = x.col(node_[b]);
+    pose.rotation =
+        (start_[b] * rotation_by(x.col(column(b)).cwiseQuotient(radius_[b]))).normalized().toRotationMatrix();
+    pose.turning = pose.rotation * radius_[b].cwiseInverse().asDiagonal();
+  }
+}
+
+double Bodies::largest_radius() const {
+  double largest = 0;
+  for (const Vec3& radius : radius_) largest = std::max(largest, radius.maxCoeff());
+  return largest;
+}
+
+Vec3 Bodies::acceleration(int body, const Vec3& torque, const Pose& pose) const {
+  return inverse_mass_[body] * (pose.turning.transpose() * torque);
+}
+
+// I = m r^2, so that -I^-1 (w x I w) r = -(w x (r eta)) / r.
+Vec3 Bodies::gyroscopic(int body, const Vec3& eta) const {
+  const Vec3& r = radius_[body];
+  if (inverse_mass_[body] == 0) return Vec3::Zero();
+  return -eta.cwiseQuotient(r).cross(r.cwiseProduct(eta)).cwiseQuotient(r);
+}
+
+Eigen::Matrix3d Bodies::gyroscopic_gradient(int body, const Vec3& eta) const {
+  const Vec3& r = radius_[body];
+  if (inverse_mass_[body] == 0) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d by_w = cross(r.cwiseProduct(eta)) * r.cwiseInverse().asDiagonal();
+  const Eigen::Matrix3d by_momentum = cross(eta.cwiseQuotient(r)) * r.asDiagonal();
+  return r.cwiseInverse().asDiagonal() * (by_w - by_momentum);
+}
+
+Vec3 Bodies::with_gyroscopic(int body, const Vec3& free, double s) const {
+  constexpr int most = 30;
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  Vec3 eta = free;
+  double last = 0;
+  for (int k = 0; k < most; ++k) {
+    const Vec3 missing = free + s * gyroscopic(body, eta) - eta;
+    const double left = missing.norm();
+    if (left <= rounding * eta.norm() || (k > 3 && !(left < last))) break;
+    last = left;
+    eta += (Eigen::Matrix3d::Identity() - s * gyroscopic_gradient(body, eta)).inverse() * missing;
+  }
+  return eta.allFinite() ? eta : free;
+}
+
+double Bodies::contraction(const Points& v, double d, double s, bool implicit_gyroscopic) const {
+  double bound = 0;
+  for (int b = 0; b < count(); ++b) {
+    if (inverse_mass_[b] == 0) continue;
+    const Vec3 eta = v.col(column(b));
+    double own = d / 2 * eta.cwiseQuotient(radius_[b]).norm();
+    if (implicit_gyroscopic) own += s * gyroscopic_gradient(b, eta).norm();
+    bound = std::max(bound, own);
+  }
+  return bound;
+}
+
+}  // namespace pbd

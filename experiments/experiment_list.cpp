@@ -26,6 +26,8 @@ const std::vector<Experiment>& experiments() {
       {"mesh_refinement",
        "Is the finite element constraint more accurate than a mass-spring network on the same mesh?",
        mesh_refinement},
+      {"time_order", "At which order does each integrator approach the motion in continuous time?",
+       time_order},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},

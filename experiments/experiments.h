@@ -14,6 +14,7 @@ void conditioning(Context& context);
 void inexact(Context& context);
 void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
+void time_order(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);

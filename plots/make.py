@@ -17,6 +17,7 @@ import outer_convergence  # noqa: F401
 import point_hard_cases  # noqa: F401
 import rival_newton  # noqa: F401
 import stability_map  # noqa: F401
+import time_order  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
 from common import FIGURES, KINDS, literal, save

@@ -179,6 +179,11 @@ def failed(frame, *columns):
     return frame.drop(good(frame, *columns).index)
 
 
+def rule_names(frame):
+    """The integrator of each row, with newmark's alpha."""
+    return frame["integrator"].where(frame["alpha"].isna(), frame["integrator"] + frame["alpha"].map(" {:g}".format))
+
+
 def stiffens(frame):
     """The rows whose rate the stiffening part of the geometric stiffness decides, also where both parts are as large."""
     return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]

@@ -3,7 +3,6 @@
 None of the numbers means anything.
 """
 
-import csv
 import json
 from pathlib import Path
 
@@ -11,18 +10,11 @@ import numpy as np
 
 from command import command
 from reading import InputError
+from sample_time import time_order
+from sample_write import write
 
 RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
 RATES = {"gauss_seidel": 0.95, "jacobi": 0.985, "nesterov_jacobi": 0.9, "direct": 1e-6}
-
-
-def write(directory, experiment, table, columns, rows):
-    path = Path(directory) / experiment / f"{table}.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns.split())
-        writer.writerows([repr(float(c)) if isinstance(c, float) else c for c in row] for row in rows)
 
 
 def outer_convergence(directory):
@@ -296,7 +288,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
+                       mesh_refinement, time_order, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

@@ -27,6 +27,9 @@ TABLES = {
     ("mesh_refinement", "beam"): "model n elements h_m quantity value reference_mesh reference_beam error_mesh "
                                  "error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
+    ("time_order", "errors"): "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason",
+    ("time_order", "orders"): "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status "
+                              "reason",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",

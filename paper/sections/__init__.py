@@ -9,12 +9,13 @@ from sections.cost import effects_cost, rival_newton, work_precision
 from sections.outer import contraction, outer_convergence, stability_map
 from sections.relaxations import conditioning, inexact, inner_convergence
 from sections.robustness import generated_scenes, point_hard_cases
+from sections.time import time_order
 
 NO_TABLE = "The run left no table."
 
 SECTIONS = {function.__name__: function for function in (
     judges, outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-    mesh_refinement, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes)}
+    mesh_refinement, time_order, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes)}
 
 
 def section_of(results, experiment):

@@ -28,6 +28,7 @@ const std::vector<Experiment>& experiments() {
        mesh_refinement},
       {"time_order", "At which order does each integrator approach the motion in continuous time?",
        time_order},
+      {"energy", "What do the integrators do to energy and momentum, and where do they blow up?", energy},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},

@@ -15,6 +15,7 @@ void inexact(Context& context);
 void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
 void time_order(Context& context);
+void energy(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);

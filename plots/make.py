@@ -8,6 +8,7 @@ import conditioning  # noqa: F401  (each of these registers its figures)
 import contraction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
+import energy  # noqa: F401
 import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401

@@ -10,7 +10,7 @@ import numpy as np
 
 from command import command
 from reading import InputError
-from sample_time import time_order
+from sample_time import energy, time_order
 from sample_write import write
 
 RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
@@ -288,7 +288,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, time_order, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
+                       mesh_refinement, time_order, energy, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

@@ -30,6 +30,14 @@ TABLES = {
     ("time_order", "errors"): "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason",
     ("time_order", "orders"): "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status "
                               "reason",
+    ("energy", "series"): "scene integrator alpha outer relaxation step_s time_s energy_j scale_j momentum_kg_m_s "
+                          "angular_momentum_kg_m2_s status reason",
+    ("energy", "drift"): "scene integrator alpha outer relaxation step_s drift ratio status reason",
+    ("energy", "momentum"): "scene integrator alpha outer relaxation max_outer step_s steps steps_ok linear_error angular_error "
+                            "angular_unexplained status reason",
+    ("energy", "map"): "scene integrator alpha outer relaxation compliance_m_per_n step_s predicted_growth energy_factor status "
+                       "reason",
+    ("energy", "frontier"): "scene compliance_m_per_n step_s predicted_alpha safe_alpha",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
@@ -49,6 +57,7 @@ TABLES = {
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",
     ("inner_convergence", "errors"): "scene relaxation",
+    ("energy", "series"): "scene integrator alpha step_s",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("point_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",

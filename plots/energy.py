@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from common import BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style
 from reading import LARGEST, failed, good, reasons_note, rule_names, step_text, text_number
 
 RUN = ["scene", "step_s", "rule"]
@@ -45,8 +45,8 @@ def series(frame):
         low, high = lowest - margin, highest + 2 * margin
         for name, rows in here.groupby("rule", sort=False):
             trace(ax, rows, changes[name], name, low, high)
-        ax.set(title=f"{scene}, {step_text(here['step_s'].iloc[0])}", ylim=(low, high))
-    fig.supxlabel("time (s)", fontsize=8)
+        ax.set(title=scene, ylim=(low, high))
+    fig.supxlabel(f"time (s), in steps of {step_text(frame['step_s'].max())}", fontsize=8)
     fig.supylabel("change of the energy, of its scale", fontsize=8)
     shared_legend(fig, axes, columns=5)
     footnote(fig, reasons_note(failed(last_rows(frame), "time_s")))
@@ -63,7 +63,7 @@ def free_momentum(frame):
     _, here = free[0]
     for ax, column, title in ((axes[0], "momentum_kg_m_s", "linear"), (axes[1], "angular_momentum_kg_m2_s", "angular")):
         for name, rows in here.groupby("rule", sort=False):
-            trace(ax, rows, (rows[column] / rows[column].iloc[0] - 1).to_numpy(), name, *((-1, 1)))
+            trace(ax, rows, (rows[column] / rows[column].iloc[0] - 1).to_numpy(), name, -1, 1)
         ax.set(xlabel="time (s)", title=f"{title} momentum, {free[0][0]}")
     axes[0].set_ylabel("relative change")
     shared_legend(fig, axes, columns=5)
@@ -82,8 +82,8 @@ def drift(frame):
         draw_failed(ax, failed(rows, "step_s", "drift"), "step_s", "drift", look)
     ok = good(frame, "step_s", "drift")
     if len(ok):
-        steps = np.array([ok["step_s"].min(), ok["step_s"].max()])
-        ax.plot(steps, 0.5 * ok["drift"].min() * (steps / steps[0]) ** 2, color=BLACK, linewidth=0.8, label="order 2")
+        lowest = ok.loc[ok["drift"].idxmin()]
+        slope_triangle(ax, 1.6 * lowest["step_s"], 0.8 * lowest["drift"], 2, BLACK)
     ax.set(xscale="log", yscale="log", xlabel="step (s)", ylabel="largest change of the energy in 10 s,\nof its scale")
     shared_legend(fig, [ax], columns=2)
     footnote(fig, reasons_note(failed(frame, "drift")))
@@ -155,6 +155,9 @@ def frontier(frame):
         rows = frame[frame["compliance_m_per_n"] == value].sort_values("step_s")
         ax.plot(rows["step_s"], rows["predicted_alpha"], color=color, linewidth=0.9)
         ax.plot(rows["step_s"], rows["safe_alpha"], marker, color=color, markerfacecolor="none", label=compliance_text(value))
-    ax.set(xscale="log", xlabel="step (s)", ylabel="smallest safe alpha")
+    ax.set(xscale="log", xlabel="step", ylabel="smallest safe alpha")
+    steps = sorted(frame["step_s"].unique())
+    ax.set_xticks(steps, [step_text(step) for step in steps])
+    ax.minorticks_off()
     fig.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4, title="compliance (m/N); line: predicted")
     return fig

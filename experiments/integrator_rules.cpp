@@ -41,7 +41,8 @@ std::vector<Rule> integrator_rules(const std::vector<double>& alphas) {
   return all;
 }
 
-Simulation simulate_steps(const Scene& scene, const Method& method, double h, int steps, const AfterStep& after_step) {
+Simulation simulate_steps(const Scene& scene, const Method& method, double h, int steps,
+                          const AfterStep& after_step) {
   Simulation found;
   found.end = scene.initial;
   Workspace workspace(scene, method);

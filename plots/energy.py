@@ -3,7 +3,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style
+from common import (BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle,
+                    style)
 from reading import LARGEST, failed, good, reasons_note, rule_names, step_text, text_number
 
 RUN = ["scene", "step_s", "rule"]
@@ -78,7 +79,7 @@ def drift(frame):
     for (scene, name), rows in frame.assign(rule=rule_names(frame)).groupby(["scene", "rule"], sort=False):
         look = style(name) | {"marker": "o" if scene == frame["scene"].iloc[0] else "s"}
         shown = good(rows, "step_s", "drift").sort_values("step_s")
-        ax.plot(shown["step_s"], on_log(shown["drift"]), label=f"{scene}, {name}", markerfacecolor="white", **look)
+        ax.plot(shown["step_s"], on_log(shown["drift"]), label=f"{scene.replace('_', ' ')}, {name}", markerfacecolor="white", **look)
         draw_failed(ax, failed(rows, "step_s", "drift"), "step_s", "drift", look)
     ok = good(frame, "step_s", "drift")
     if len(ok):
@@ -97,8 +98,10 @@ def momentum(frame):
     rules = list(named["rule"].unique())[::-1]
     bodies = list(named.groupby("scene", sort=False))
     fig, axes = panels(len(bodies), columns=2, height=2.0, sharex=True, sharey=True)
-    kinds = (("linear, solved or not", "linear_error", None, BLUE, "o"), ("angular, stopped early", "angular_error", False, ORANGE, "s"),
-             ("angular, solved", "angular_error", True, RED, "D"), ("the part of it that is not derived", "angular_unexplained", True, GREEN, "^"))
+    kinds = (("linear, solved or not", "linear_error", None, BLUE, "o"),
+             ("angular, stopped early", "angular_error", False, ORANGE, "s"),
+             ("angular, solved", "angular_error", True, RED, "D"),
+             ("the part of it that is not derived", "angular_unexplained", True, GREEN, "^"))
     for ax, (body, here) in zip(axes, bodies):
         for label, column, solved, color, marker in kinds:
             chosen = here if solved is None else here[(here["max_outer"] > 1) == solved]
@@ -122,16 +125,19 @@ def compliance_text(value):
     return "hard" if value == 0 else text_number(value)
 
 
-@figure("energy", "map", table="map")
+@figure("energy", "blow_up", table="map")
 def blow_up(frame):
     """Predicted growth of a disturbance in colour, a cross where the simulation blows up; one panel a step."""
     steps = list(frame.groupby("step_s", sort=False))
     fig, axes = panels(len(steps), columns=4, width=7.5, height=2.0, sharex=True, sharey=True)
     for ax, (step, rows) in zip(axes, steps):
-        rate = rows.assign(rate=np.log(rows["predicted_growth"]) / step).pivot_table("rate", "compliance_m_per_n", "alpha", dropna=False)
-        mesh = ax.pcolormesh(np.arange(rate.shape[1] + 1), np.arange(rate.shape[0] + 1), rate.to_numpy(), cmap="PuOr_r", vmin=-5, vmax=5)
+        rate = rows.assign(rate=np.log(rows["predicted_growth"]) / step).pivot_table(
+            "rate", "compliance_m_per_n", "alpha", dropna=False)
+        mesh = ax.pcolormesh(np.arange(rate.shape[1] + 1), np.arange(rate.shape[0] + 1), rate.to_numpy(),
+                             cmap="PuOr_r", vmin=-5, vmax=5)
         for _, row in rows[rows["status"] != "ok"].iterrows():
-            ax.plot([rate.columns.get_loc(row["alpha"]) + 0.5], [rate.index.get_loc(row["compliance_m_per_n"]) + 0.5], "x", color=BLACK)
+            column, line = rate.columns.get_loc(row["alpha"]), rate.index.get_loc(row["compliance_m_per_n"])
+            ax.plot([column + 0.5], [line + 0.5], "x", color=BLACK)
         ax.set_xticks(np.arange(rate.shape[1]) + 0.5, [f"{alpha:g}" for alpha in rate.columns], rotation=90)
         ax.set_yticks(np.arange(rate.shape[0]) + 0.5, [compliance_text(value) for value in rate.index])
         ax.grid(False)

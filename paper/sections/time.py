@@ -10,9 +10,10 @@ def time_order(results):
         "Motions of springs, links, a solid and pendulums, integrated by ever smaller steps and compared at four times with "
         "the judge `ode`, which knows neither steps nor multipliers. Linear problems are solved directly, steps to a tolerance of "
         "1e-12. The observed order is the slope of the logarithm of the error over that of the step, by least squares over the four "
-        "finest steps [@roache1994perspective]. `bdf2` begins with a step of implicit Euler, and so does `newmark` where there are hard constraints: "
-        "one error of second order, which leaves the order as it is. `newmark` between 0.5 and 1 has an error of first order with "
-        "the small coefficient alpha - 1/2 beside one of second order; its order is shown, not judged. The pendulum over 10 s is there for what becomes of hard constraints in a long time; its orders are not judged either.",
+        "finest steps [@roache1994perspective]. `bdf2` begins with a step of implicit Euler, and so does `newmark` where there are "
+        "hard constraints: one error of second order, which leaves the order as it is. `newmark` between 0.5 and 1 has an error of first order with "
+        "the small coefficient alpha - 1/2 beside one of second order; its order is shown, not judged. The pendulum "
+        "over 10 s is there for what becomes of hard constraints in a long time; its orders are not judged either.",
         figures=[Figure("time_order_errors", "Error of the worst node and time over the step, relative to the largest displacement. "
                         "Triangles show the orders 1 and 2. Crossed: the error exceeds the motion, or the simulation failed."),
                  Figure("time_order_orders", "Observed orders of the four finest steps.")])
@@ -30,9 +31,11 @@ def resolved_text(errors):
 
 def lost_text(orders):
     bad = failed(orders, "error")
-    return "Every integrator follows every motion." if bad.empty else "These do not follow their motion at the steps fitted: " + "; ".join(
-        f"`{name}` on {', '.join(rows['scene'])}" for name, rows in bad.groupby(rule_names(bad), sort=False)) + ". The section on energy derives why: alpha = 1/2 and the midpoint rule do not damp an error of a hard constraint's " \
-        "velocity, and turning directions make it grow."
+    if bad.empty:
+        return "Every integrator follows every motion."
+    lost = "; ".join(f"`{name}` on {', '.join(rows['scene'])}" for name, rows in bad.groupby(rule_names(bad), sort=False))
+    return (f"These do not follow their motion at the steps fitted: {lost}. The section on energy derives why: alpha = 1/2 and the "
+            "midpoint rule do not damp an error of a hard constraint's velocity, and turning directions make it grow.")
 
 
 def orders_table(orders):

@@ -14,6 +14,11 @@ const std::vector<Experiment>& experiments() {
        stability_map, stability_map_cases},
       {"contraction", "Is each effect's contraction of the plain outer iteration the predicted one?",
        contraction, contraction_cases},
+      {"direction",
+       "What do the directions of constraints do to stability, constraints and energy, beside velocity time "
+       "stepping?",
+       direction},
+      {"damping", "Does damping take what its coefficient says, and nothing of rigid motion?", damping},
       {"inner_convergence",
        "How fast do the relaxations solve the linearised step, and does theory predict it?",
        inner_convergence, inner_convergence_cases},

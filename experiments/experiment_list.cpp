@@ -29,6 +29,11 @@ const std::vector<Experiment>& experiments() {
       {"time_order", "At which order does each integrator approach the motion in continuous time?",
        time_order},
       {"energy", "What do the integrators do to energy and momentum, and where do they blow up?", energy},
+      {"direction",
+       "What do the directions of constraints do to stability, constraints and energy, beside velocity time "
+       "stepping?",
+       direction},
+      {"damping", "Does damping take what its coefficient says, and nothing of rigid motion?", damping},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},

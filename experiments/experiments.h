@@ -9,6 +9,8 @@ void judges(Context& context);
 void outer_convergence(Context& context);
 void stability_map(Context& context);
 void contraction(Context& context);
+void direction(Context& context);
+void damping(Context& context);
 void inner_convergence(Context& context);
 void conditioning(Context& context);
 void inexact(Context& context);

@@ -6,6 +6,8 @@ from functools import partial
 
 import conditioning  # noqa: F401  (each of these registers its figures)
 import contraction  # noqa: F401
+import damping  # noqa: F401
+import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401

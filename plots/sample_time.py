@@ -1,6 +1,6 @@
 """Made-up tables about the motion in time: none of the numbers means anything."""
 
-from sample_write import write
+from sample_files import write
 
 RULES = (("implicit_euler", float("nan"), 1), ("newmark", 0.5, 2), ("newmark", 0.55, 1), ("bdf2", float("nan"), 2))
 

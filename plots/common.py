@@ -28,6 +28,10 @@ STYLES = {
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
     "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),
     "pendulum": (BLUE, "o", "-"), "chain20": (RED, "s", "--"), "cantilever": (GREEN, "^", "-."),
+    "implicit_euler": (BLACK, "o", "-"), "bdf2": (GREEN, "^", "-."), "midpoint": (SKY, "s", "--"),
+    "symplectic_euler": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "generalised_alpha": (BLUE, "P", (0, (5, 1))),
+    "newmark 0.5": (RED, "D", ":"), "newmark 0.52": ("#888888", "X", "-"), "newmark 0.55": (ORANGE, "*", "--"),
+    "newmark 0.6": ("#8c564b", "h", "-."), "newmark 1": (BLACK, "o", ":"),
     "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }
 FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),
@@ -116,6 +120,13 @@ def curve_points(ax, points, x, y, label, look):
     rows = good(points, x, y).sort_values(x)
     ax.plot(on_log(rows[x]), on_log(rows[y]), label=label, **{"markerfacecolor": "white"} | look)
     draw_failed(ax, failed(points, x, y), x, y, look)
+
+
+def slope_triangle(ax, x, y, order, color):
+    """Where an error of this order would go from (x, y)."""
+    right, top = 1.7 * x, y * 1.7 ** order
+    ax.fill([x, right, right], [y, y, top], facecolor="none", edgecolor=color, linewidth=0.8)
+    ax.text(right * 1.04, (y * top) ** 0.5, f"{order}", fontsize=7, color=color, va="center")
 
 
 def panels(count, columns=3, width=6.5, height=2.1, **keywords):

@@ -6,8 +6,11 @@ from functools import partial
 
 import conditioning  # noqa: F401  (each of these registers its figures)
 import contraction  # noqa: F401
+import damping  # noqa: F401
+import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
+import energy  # noqa: F401
 import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401
@@ -17,6 +20,7 @@ import outer_convergence  # noqa: F401
 import point_hard_cases  # noqa: F401
 import rival_newton  # noqa: F401
 import stability_map  # noqa: F401
+import time_order  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
 from common import FIGURES, KINDS, literal, save

@@ -1,6 +1,6 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
-from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style
 from reading import failed, good, reasons_note
 
 QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
@@ -50,9 +50,3 @@ def manufactured(frame):
     shared_legend(fig, [ax])
     footnote(fig, reasons_note(failed(frame, "error_l2", "error_h1")))
     return fig
-
-
-def slope_triangle(ax, x, y, order, color):
-    right, top = 1.7 * x, y * 1.7 ** order
-    ax.fill([x, right, right], [y, y, top], facecolor="none", edgecolor=color, linewidth=0.8)
-    ax.text(right * 1.04, (y * top) ** 0.5, f"{order}", fontsize=7, color=color, va="center")

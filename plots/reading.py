@@ -26,7 +26,7 @@ RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": s
 TEXT = {"scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
-        "parameter"}
+        "parameter", "family", "limit"}
 
 
 class InputError(Exception):
@@ -177,6 +177,11 @@ def good(frame, *columns):
 def failed(frame, *columns):
     """The rows `good` leaves out."""
     return frame.drop(good(frame, *columns).index)
+
+
+def rule_names(frame):
+    """The integrator of each row, with newmark's alpha."""
+    return frame["integrator"].where(frame["alpha"].isna(), frame["integrator"] + frame["alpha"].map(" {:g}".format))
 
 
 def stiffens(frame):

@@ -3,26 +3,16 @@
 None of the numbers means anything.
 """
 
-import csv
-import json
-from pathlib import Path
-
 import numpy as np
 
 from command import command
 from reading import InputError
+from sample_files import write, write_run
+from sample_motion import damping, direction
+from sample_time import energy, time_order
 
 RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
 RATES = {"gauss_seidel": 0.95, "jacobi": 0.985, "nesterov_jacobi": 0.9, "direct": 1e-6}
-
-
-def write(directory, experiment, table, columns, rows):
-    path = Path(directory) / experiment / f"{table}.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns.split())
-        writer.writerows([repr(float(c)) if isinstance(c, float) else c for c in row] for row in rows)
 
 
 def outer_convergence(directory):
@@ -296,21 +286,13 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, work_precision, rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
+                       mesh_refinement, time_order, energy, direction, damping, work_precision, rival_newton, effects_cost,
+                       point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)
         write_run(directory, name, holds=1, fails=1)
     write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", ""), method_points(False))
-
-
-def write_run(directory, experiment, holds=0, fails=0):
-    """The run.json of a complete run."""
-    run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
-           "flags": "-O3 -march=native", "processor": "Made-up CPU", "threads": 2, "seed": 1, "tier": "quick",
-           "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5,
-           "verdicts": {"holds": holds, "fails": fails}, "status": "complete"}
-    (Path(directory) / experiment / "run.json").write_text(json.dumps(run), encoding="utf-8")
 
 
 def main(directory):

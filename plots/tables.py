@@ -3,6 +3,7 @@
 MAP = (" integrator outer relaxation memory predicted_contraction iterations error_final outer_iterations sweeps "
        "status reason")
 METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
+SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
 
 TABLES = {
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
@@ -15,6 +16,15 @@ TABLES = {
                                "wall_s error status reason",
     ("contraction", "rates"): "effect strain step_s stiffness unit load_n predicted_rate stiffening "
                               "predicted_contraction bound measured_rate status reason",
+    ("direction", "largest_steps"): SCHEME + "largest_step_s predicted_step_s error steps missed_steps limit status reason",
+    ("direction", "modes"): SCHEME + "mode step_s predicted_left measured_left error row_updates status reason",
+    ("direction", "energy"): SCHEME + "step_s time_s energy_j row_updates_per_s status reason",
+    ("direction", "equal_work"): SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error violation_rms "
+                                          "energy_change missed_steps steps status reason",
+    ("damping", "decrements"): "scene integrator outer relaxation max_sweeps step_s retardation_s decrement predicted_decrement "
+                               "decay_per_s expected_decay_per_s order error row_updates status reason",
+    ("damping", "rotation"): "scene integrator outer relaxation step_s retardation_s time_s vibration_j rotation_j drift_j "
+                             "row_updates status reason",
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
@@ -27,6 +37,17 @@ TABLES = {
     ("mesh_refinement", "beam"): "model n elements h_m quantity value reference_mesh reference_beam error_mesh "
                                  "error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
+    ("time_order", "errors"): "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason",
+    ("time_order", "orders"): "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status "
+                              "reason",
+    ("energy", "series"): "scene integrator alpha outer relaxation step_s time_s energy_j scale_j momentum_kg_m_s "
+                          "angular_momentum_kg_m2_s status reason",
+    ("energy", "drift"): "scene integrator alpha outer relaxation step_s drift ratio status reason",
+    ("energy", "momentum"): "scene integrator alpha outer relaxation max_outer step_s steps steps_ok linear_error angular_error "
+                            "angular_unexplained status reason",
+    ("energy", "map"): "scene integrator alpha outer relaxation compliance_m_per_n step_s predicted_growth energy_factor status "
+                       "reason",
+    ("energy", "frontier"): "scene compliance_m_per_n step_s predicted_alpha safe_alpha",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
@@ -46,7 +67,10 @@ TABLES = {
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",
     ("inner_convergence", "errors"): "scene relaxation",
+    ("energy", "series"): "scene integrator alpha step_s",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
+    ("direction", "energy"): SCHEME,
+    ("damping", "rotation"): "scene integrator retardation_s",
     ("point_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }

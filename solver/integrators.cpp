@@ -34,12 +34,29 @@ StepCoefficients midpoint(const StepStart& start) {
   return {.d = start.h / 2, .s = start.h / 2, .reach = 2};
 }
 
+StepCoefficients generalised_alpha(const StepStart& start) {
+  if (!start.forces_known) return implicit_euler(start);
+  const double h = start.h, rho = start.method.rho;
+  const double alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
+  const double gamma = 0.5 + alpha_f - alpha_m, beta = (gamma + 0.5) * (gamma + 0.5) / 4;
+  const double weight = h * gamma / (1 - alpha_m);
+  return {.d = h * beta / gamma,
+          .s = weight * (1 - alpha_f),
+          .x_v = h * (1 - beta / gamma),
+          .x_a = h * h * (0.5 - beta / gamma),
+          .v_q = weight * alpha_f,
+          .v_a = h * (1 - gamma) - weight * alpha_m,
+          .a_a = h * (1 - gamma),
+          .a_v = h * gamma};
+}
+
 }  // namespace
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> list{
       {"implicit_euler", 1, "order 1", implicit_euler},
       {"newmark", 1, "order 1, 2 with alpha = 0.5; alpha, or beta and gamma", newmark, Keeps::accelerations},
+      {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations},
       {"bdf2", 2, "order 2", bdf2, Keeps::states},
       {"midpoint", 2, "order 2, for compliant constraints", midpoint},
       {"symplectic_euler", 1, "order 1, explicit", implicit_euler, Keeps::nothing, true}};

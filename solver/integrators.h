@@ -12,12 +12,16 @@
 //                     x_l+1 = x_l + h v_l + h^2 ((1/2-beta) q_l + beta q_l+1), v_l+1 = v_l + h ((1-gamma) q_l
 //                     + gamma q_l+1). alpha = 1/2 is the trapezoidal rule (beta = 1/4, gamma = 1/2), alpha =
 //                     1 implicit Euler.
+//   generalised_alpha Newmark's x and v with a for q, (1-alpha_m) a_l+1 + alpha_m a_l = (1-alpha_f) q_l+1 +
+//                     alpha_f q_l, alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 +
+//                     alpha_f - alpha_m, beta = (gamma + 1/2)^2/4 (Chung, Hulbert 1993; with constraints
+//                     Arnold, Bruels 2007)
 //   bdf2              with w = h/h_l-1: y_l+1 = y_l + w^2/(1+2w) (y_l - y_l-1) + h (1+w)/(1+2w) y'_l+1
 //   midpoint          q and v at the middle: an implicit Euler step of h/2, carried on as far again
 //   symplectic_euler  v_l+1 = v_l + h q_l, x_l+1 = x_l + h v_l+1; hard constraints met at the end along their
 //                     directions at the start (SHAKE: Ryckaert, Ciccotti, Berendsen 1977)
 // A first step knows the forces of compliant constraints by their value, those of hard ones not: there
-// newmark begins with implicit Euler, and so does bdf2 always.
+// newmark and generalised_alpha begin with implicit Euler, and so does bdf2 always.
 #pragma once
 
 #include <string_view>

@@ -22,6 +22,7 @@ void validate(const Method& method) {
           method.direction_blend, "0 to 1");
   require(method.stabilisation >= 0 && method.stabilisation <= 1, "stabilisation", method.stabilisation,
           "0 to 1");
+  require(method.rho >= 0 && method.rho <= 1, "rho", method.rho, "0 to 1");
   require(method.alpha >= 0.5 && method.alpha <= 1, "alpha", method.alpha, "0.5 to 1");
   if (method.beta.has_value() != method.gamma.has_value())
     throw SetupError(method.beta ? "beta" : "gamma", "one of beta and gamma", "both, or neither");

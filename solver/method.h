@@ -20,6 +20,7 @@ struct Method {
   double alpha = 0.55;  // of newmark, 1/2 to 1: its weight of the step's end; 1/2 conserves energy where all
                         // is linear, and is unstable with hard constraints
   std::optional<double> beta, gamma;  // of Newmark's own family, which newmark is if both are given
+  double rho = 0.8;  // of generalised_alpha, 0 to 1: what a step leaves of infinitely fast oscillations
   double direction_blend = 1;  // J is taken at x_l + this (x - x_l): 0 where the step begins, 1 at its end
   double stabilisation = 1;  // share of a hard constraint's error that `frozen` removes in a step (Baumgarte)
 };

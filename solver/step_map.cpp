@@ -32,6 +32,8 @@ void StepData::make_map(const Scene& scene, const Method& method, double h, cons
     if (goes_on) {
       history.q += (v - map.v_free) / map.s;
       if (coefficients.a_v > 0) history.a = (v - history.v - coefficients.a_a * history.a) / coefficients.a_v;
+      // a_l is the acceleration at an instant apart from t_l, in proportion to the step.
+      if (h != history.h) history.a = history.q + h / history.h * (history.a - history.q);
     } else {
       add_compliant_forces(scene, start, start_v, inverse_mass, history.q);
       for (int b = 0; b < bodies.count() && implicit_gyroscopic; ++b)

@@ -50,6 +50,7 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.alpha = keys.number_or("alpha", method.alpha, Range::positive);
   if (keys.has("beta")) method.beta = keys.number("beta", Range::positive);
   if (keys.has("gamma")) method.gamma = keys.number("gamma", Range::positive);
+  method.rho = keys.number_or("rho", method.rho, Range::not_negative);
   method.direction_blend = keys.number_or("direction_blend", method.direction_blend, Range::not_negative);
   method.stabilisation = keys.number_or("stabilisation", method.stabilisation, Range::not_negative);
   keys.refuse_unknown();
@@ -142,9 +143,9 @@ std::string method_text(const pbd::Method& m) {
   const std::string own_family = m.beta ? fmt::format(" beta={} gamma={}", *m.beta, *m.gamma) : "";
   return fmt::format(
       "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
-      "warm_start={} memory={} alpha={}{} direction_blend={} stabilisation={}",
+      "warm_start={} memory={} alpha={}{} rho={} direction_blend={} stabilisation={}",
       m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
-      m.warm_start, m.memory, m.alpha, own_family, m.direction_blend, m.stabilisation);
+      m.warm_start, m.memory, m.alpha, own_family, m.rho, m.direction_blend, m.stabilisation);
 }
 
 }  // namespace pbdcheck

@@ -273,6 +273,7 @@ TEST_CASE("a method survives being written as text and read again") {
   method.integrator = "newmark";
   method.beta = 0.3;
   method.gamma = 0.1 + 0.5;
+  method.rho = 0.3;
   method.direction_blend = 0.25;
   method.stabilisation = 0.2;
   const auto again = parse_method(method_text(method), {}, "--method");
@@ -283,6 +284,7 @@ TEST_CASE("a method survives being written as text and read again") {
   CHECK(again.alpha == pbd::Method{}.alpha);
   CHECK(again.beta == method.beta);
   CHECK(again.gamma == method.gamma);
+  CHECK(again.rho == 0.3);
   CHECK(again.direction_blend == 0.25);
   CHECK(again.stabilisation == 0.2);
   CHECK(parse_method("alpha=0.5", {}, "--method").alpha == 0.5);

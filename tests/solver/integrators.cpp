@@ -44,40 +44,14 @@ double energy_of_spring(const State& state, double w) {
 
 TEST_CASE("a step multiplies and turns an oscillation as the integrator's matrix does") {
   const double w = 2 * pi, h = GENERATE(0.1, 0.01), damping = GENERATE(0.0, 0.02);
-  std::vector<std::string_view> seen;
-  for (const auto& known : known_rules) {
-    Method method = method_of(known.integrator);
-    method.alpha = known.alpha;
-    const PerStep expected = known.rule(h, w, damping);
-    const PerStep found = measured(spring(w, 0.5, damping), method, h, known.settled);
-    INFO(known.integrator << ", alpha " << known.alpha << ", h " << h << ", damping " << damping);
+  for (const auto& rule : reference::oscillator_rules()) {
+    Method method = method_of(rule.integrator);
+    method.alpha = rule.alpha;
+    const auto expected = rule.step(h, w, damping);
+    const auto found = measured(spring(w, 0.5, damping), method, h, rule.settled);
+    INFO(rule.integrator << ", alpha " << rule.alpha << ", h " << h << ", damping " << damping);
     CHECK(found.growth == Approx(expected.growth).epsilon(1e-10));
-    CHECK(found.turn == Approx(expected.turn).epsilon(1e-10));
-    seen.push_back(known.integrator);
-  }
-  for (const auto& integrator : integrators()) {
-    INFO(integrator.name);
-    CHECK(std::find(seen.begin(), seen.end(), integrator.name) != seen.end());
-  }
-}
-
-TEST_CASE("the matrices have the amplitude after 1 s and the frequency over w that are known of them") {
-  struct Known {
-    PerStep (*rule)(double h, double w, double damping_s);
-    double h, amplitude, frequency;
-  };
-  for (const Known& known :
-       {Known{implicit_euler_rule, 0.1, 0.189437059, 0.892830768},
-        Known{implicit_euler_rule, 0.01, 0.821187780, 0.998687161},
-        Known{implicit_euler_rule, 0.001, 0.980454716, 0.999986841},
-        Known{trapezoidal_rule, 0.1, 1, 0.968921916}, Known{trapezoidal_rule, 0.01, 1, 0.999671208},
-        Known{trapezoidal_rule, 0.001, 1, 0.999996710}, Known{bdf2_rule, 0.1, 0.821788215, 0.907391070},
-        Known{bdf2_rule, 0.01, 0.999614244, 0.998691004}, Known{bdf2_rule, 0.001, 0.999999610, 0.999986841},
-        Known{symplectic_euler_rule, 0.1, 1, 1.01722594}, Known{symplectic_euler_rule, 0.01, 1, 1.00016457},
-        Known{symplectic_euler_rule, 0.001, 1, 1.00000164}}) {
-    const PerStep expected = known.rule(known.h, 2 * pi, 0);
-    CHECK(std::pow(expected.growth, 1 / known.h) == Approx(known.amplitude).epsilon(1e-8));
-    CHECK(expected.turn / (2 * pi * known.h) == Approx(known.frequency).epsilon(1e-8));
+    CHECK(found.phase == Approx(expected.phase).epsilon(1e-10));
   }
 }
 
@@ -184,7 +158,7 @@ TEST_CASE("linear momentum of pairwise constraints is conserved by every integra
   const std::string relaxation =
       GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct");
   const double compliance = GENERATE(0.0, 1e-2);
-  const int max_outer = GENERATE(1, 100);
+  const int max_outer = GENERATE(2, 100);
   Scene scene = chain(6, 10, true);
   scene.effects.erase(scene.effects.begin());
   for (double& each : std::get<Distance>(scene.effects[0]).compliance) each = compliance;
@@ -196,7 +170,7 @@ TEST_CASE("linear momentum of pairwise constraints is conserved by every integra
     Method method;
     method.integrator = integrator.name;
     method.relaxation = relaxation;
-    method.max_sweeps = 20;
+    method.max_sweeps = 50;
     method.max_outer = max_outer;
     Workspace workspace(scene, method);
     State state = scene.initial;
@@ -204,9 +178,27 @@ TEST_CASE("linear momentum of pairwise constraints is conserved by every integra
     for (int k = 0; k < 1000; ++k) missed += step(scene, method, 0.01, state, workspace).status != Status::ok;
     INFO(integrator.name << ' ' << relaxation << ", compliance " << compliance << ", missed " << missed);
     const bool explicit_alone = integrator.explicit_forces && compliance > 0;
-    CHECK((missed > 900) == (max_outer == 1 && !explicit_alone));
+    CHECK((missed > 0) == (max_outer == 2 && !explicit_alone));
     CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
   }
+}
+
+TEST_CASE("linear momentum of a chain is conserved where proximal steps are left unconverged") {
+  Scene scene = chain(20, 10, true);
+  scene.effects.erase(scene.effects.begin());
+  for (int node = 0; node < scene.nodes(); ++node)
+    scene.initial.v.col(node) = Vec3(std::sin(node), std::cos(2.0 * node), std::sin(3.0 * node));
+  const std::string relaxation =
+      GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct");
+  Method method;
+  method.relaxation = relaxation;
+  method.max_outer = 3;
+  State state = scene.initial;
+  Workspace workspace(scene, method);
+  const Vec3 before = momentum(scene, state);
+  for (int k = 0; k < 100; ++k) step(scene, method, 0.01, state, workspace);
+  INFO(relaxation);
+  CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
 }
 
 TEST_CASE("symplectic_euler has rows for hard constraints alone") {
@@ -230,6 +222,9 @@ TEST_CASE("parameters out of their range are refused") {
   Method method;
   method.alpha = 0.4;
   CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("alpha: got 0.4; allowed: 0.5 to 1"));
+  method = {};
+  method.rho = 1.5;
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("rho: got 1.5; allowed: 0 to 1"));
   method = {};
   method.beta = 0.25;
   CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("beta: got one of beta and gamma"));

@@ -80,24 +80,6 @@ TEST_CASE("a step that is not solvable says so") {
   }
 }
 
-TEST_CASE("linear momentum of internal constraints is conserved, converged or not") {
-  Scene scene = chain(20, 10, true);
-  scene.effects.erase(scene.effects.begin());
-  for (int node = 0; node < scene.nodes(); ++node)
-    scene.initial.v.col(node) = Vec3(std::sin(node), std::cos(2.0 * node), std::sin(3.0 * node));
-  const std::string relaxation =
-      GENERATE("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct");
-  Method method;
-  method.relaxation = relaxation;
-  method.max_outer = 3;
-  State state = scene.initial;
-  Workspace workspace(scene, method);
-  const Vec3 before = momentum(scene, state);
-  for (int k = 0; k < 100; ++k) step(scene, method, 0.01, state, workspace);
-  INFO(relaxation);
-  CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
-}
-
 TEST_CASE("an empty effect changes no bit and adds no rows") {
   const Scene scene = chain(20);
   Scene padded = scene;

@@ -68,22 +68,18 @@ void StepData::begin_damping(const Scene& scene, double time) {
   if (std::none_of(effect_of_block.begin(), effect_of_block.end(),
                    [&](std::size_t index) { return damped(scene.effects[index]); }))
     return;
-  std::vector<Pose> ahead_poses, behind_poses;
-  Points ahead_x, behind_x;
-  if (bends(coefficients)) {
-    ahead_x = start_x + coefficients.d * start_v;
-    behind_x = start_x - coefficients.d * start_v;
-  }
-  const Configuration start{start_x, start_poses, time};
-  const Configuration ahead = placed(ahead_x, ahead_poses, time),
-                      behind = placed(behind_x, behind_poses, time);
+  const double reach = bends(coefficients) ? coefficients.d : 0;
+  turned_x = start_x + reach * start_v;
+  push = start_x - reach * start_v;
+  const Configuration start{start_x, start_poses, time}, ahead = placed(turned_x, other_poses, time),
+                                                         behind = placed(push, direction_poses, time);
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     if (const Effect& effect = scene.effects[effect_of_block[b]]; damped(effect))
       pbd::begin_damping(effect, coefficients, {start, ahead, behind, start_v}, history.a, rows.blocks[b]);
 }
 
 Configuration StepData::placed(const Points& at, std::vector<Pose>& storage, double time) {
-  if (at.cols() > 0) bodies.place(at, storage);
+  bodies.place(at, storage);
   return {at, storage, time};
 }
 

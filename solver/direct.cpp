@@ -60,11 +60,14 @@ void Direct::assemble(const Rows& rows, Put&& put) const {
             } else {
               const double shift =
                   relative_shift * trace_of_delassus(block, rows.inverse_mass, i) / Block::rows;
+              const bool held = block.bounded() && held_[b][i];  // dp = 0
               for (int r = 0; r < Block::rows; ++r) {
                 for (std::size_t c = 0; c < column.size(); ++c)
-                  if (column[c] >= 0) put(impulse + r, column[c], jacobian(r, static_cast<int>(c)));
+                  if (column[c] >= 0)
+                    put(impulse + r, column[c], held ? 0.0 : jacobian(r, static_cast<int>(c)));
                 for (int c = 0; c <= r; ++c)
-                  put(impulse + r, impulse + c, -block.compliance[i](r, c) - (r == c ? shift : 0.0));
+                  put(impulse + r, impulse + c,
+                      held ? -1.0 : -block.compliance[i](r, c) - (r == c ? shift : 0.0));
               }
             }
           }
@@ -82,9 +85,10 @@ void Direct::analyse(const Rows& rows) {
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
     const bool redundant = block.size() * Block::rows > static_cast<std::size_t>(velocities);
     auto& columns = impulse_column_.emplace_back();
+    held_.emplace_back(block.bounded() ? block.size() : 0, false);
     for (std::size_t i = 0; i < block.size(); ++i) {
       const double least = redundant ? 0 : eliminated_above * trace_of_delassus(block, rows.inverse_mass, i);
-      const bool eliminated = block.compliance[i].trace() > least;
+      const bool eliminated = block.compliance[i].trace() > least && !block.bounded();
       columns.push_back(eliminated ? -1 : unknowns);
       if (!eliminated) unknowns += Block::rows;
     }
@@ -104,11 +108,37 @@ void Direct::analyse(const Rows& rows) {
 
 void Direct::begin(Rows& rows, const Points&, bool) {
   if (slot_.empty()) analyse(rows);
+  factorise(rows);
+}
+
+void Direct::factorise(const Rows& rows) {
   matrix_.coeffs().setZero();
   std::size_t next = 0;
   assemble(rows, [&](int, int, double value) { matrix_.valuePtr()[slot_[next++]] += value; });
   factor_->factorize(matrix_);
   last_residual_ = std::numeric_limits<double>::infinity();
+}
+
+/// Takes impulses to the bound that block Jacobi would leave them at; true if the set of such has changed.
+bool Direct::find_held(Rows& rows, Points& v) {
+  bool changed = false;
+  for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+    std::visit(
+        [&]<class Block>(Block& block) {
+          for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
+            const typename Block::Value full =
+                -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
+            const typename Block::Value change = block.allowed(i, block.impulse[i], full);
+            const bool held = change != full;
+            changed |= held != held_[b][i];
+            held_[b][i] = held;
+            if (!held) continue;
+            block.impulse[i] += change;
+            block.apply(rows.inverse_mass, i, change, v);
+          }
+        },
+        rows.blocks[b]);
+  return changed;
 }
 
 double Direct::right_hand_side(const Rows& rows, const Points& v) {
@@ -120,7 +150,7 @@ double Direct::right_hand_side(const Rows& rows, const Points& v) {
           for (std::size_t i = 0; i < block.size(); ++i) {
             const typename Block::Value r = -block.residual(v, i, block.impulse[i]);
             const bool movable = block.inverse_diagonal[i].trace() > 0;
-            if (!movable) continue;
+            if (!movable || (block.bounded() && held_[b][i])) continue;
             squared += r.dot(block.inverse_diagonal[i] * r);
             if (impulse_column_[b][i] >= 0) {
               right_.template segment<Block::rows>(impulse_column_[b][i]) = r;
@@ -165,6 +195,7 @@ void Direct::correct(Rows& rows, const Points& v) {
 }
 
 double Direct::sweep(Rows& rows, Points& v, BlockSeconds) {
+  if (find_held(rows, v)) factorise(rows);
   const double residual = right_hand_side(rows, v);
   constexpr double worthwhile = 0.5;
   if (factor_->info() != Eigen::Success || !(residual < worthwhile * last_residual_)) return 0;

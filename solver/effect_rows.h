@@ -60,6 +60,22 @@ typename Constraint<E>::Positions local(const E& effect, std::size_t i,
   }
 }
 
+/// J of constraint i at other positions than its value's.
+template <class E, class Block>
+void take_directions(const E& effect, const Configuration& at, std::size_t i, const Block& block,
+                     typename Block::Jacobian& jacobian) {
+  typename Block::Value value;
+  const std::size_t entry = block.entry(i);
+  Constraint<E>::evaluate(effect, entry, local(effect, entry, block.node[i], at), value, jacobian);
+}
+
+/// True if the effect's forces have bounds.
+template <class E>
+bool has_bounds(const E& effect) {
+  if constexpr (requires { effect.bounds; }) return !effect.bounds.empty();
+  return false;
+}
+
 /// True if constraint i gives way: its A is positive definite.
 template <class E>
 bool compliant(const E& effect, std::size_t i) {

@@ -37,8 +37,8 @@ double GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      const typename Block::Value change = -block.inverse_diagonal[i] * r;
-      squared -= r.dot(change);
+      const typename Block::Value change = block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r);
+      squared += block.squared_residual(i, r, change);
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
     }
@@ -117,10 +117,10 @@ double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      const typename Block::Value step = block.inverse_diagonal[i] * r;
-      squared += r.dot(step);
-      block.impulse[i] -= omega_ * step;
-      block.apply(rows.inverse_mass, i, -omega_ * step, next_);
+      const typename Block::Value change = block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r);
+      squared += block.squared_residual(i, r, change);
+      block.impulse[i] += omega_ * change;
+      block.apply(rows.inverse_mass, i, omega_ * change, next_);
     }
   });
   v.swap(next_);
@@ -183,8 +183,8 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       auto previous = entries(previous_, block, first_row, i);
       const typename Block::Value start = block.impulse[i] + beta_ * (block.impulse[i] - previous);
       const typename Block::Value r = block.residual(extrapolated_, i, start);
-      const typename Block::Value change = -omega_ * (block.inverse_diagonal[i] * r);
-      squared -= r.dot(change) / omega_;
+      const typename Block::Value change = block.allowed(i, start, -omega_ * (block.inverse_diagonal[i] * r));
+      squared += block.squared_residual(i, r, change) / (block.bounded() ? omega_ * omega_ : omega_);
       compliant += change.dot(block.compliance[i] * change);
       previous = block.impulse[i];
       block.impulse[i] = start + change;
@@ -206,6 +206,7 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
 void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
   direction_.assign(static_cast<std::size_t>(row_count(rows)), 0.0);
   last_.assign(direction_.size(), 0.0);
+  held_.assign(direction_.size(), false);
   velocity_.setZero(3, v.cols());
   last_product_ = 0;
 }
@@ -214,10 +215,17 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   push_.setZero(3, v.cols());
   double product = 0, kept_product = 0;  // of r with the new and the last D^-1 r
   double slope = 0;                      // of r along the old direction
+  bool set_changed = false;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      const typename Block::Value next = block.inverse_diagonal[i] * r;
+      typename Block::Value next = block.inverse_diagonal[i] * r;
+      if (block.bounded()) {
+        const bool held = block.allowed(i, block.impulse[i], -next).isZero(0) && !next.isZero(0);
+        set_changed |= held != held_[first_row + i];
+        held_[first_row + i] = held;
+        if (held) next.setZero();
+      }
       auto last = entries(last_, block, first_row, i);
       product += r.dot(next);
       kept_product += r.dot(last);
@@ -226,7 +234,8 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       block.apply(rows.inverse_mass, i, -next, push_);
     }
   });
-  const double beta = last_product_ > 0 ? std::max(0.0, (product - kept_product) / last_product_) : 0.0;
+  const double beta =
+      last_product_ > 0 && !set_changed ? std::max(0.0, (product - kept_product) / last_product_) : 0.0;
   slope = beta * slope - product;
   velocity_ = push_ + beta * velocity_;
   double curvature = 0;
@@ -247,6 +256,15 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       block.impulse[i] += length * entries(direction_, block, first_row, i);
   });
   v += length * velocity_;
+  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t) {
+    for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
+      const typename Block::Value back = block.allowed(i, block.impulse[i], Block::Value::Zero());
+      if (back.isZero(0)) continue;
+      block.impulse[i] += back;
+      block.apply(rows.inverse_mass, i, back, v);
+      last_product_ = 0;
+    }
+  });
   return std::sqrt(product);
 }
 

@@ -93,7 +93,9 @@ class NesterovJacobi {
 /// Conjugate gradients on the dual problem N p = -(b + J v_free), preconditioned by D = blockdiag(N_ii)
 /// (Hestenes, Stiefel 1952; Polak, Ribiere 1969). With the direction s and its velocities u = W J^T s kept
 /// together, s^T N s = |u|_M^2 + s^T Sigma s needs no further pass: a sweep costs as much as Jacobi's. The
-/// residual is taken anew each sweep. Bilateral rows only.
+/// residual is taken anew each sweep. Impulses with bounds: those that a step of block Jacobi would leave at
+/// a bound take no part; where their set changes, or the step along s is cut at a bound, the next direction
+/// begins anew (active sets, as in Polyak 1969).
 class ConjugateGradients {
  public:
   static constexpr std::string_view name = "conjugate_gradients";
@@ -104,6 +106,7 @@ class ConjugateGradients {
   std::vector<double> direction_, last_;  // s, and the last D^-1 r; one entry a row
   Points velocity_, push_;                // u, and W J^T of the new part of s
   double last_product_ = 0;               // r^T D^-1 r of the last sweep
+  std::vector<bool> held_;                // of each row: at a bound
 };
 
 /// Sparse factorisation, exact up to rounding; each sweep is one step of iterative refinement. Compliant
@@ -112,7 +115,9 @@ class ConjugateGradients {
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
 /// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
-/// rows solvable and is removed by the refinement.
+/// rows solvable and is removed by the refinement. Rows whose impulse has bounds are kept; those that a step
+/// of block Jacobi would leave at a bound are held there, and each sweep with another set of them begins with
+/// another factorisation (the primal-dual active sets of Hintermueller, Ito, Kunisch 2003).
 class Direct {
  public:
   static constexpr std::string_view name = "direct";
@@ -125,6 +130,8 @@ class Direct {
   void analyse(const Rows& rows);
   double right_hand_side(const Rows& rows, const Points& v);
   void correct(Rows& rows, const Points& v);
+  bool find_held(Rows& rows, Points& v);
+  void factorise(const Rows& rows);
 
   std::vector<int> velocity_column_;              // first unknown of each node, -1 for infinite mass
   std::vector<std::vector<int>> impulse_column_;  // per block and constraint, -1 if eliminated
@@ -135,6 +142,7 @@ class Direct {
   Eigen::VectorXd right_, solution_;
   Points changed_;
   double last_residual_ = 0;
+  std::vector<std::vector<bool>> held_;  // at a bound, per block with bounds and constraint
 };
 
 using Relaxation = std::variant<GaussSeidel, Jacobi, NesterovJacobi, ConjugateGradients, Direct>;

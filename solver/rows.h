@@ -1,5 +1,6 @@
 // Rows: all that a relaxation sees of a scene. Find impulses p and velocities v with
-//   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node).
+//   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node);
+// where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do.
 // Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
 // contiguous, one entry a constraint; a rigid body counts as
 // two nodes (bodies.h). Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
@@ -9,6 +10,7 @@
 // singular.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <variant>
@@ -33,6 +35,7 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
   std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
   std::vector<typename Shape::Value> begin_value;  // where there is none
+  std::vector<std::array<double, 2>> bounds;       // of the impulse, for R = 1; empty where there are none
 
   std::size_t size() const { return node.size(); }
 
@@ -76,6 +79,38 @@ struct RowBlock : ConstraintShape<R, K> {
       const int index = node[i][static_cast<std::size_t>(a)];
       v.col(index) += inverse_mass[static_cast<std::size_t>(index)] * push.template segment<3>(3 * a);
     }
+  }
+
+  bool bounded() const {
+    if constexpr (R == 1) return !bounds.empty();
+    return false;
+  }
+
+  /// True if constraint i is a limit whose bias, c/d at rest, lies on its open side.
+  bool opens(std::size_t i) const {
+    if constexpr (R == 1)
+      if (!bounds.empty())
+        return (bias[i][0] > 0 && bounds[i][0] == 0) || (bias[i][0] < 0 && bounds[i][1] == 0);
+    return false;
+  }
+
+  /// The part of a change of constraint i's impulse from p that its bounds allow.
+  typename Shape::Value allowed(std::size_t i, const typename Shape::Value& p,
+                                const typename Shape::Value& change) const {
+    if constexpr (R == 1)
+      if (!bounds.empty())
+        return typename Shape::Value(std::clamp(p[0] + change[0], bounds[i][0], bounds[i][1]) - p[0]);
+    return change;
+  }
+
+  /// Squared residual of constraint i (J) whose row misses r, and whose impulse N_ii^-1 and the bounds let
+  /// change by `change`: r^T N_ii^-1 r, or what is left of it by the bounds.
+  double squared_residual(std::size_t i, const typename Shape::Value& r,
+                          const typename Shape::Value& change) const {
+    if constexpr (R == 1)
+      if (!bounds.empty())
+        return inverse_diagonal[i](0, 0) > 0 ? change[0] * change[0] / inverse_diagonal[i](0, 0) : 0.0;
+    return -r.dot(change);
   }
 
   /// J_i v + b_i + Sigma_i p

@@ -52,6 +52,12 @@ StepData::StepData(const Scene& scene, const Method& method)
     if (outer.potential == OnPotential::where_possible && !fills_space(scene.effects[index]))
       on_potential = false;
   in_metric = outer.potential == OnPotential::always && !on_potential;
+  if (in_metric)
+    for_each_block(rows.blocks, [&](const auto& block) {
+      if (block.bounded())
+        throw SetupError("outer", std::string(outer.name) + " with limits or motors of limited force",
+                         "another outer iteration");
+    });
 }
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {

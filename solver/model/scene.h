@@ -146,6 +146,11 @@ struct Gyroscopic {
 // perpendicular_joint, a weld a point_joint and a rotation_joint. A body of infinite mass and inertia stands
 // for the world.
 
+/// Bounds of the force gamma (N, or N m) of a constraint of one row: where gamma is at the lower one, c may
+/// be positive, at the upper one negative. {0, infinity} is a limit from below, c >= 0; {-t, t} a motor of
+/// at most t N m.
+using ForceBounds = std::array<double, 2>;
+
 /// c = y_b - y_a (3 rows, m). Compliance in m/N.
 struct PointJoint {
   static constexpr std::string_view name = "point_joint";
@@ -203,6 +208,7 @@ struct BodyDistance {
   std::vector<double> rest_length;
   std::vector<double> compliance;
   std::vector<double> damping{};
+  std::vector<ForceBounds> bounds{};  // empty: none
 };
 
 /// c = angle - (rest_angle + rate t) modulo 2 pi in (-pi, pi] (1 row, rad): the angle that body b is turned
@@ -217,6 +223,7 @@ struct AngleJoint {
   std::vector<double> rate;
   std::vector<double> compliance;
   std::vector<double> damping{};
+  std::vector<ForceBounds> bounds{};  // empty: none
 };
 
 /// c = R_a u_a . (y_b - y_a) - (rest_position + rate t) (1 row, m). With compliance a spring; a rate (m/s)
@@ -230,6 +237,7 @@ struct SlideJoint {
   std::vector<double> rate;
   std::vector<double> compliance;
   std::vector<double> damping{};
+  std::vector<ForceBounds> bounds{};  // empty: none
 };
 
 /// c = x_node - y (3 rows, m): a node held by a point of a rigid body.

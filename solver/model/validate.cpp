@@ -124,6 +124,15 @@ struct EffectCheck {
     same_size(count, effect.compliance, "compliance");
     not_negative(effect.compliance, "compliance");
     retardation_times(count, effect.damping);
+    if constexpr (requires { effect.bounds; })
+      if (!effect.bounds.empty()) {
+        same_size(count, effect.bounds, "bounds");
+        for (std::size_t i = 0; i < count; ++i) {
+          const auto [lower, upper] = effect.bounds[i];
+          require(lower <= 0 && upper >= 0 && lower < upper, at(i, "bounds"),
+                  "(" + text(lower) + ", " + text(upper) + ")", "a lower one <= 0 and an upper one >= 0");
+        }
+      }
     if constexpr (requires { effect.point; }) {
       same_size(count, effect.point, "point");
       for (std::size_t i = 0; i < count; ++i)

@@ -236,6 +236,7 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   });
   const double beta =
       last_product_ > 0 && !set_changed ? std::max(0.0, (product - kept_product) / last_product_) : 0.0;
+  square_ = product + beta * (beta * square_ - 2 * slope);
   slope = beta * slope - product;
   velocity_ = push_ + beta * velocity_;
   double curvature = 0;
@@ -250,7 +251,10 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
     }
   });
   last_product_ = product;
-  const double length = curvature > 0 ? -slope / curvature : 0.0;
+  constexpr double redundant = 1e-14;  // where N s is lost in rounding, s changes no velocity
+  const bool useful = curvature > redundant * square_;
+  const double length = useful ? -slope / curvature : 0.0;
+  if (!useful) last_product_ = 0;
   visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] += length * entries(direction_, block, first_row, i);

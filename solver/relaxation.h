@@ -106,6 +106,7 @@ class ConjugateGradients {
   std::vector<double> direction_, last_;  // s, and the last D^-1 r; one entry a row
   Points velocity_, push_;                // u, and W J^T of the new part of s
   double last_product_ = 0;               // r^T D^-1 r of the last sweep
+  double square_ = 0;                     // s^T D s
   std::vector<bool> held_;                // of each row: at a bound
 };
 

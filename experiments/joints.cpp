@@ -1,0 +1,243 @@
+// How accurately do joints carry mechanisms? Benchmarks of the IFToMM library with known answers: the error
+// at the end, and the largest error of a joint in any step, over steps halved again and again; and what a
+// chain of bodies costs over its length.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "closed_form.h"
+#include "experiments.h"
+#include "integrator_rules.h"
+#include "measure.h"
+#include "numerics.h"
+#include "order_fit.h"
+#include "probes.h"
+#include "rows_of_step.h"
+#include "scenes/mechanisms.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+using Values = std::vector<double>;
+
+struct Mechanism {
+  std::string name;
+  Scene scene;
+  double duration;     // s
+  int coarsest_steps;  // of the first level
+  int levels;
+  Values expected;  // m or rad, at the end
+  double size;      // what errors are relative to
+  Values (*values)(const State&);
+};
+
+double angle_of(const State& state, std::size_t body) {
+  const auto& q = state.orientation[body];
+  return 2 * std::atan2(q.z(), q.w());
+}
+
+Values bob(const State& state) {
+  return {state.x(0, 1), state.x(1, 1)};
+}
+
+/// Top of the first leg.
+Values first_top(const State& state) {
+  const Vec3 top = Vec3(state.x.col(1)) + state.orientation[1] * Vec3(0.5, 0, 0);
+  return {top.x(), top.y()};
+}
+
+/// beta, theta, gamma, phi, delta, omega, epsilon of Andrews' mechanism.
+Values squeezer_angles(const State& state) {
+  const auto k = [&](std::size_t body) { return angle_of(state, body); };
+  return {k(1), k(2) - k(1), k(3), k(4) - k(5), k(5), k(6) - k(7), k(7)};
+}
+
+Values slider(const State& state) {
+  return {state.x(0, 3)};
+}
+
+/// The chain of four-bars moves as theta'' = -(G/I) cos theta with all legs parallel.
+Values four_bars_end(int loops, double duration) {
+  const double inertia = (loops + 1) / 3.0 + loops, weight = ((loops + 1) / 2.0 + loops) * 9.81;
+  const auto solution = reference::solve_ode(
+      [&](double, const Eigen::VectorXd& y, Eigen::VectorXd& slope) {
+        slope[0] = y[1];
+        slope[1] = -weight / inertia * std::cos(y[0]);
+      },
+      Eigen::Vector2d(std::numbers::pi / 2, -1), {duration});
+  const double theta = solution.states[0][0];
+  return {std::cos(theta), std::sin(theta)};
+}
+
+std::vector<Mechanism> mechanisms(bool full) {
+  const double swing = reference::pendulum_motion(1, 9.81, std::numbers::pi / 2, 10).angle;
+  const double rate = 5, turned = rate * 2, crank = 0.2, rod = 0.5;
+  // The squeezer at 0.03 s: the Test Set for IVP Solvers (Mazzia, Magherini 2008).
+  const Values squeezed{15.81077119629904,  -15.75637105984298, 0.04082224013073101, -0.5347301163226948,
+                        0.5244099658805304, 0.5347301163226948, 1.048080741042263};
+  return {{"A01 pendulum",
+           point_pendulum(),
+           10,
+           2000,
+           full ? 8 : 5,
+           {-std::sin(swing), -std::cos(swing)},
+           1,
+           bob},
+          {"A02 four-bar chain", four_bars(2), 10, 2500, full ? 6 : 3, four_bars_end(2, 10), 1, first_top},
+          {"A03 squeezer", andrews_squeezer(), 0.03, 600, full ? 6 : 4, squeezed, 15.81077119629904,
+           squeezer_angles},
+          {"slider-crank",
+           slider_crank(rate),
+           2,
+           400,
+           2,
+           {crank * std::cos(turned) + std::sqrt(rod * rod - std::pow(crank * std::sin(turned), 2))},
+           crank,
+           slider}};
+}
+
+struct Level {
+  double h = 0;  // s
+  Values values;
+  double joint_error = 0;  // m or rad, the largest of any step
+  double wall = 0;         // s
+  int missed = 0;          // steps that missed the tolerance
+  Simulation run;
+};
+
+Level level_of(const Mechanism& mechanism, const Rule& rule, int steps) {
+  Level level{.h = mechanism.duration / steps};
+  const auto start = std::chrono::steady_clock::now();
+  level.run = simulate_steps(mechanism.scene, rule.method, level.h, steps,
+                             [&](const State&, const State& after) -> std::string_view {
+                               for (const Effect& effect : mechanism.scene.effects)
+                                 level.joint_error = std::max(
+                                     level.joint_error, constraint_error(mechanism.scene, effect, after));
+                               return level.joint_error < 1 ? "" : "a joint came apart";
+                             });
+  level.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  level.missed = level.run.steps - level.run.steps_ok;
+  level.values = mechanism.values(level.run.end);
+  return level;
+}
+
+/// Largest difference relative to the mechanism's size; angles modulo 2 pi for the squeezer.
+double distance(const Mechanism& mechanism, const Values& a, const Values& b) {
+  Worst largest;
+  const bool angles = mechanism.values == squeezer_angles;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest.add(std::abs(angles ? std::remainder(a[i] - b[i], 2 * std::numbers::pi) : a[i] - b[i]) /
+                mechanism.size);
+  return largest.value();
+}
+
+/// Richardson's extrapolation of the two finest levels, errors of the second order.
+Values extrapolated(const Level& coarse, const Level& fine) {
+  Values limit;
+  for (std::size_t i = 0; i < fine.values.size(); ++i)
+    limit.push_back(fine.values[i] +
+                    std::remainder(fine.values[i] - coarse.values[i], 2 * std::numbers::pi) / 3);
+  return limit;
+}
+
+void carry(Context& context, const Mechanism& mechanism, Table& accuracy, Worst& joint_error) {
+  for (const Rule& rule : integrator_rules({0.55})) {
+    if (rule.marginal || rule.method.integrator == "symplectic_euler") continue;
+    std::vector<Level> levels(static_cast<std::size_t>(mechanism.levels));
+    context.parallel(mechanism.levels, [&](std::int64_t k) {
+      levels[static_cast<std::size_t>(k)] = level_of(mechanism, rule, mechanism.coarsest_steps << k);
+    });
+    double coarser = std::nan("");
+    for (const Level& level : levels) {
+      const double error = distance(mechanism, level.values, mechanism.expected);
+      std::vector<Cell> row{mechanism.name};
+      for (auto& cell : method_cells(rule)) row.push_back(std::move(cell));
+      row.insert(row.end(),
+                 {level.h, error, std::log2(coarser / error), level.joint_error, std::int64_t{level.missed},
+                  level.wall, status_cell(level.run.status), level.run.reason});
+      accuracy.row(row);
+      coarser = error;
+      if (rule.method.integrator == "generalised_alpha") joint_error.add(level.joint_error);
+    }
+    if (rule.method.integrator != "generalised_alpha") continue;
+    std::string id = "joints." + mechanism.name;
+    std::replace(id.begin(), id.end(), ' ', '_');
+    const bool exact = mechanism.values == slider;  // a motor's place does not depend on the step
+    const auto& finest = levels.back();
+    if (context.full() || exact)
+      context.verdict(id, "generalised_alpha reaches the known answer by refining the step",
+                      "relative error at the finest step",
+                      distance(mechanism, finest.values, mechanism.expected), 1e-6);
+    if (!exact)
+      context.verdict(
+          id + ".extrapolated", "the two finest steps extrapolate to the known answer", "relative error",
+          distance(mechanism, extrapolated(levels[levels.size() - 2], finest), mechanism.expected), 1e-6);
+  }
+}
+
+/// Seconds a step of a chain of bodies at four linearisations, and a sweep.
+void lengths(Context& context) {
+  const std::vector<int> counts{50, 200, 800, 3200};
+  Table table = context.table("lengths", {"relaxation", "bodies", "wall_s_per_step", "wall_s_per_sweep",
+                                          "exponent_step", "exponent_sweep", "status", "reason"});
+  for (const auto relaxation : relaxation_names()) {
+    std::vector<double> size, step_time, sweep_time;
+    for (const int count : counts) {
+      const Scene scene = rod_chain(count);
+      Method method;
+      method.relaxation = relaxation;
+      method.outer = "plain";
+      method.tolerance = 0;  // all linearisations and sweeps are spent
+      method.max_outer = 4;
+      method.max_sweeps = 10;
+      double step_best = infinity, sweep_best = infinity;
+      for (int repeat = 0; repeat < 4; ++repeat) {
+        Workspace workspace(scene, method);
+        State state = scene.initial;
+        const auto start = std::chrono::steady_clock::now();
+        const Report report = step(scene, method, 1e-3, state, workspace);
+        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (repeat == 0) continue;
+        step_best = std::min(step_best, spent);
+        sweep_best =
+            std::min(sweep_best, spent / static_cast<double>(std::max<std::int64_t>(report.sweeps, 1)));
+      }
+      size.push_back(count);
+      step_time.push_back(step_best);
+      sweep_time.push_back(sweep_best);
+    }
+    const double by_step = fitted_order(size, step_time), by_sweep = fitted_order(size, sweep_time);
+    for (std::size_t i = 0; i < size.size(); ++i)
+      table.row({std::string(relaxation), static_cast<std::int64_t>(size[i]), step_time[i], sweep_time[i],
+                 by_step, by_sweep, std::string("ok"), std::string()});
+    context.verdict("joints.linear." + std::string(relaxation),
+                    "a chain's step costs time linear in its length", "exponent from 50 to 3200 bodies",
+                    by_step, 1.1);
+  }
+  table.close();
+}
+
+}  // namespace
+
+void joints(Context& context) {
+  const auto all = mechanisms(context.full());
+  context.begin(std::ssize(all) + 1);
+  Table accuracy =
+      context.table("accuracy", {"mechanism", "integrator", "alpha", "outer", "relaxation", "step_s", "error",
+                                 "order", "joint_error", "missed_steps", "wall_s", "status", "reason"});
+  Worst joint_error;
+  for (const Mechanism& mechanism : all) {
+    carry(context, mechanism, accuracy, joint_error);
+    context.advance(mechanism.name);
+  }
+  accuracy.close();
+  context.verdict("joints.error", "joints hold in each step", "largest error of a joint, m or rad",
+                  joint_error.value(), 1e-10);
+  lengths(context);
+  context.advance("chains of 50 to 3200 bodies");
+}
+
+}  // namespace pbdcheck

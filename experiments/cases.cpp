@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/mechanisms.h"
 #include "scenes/standard.h"
 
 namespace pbdcheck {
@@ -10,6 +11,12 @@ Case swinging_chain(double ratio, double h) {
   constexpr double lead_step = 1.0 / 100;  // s
   constexpr int lead_steps = 30;           // to the middle of the swing
   return {fmt::format("chain20 tip x{:g}", ratio), chain(20, ratio), h, lead_step, lead_steps};
+}
+
+Case swinging_rods(double ratio, double h) {
+  constexpr double lead_step = 1.0 / 100;  // s
+  constexpr int lead_steps = 30;
+  return {fmt::format("rods10 tip x{:g}", ratio), rod_chain(10, ratio), h, lead_step, lead_steps};
 }
 
 std::vector<double> chain_ratios(bool full) {

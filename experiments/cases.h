@@ -19,6 +19,9 @@ struct Case {
 /// Chain of 20 links in the middle of its swing, its tip `ratio` times as heavy as the other nodes.
 Case swinging_chain(double ratio, double h);
 
+/// Chain of 10 rods with ball joints in the middle of its swing, its last rod `ratio` times as heavy.
+Case swinging_rods(double ratio, double h);
+
 /// The axes of maps over step (s) and mass ratio of that chain.
 std::vector<double> chain_ratios(bool full);
 std::vector<double> chain_steps(bool full);

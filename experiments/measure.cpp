@@ -42,7 +42,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
     const double residual = std::max(iterate.primal, iterate.dual);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
                             seconds(entered - start - watching),
-                            relative_error(iterate.x, reference_x, state.x),
+                            relative_error(iterate.x.leftCols(scene.nodes()), reference_x, state.x),
                             iterate.scale > 0 ? residual / iterate.scale : residual});
     watching += Clock::now() - entered;
   };

@@ -75,7 +75,7 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
     double last = begin;
     int iterations = 0;
     step(moved.scene, method, h, moved.start, workspace, [&](const Iterate& iterate) {
-      const Points error = iterate.v - solved.v;
+      const Points error = iterate.v.leftCols(solved.v.cols()) - solved.v;  // of the nodes
       if (iterate.outer_iteration == 0 || last < end) return;
       last = error.norm() / scale;
       direction = error;

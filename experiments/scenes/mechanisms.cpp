@@ -209,14 +209,15 @@ Scene slider_crank(double rate) {
   return scene;
 }
 
-Scene rod_chain(int count) {
+Scene rod_chain(int count, double ratio) {
   const double length = 1.0 / count;
   Scene scene;
   add_ground(scene);
   PointJoint joints;
   for (int i = 0; i < count; ++i) {
     const int rod =
-        add_rod(scene, in_plane(i * length, 0), in_plane((i + 1) * length, 0), 1.0 / count, Vec3::Zero(), 0);
+        add_rod(scene, in_plane(i * length, 0), in_plane((i + 1) * length, 0),
+                (i + 1 < count ? 1.0 : ratio) / count, Vec3::Zero(), 0);
     joints.body.push_back({rod - 1, rod});
     joints.point.push_back({i == 0 ? Vec3(Vec3::Zero()) : in_plane(length / 2, 0), in_plane(-length / 2, 0)});
     joints.compliance.push_back(0);

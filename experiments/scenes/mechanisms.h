@@ -31,7 +31,7 @@ pbd::Scene andrews_squeezer();
 pbd::Scene slider_crank(double rate);
 
 /// `count` uniform rods of 1/count kg and 1/count m, a ball joint between neighbours and to the ground, let
-/// go horizontally.
-pbd::Scene rod_chain(int count);
+/// go horizontally; the last rod is `ratio` times as heavy.
+pbd::Scene rod_chain(int count, double ratio = 1);
 
 }  // namespace pbdcheck

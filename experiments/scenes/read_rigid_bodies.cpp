@@ -51,14 +51,13 @@ Shape read_shape(Keys& keys, Builder& builder) {
   return Capsule{radius, length};
 }
 
-/// Refuses what over- or underflows, and moments that no mass has.
-void require_inertia(const Keys& keys, const Inertia& found) {
-  const pbd::Vec3& moments = found.principal.moments;
+/// Refuses what over- or underflows.
+void require_inertia(const Keys& keys, double mass, const pbd::Vec3& moments) {
   const auto within = [](double value) { return value > 0 && value <= largest_number; };
-  if (!within(found.mass) || !within(moments.minCoeff()) || !within(moments.maxCoeff()))
+  if (!within(mass) || !within(moments.minCoeff()) || !within(moments.maxCoeff()))
     throw pbd::SetupError(keys.where(),
-                          fmt::format("mass {} kg, moments of inertia {}, {}, {} kg m^2", found.mass,
-                                      moments[0], moments[1], moments[2]),
+                          fmt::format("mass {} kg, moments of inertia {}, {}, {} kg m^2", mass, moments[0],
+                                      moments[1], moments[2]),
                           "sizes and densities that make mass and moments > 0, up to 1e100");
 }
 
@@ -72,8 +71,9 @@ Inertia read_shape_inertia(Keys& keys, const Shape& shape, bool held) {
   const double density = keys.number_or("density_kg_m3", 1, Range::positive);
   auto found = located(mesh_name(keys), [&] { return shape_properties(shape, density); });
   if (heavy) found = pbd::with_mass(found, keys.number("mass_kg", Range::positive));
+  require_inertia(keys, found.mass, found.inertia.diagonal());
   const Inertia inertia{found.mass, found.centre, pbd::principal_inertia(found.inertia)};
-  require_inertia(keys, inertia);
+  require_inertia(keys, found.mass, inertia.principal.moments);
   return inertia;
 }
 

@@ -47,34 +47,44 @@ class Output {
   Output(const SimulateOptions& options, const SceneFile& file) : file_(file) {
     require_writable(options.directory);
     if (!file.probes.empty()) {
-      for (auto& column : probe_columns(file.probes, file.scene)) columns_.push_back(std::move(column));
+      for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
       probes_.emplace(options.directory / "probes.csv", columns_);
     }
-    if (options.export_format == "vtk") frames_.emplace(options.directory, file.scene);
+    if (options.export_format != "vtk") return;
+    frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
+    surfaces_.emplace(file.scene, file.bodies);
+    if (!surfaces_->empty()) body_frames_.emplace(options.directory, "bodies", "bodies", surfaces_->cells());
   }
 
   /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing.
-  std::string add(std::int64_t step, const pbd::State& state) {
+  std::string add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped) {
     std::vector<Cell> row{step, state.time};
-    append_probes(file_.probes, file_.scene, state, row);
+    append_probes(file_, state, stepped, row);
     for (std::size_t i = 0; i < row.size(); ++i)
       if (const auto* number = std::get_if<double>(&row[i]); number != nullptr && !std::isfinite(*number))
         return columns_[i];
     if (probes_) probes_->row(row);
-    if (frames_) frames_->add_frame(state);
+    if (frames_) frames_->add_frame(state.time, state.x, state.v);
+    if (body_frames_) {
+      pbd::Points x, v;
+      surfaces_->place(state, x, v);
+      body_frames_->add_frame(state.time, x, v);
+    }
     return "";
   }
 
   void close() {
     if (probes_) probes_->close();
     if (frames_) frames_->close();
+    if (body_frames_) body_frames_->close();
   }
 
  private:
   const SceneFile& file_;
   std::vector<std::string> columns_{"step", "time_s"};
   std::optional<Table> probes_;
-  std::optional<VtkSeries> frames_;
+  std::optional<VtkSeries> frames_, body_frames_;
+  std::optional<BodySurfaces> surfaces_;
 };
 
 nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& workspace) {
@@ -106,7 +116,7 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
 std::string advance(const SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
   pbd::State state = file.scene.initial;
   Progress progress("simulate", file.steps);
-  std::string lost = output.add(0, state);
+  std::string lost = output.add(0, state, nullptr);
   while (totals.steps < file.steps && lost.empty()) {
     throw_if_interrupted();
     const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace,
@@ -118,7 +128,7 @@ std::string advance(const SceneFile& file, pbd::Workspace& workspace, Output& ou
       warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
                        totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
                        report.reason, report.residual(), file.method.tolerance));
-    lost = output.add(totals.steps, state);
+    lost = output.add(totals.steps, state, &workspace);
     progress.advance(fmt::format("t = {:.4g} s", state.time));
   }
   return lost.empty() ? "" : fmt::format("step {} diverged: {} is not finite", totals.steps, lost);

@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "effect_rows.h"
+#include "joint_force.h"
+#include "placed.h"
 
 namespace pbdcheck {
 namespace {
@@ -29,14 +31,9 @@ void for_each_constraint(const pbd::Scene& scene, const E& effect, const pbd::Co
 /// Calls f(c, A) for every constraint of all effects chosen.
 template <class Effects, class F>
 void for_each_constraint_of(const pbd::Scene& scene, const Effects& effects, const pbd::State& state, F&& f) {
-  pbd::Bodies bodies(scene);
-  pbd::Points x, v;
-  std::vector<pbd::Pose> poses;
-  bodies.begin(state, x, v);
-  bodies.place(x, poses);
-  const pbd::Configuration at{x, poses, state.time};
+  const Placed placed(scene, state);
   for (const pbd::Effect& effect : effects)
-    std::visit([&](const auto& typed) { for_each_constraint(scene, typed, at, f); }, effect);
+    std::visit([&](const auto& typed) { for_each_constraint(scene, typed, placed.at(), f); }, effect);
 }
 
 /// An infinite stiffness is a compliance of zero; no effect has both kinds of rows in one constraint.
@@ -102,6 +99,20 @@ void append_momentum(const pbd::Scene& scene, const pbd::State& state, std::vect
   append(row, angular);
 }
 
+/// Centre of mass, velocity and angular velocity (in the world) of a body, where a probe's point is then.
+struct BodyPoint {
+  pbd::Vec3 position, velocity, angular_velocity;
+
+  BodyPoint(const pbd::Scene& scene, const pbd::State& state, const Probe& probe) {
+    const auto index = static_cast<std::size_t>(probe.body);
+    const int node = scene.bodies[index].node;
+    const pbd::Vec3 lever = state.orientation[index] * probe.point;
+    angular_velocity = state.orientation[index] * pbd::Vec3(state.spin.col(probe.body));
+    position = state.x.col(node) + lever;
+    velocity = state.v.col(node) + angular_velocity.cross(lever);
+  }
+};
+
 std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene) {
   const std::string begin = probe.name.empty() ? "" : probe.name + "_";
   std::vector<std::string> columns;
@@ -111,6 +122,13 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
   };
   if (probe.kind == "position") per_axis("{}_m");
   if (probe.kind == "velocity") per_axis("v{}_m_s");
+  if (probe.kind == "orientation")
+    for (const char part : {'w', 'x', 'y', 'z'}) columns.push_back(begin + fmt::format("q{}", part));
+  if (probe.kind == "angular_velocity") per_axis("w{}_rad_s");
+  if (probe.kind == "joint_force") {
+    per_axis("force_{}_n");
+    per_axis("torque_{}_n_m");
+  }
   if (probe.kind == "energy")
     for (const auto* name : {"kinetic_energy_j", "gravity_energy_j", "elastic_energy_j"})
       columns.push_back(begin + name);
@@ -125,6 +143,18 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
         columns.push_back(fmt::format("{}{}_{}_error{}", begin, name, i, error_unit(scene.effects[i])));
       }
   return columns;
+}
+
+/// Six cells, empty ones before the first step, which no force is known of.
+void append_joint_force(const SceneFile& file, const NamedJoint& joint, const pbd::State& state,
+                        const pbd::Workspace* stepped, std::vector<Cell>& row) {
+  if (stepped == nullptr) {
+    row.insert(row.end(), 6, "");
+    return;
+  }
+  const Wrench wrench = joint_force(joint, file.scene, state, *stepped);
+  append(row, wrench.force);
+  append(row, wrench.torque);
 }
 
 }  // namespace
@@ -167,18 +197,28 @@ double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, cons
   return largest;
 }
 
-std::vector<std::string> probe_columns(const std::vector<Probe>& probes, const pbd::Scene& scene) {
+std::vector<std::string> probe_columns(const SceneFile& file) {
   std::vector<std::string> columns;
-  for (const auto& probe : probes)
-    for (auto& column : columns_of(probe, scene)) columns.push_back(std::move(column));
+  for (const auto& probe : file.probes)
+    for (auto& column : columns_of(probe, file.scene)) columns.push_back(std::move(column));
   return columns;
 }
 
-void append_probes(const std::vector<Probe>& probes, const pbd::Scene& scene, const pbd::State& state,
+void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Workspace* stepped,
                    std::vector<Cell>& row) {
-  for (const auto& probe : probes) {
-    if (probe.kind == "position") append(row, state.x.col(probe.node));
-    if (probe.kind == "velocity") append(row, state.v.col(probe.node));
+  const pbd::Scene& scene = file.scene;
+  for (const auto& probe : file.probes) {
+    const bool position = probe.kind == "position", velocity = probe.kind == "velocity";
+    if (position && probe.body < 0) append(row, state.x.col(probe.node));
+    if (velocity && probe.body < 0) append(row, state.v.col(probe.node));
+    if (position && probe.body >= 0) append(row, BodyPoint(scene, state, probe).position);
+    if (velocity && probe.body >= 0) append(row, BodyPoint(scene, state, probe).velocity);
+    if (probe.kind == "angular_velocity") append(row, BodyPoint(scene, state, probe).angular_velocity);
+    if (probe.kind == "orientation") {
+      const auto& q = state.orientation[static_cast<std::size_t>(probe.body)];
+      for (const double part : {q.w(), q.x(), q.y(), q.z()}) row.emplace_back(part);
+    }
+    if (probe.kind == "joint_force") append_joint_force(file, file.joints[probe.joint], state, stepped, row);
     if (probe.kind == "energy")
       for (const auto energy : {kinetic_energy, gravity_energy, elastic_energy})
         row.emplace_back(energy(scene, state));

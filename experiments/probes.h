@@ -9,11 +9,12 @@
 
 namespace pbdcheck {
 
-/// Column names of the probes, units as suffixes.
-std::vector<std::string> probe_columns(const std::vector<Probe>& probes, const pbd::Scene& scene);
+/// Column names of the file's probes, units as suffixes.
+std::vector<std::string> probe_columns(const SceneFile& file);
 
-/// Appends the probes' values at `state` to a row.
-void append_probes(const std::vector<Probe>& probes, const pbd::Scene& scene, const pbd::State& state,
+/// Appends the probes' values at `state` to a row; `stepped` is the workspace whose last step ended there,
+/// null at the start.
+void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Workspace* stepped,
                    std::vector<Cell>& row);
 
 /// Sum of 1/2 m v^2 over the nodes of finite mass and 1/2 w . I w over the bodies of finite inertia, J.

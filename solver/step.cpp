@@ -42,6 +42,23 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
   return flat;
 }
 
+std::vector<double> Workspace::forces(std::size_t index) const {
+  std::vector<double> flat;
+  for (std::size_t b = 0; b < data_->rows.blocks.size(); ++b)
+    if (data_->effect_of_block[b] == index)
+      std::visit(
+          [&](const auto& block) {
+            constexpr auto rows = static_cast<std::size_t>(std::decay_t<decltype(block)>::rows);
+            flat.assign(rows * (block.entry(block.size() - 1) + 1), std::nan(""));
+            for (std::size_t i = 0; i < block.size(); ++i)
+              for (std::size_t r = 0; r < rows; ++r)
+                flat[rows * block.entry(i) + r] =
+                    block.impulse[i][static_cast<Eigen::Index>(r)] / data_->map.s;
+          },
+          data_->rows.blocks[b]);
+  return flat;
+}
+
 namespace {
 
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();

@@ -85,6 +85,11 @@ class Workspace {
   /// its constraints that is a row.
   std::vector<double> impulses(std::size_t index) const;
 
+  /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
+  /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
+  /// ones under explicit forces). J^T times them are the forces.
+  std::vector<double> forces(std::size_t index) const;
+
  private:
   struct Data;
   std::unique_ptr<Data> data_;

@@ -6,6 +6,7 @@
 
 #include "choices.h"
 #include "error.h"
+#include "lines.h"
 
 namespace pbdcheck {
 namespace {
@@ -79,11 +80,41 @@ void Builder::anchor(const Keys& keys, const std::vector<int>& nodes, double com
   }
 }
 
+int Builder::body(Keys& keys, std::string_view key) {
+  return body(keys, key, keys.text(key));
+}
+
+int Builder::body(const Keys& keys, std::string_view key, const std::string& name) {
+  std::vector<std::string> names{"world"};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name) return static_cast<int>(i);
+    names.push_back(bodies[i].name);
+  }
+  if (name != "world") keys.refuse(key, "`" + name + "`", allowed_names(name, names));
+  bodies.push_back({name, {}, Eigen::Isometry3d::Identity()});
+  return pbd::add_body(scene, pbd::Vec3::Zero(), pbd::infinity, pbd::Vec3::Constant(pbd::infinity));
+}
+
+bool Builder::moves(int body) const {
+  const int node = scene.bodies[static_cast<std::size_t>(body)].node;
+  return scene.mass[static_cast<std::size_t>(node)] != pbd::infinity;
+}
+
 pbd::Scene Builder::finish() {
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed& a, const Placed& b) { return a.line < b.line; });
   for (auto& entry : placed) scene.effects.push_back(std::move(entry.effect));
+  for (auto& joint : joints)
+    for (auto& part : joint.parts)
+      part.effect = static_cast<std::size_t>(
+          std::find_if(scene.effects.begin(), scene.effects.end(),
+                       [&](const pbd::Effect& effect) { return effect.index() == part.effect; }) -
+          scene.effects.begin());
   return std::move(scene);
+}
+
+NodeRange numbered_nodes(const pbd::Scene& scene) {
+  return {0, scene.bodies.empty() ? scene.nodes() : scene.bodies[0].node};
 }
 
 std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
@@ -97,7 +128,8 @@ std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRan
     throw pbd::SetupError(keys.where(), "no choice of nodes", allowed);
   }
   if (given.size() > 1) keys.refuse(given[1], "both " + joined(given), allowed);
-  if (range.count == 0) throw pbd::SetupError(keys.where(), "a scene without nodes", "at least one node");
+  if (range.count == 0)
+    keys.refuse(given[0], "a choice in a scene without nodes", "a scene with one; rigid bodies have names");
 
   const std::string& way = given[0];
   std::vector<int> found;
@@ -122,14 +154,41 @@ double read_damping(Keys& keys) {
   return keys.number_or("damping_s", 0, Range::not_negative);
 }
 
-double read_compliance(Keys& keys) {
-  const bool soft = keys.has("compliance_m_per_n");
-  if (!keys.has("stiffness_n_per_m")) return keys.number_or("compliance_m_per_n", 0, Range::not_negative);
-  if (soft) keys.refuse("stiffness_n_per_m", "a stiffness and a compliance", "one of them");
-  const double compliance = 1 / keys.number("stiffness_n_per_m", Range::positive_or_infinite);
-  if (compliance > largest_number)
-    keys.refuse("stiffness_n_per_m", fmt::format("a number >= {:g}, or inf", 1 / largest_number));
-  return compliance;
+double read_compliance(Keys& keys, std::string_view compliance, std::string_view stiffness) {
+  const bool soft = keys.has(compliance);
+  if (!keys.has(stiffness)) return keys.number_or(compliance, 0, Range::not_negative);
+  if (soft) keys.refuse(stiffness, "a stiffness and a compliance", "one of them");
+  const double inverse = 1 / keys.number(stiffness, Range::positive_or_infinite);
+  if (inverse > largest_number)
+    keys.refuse(stiffness, fmt::format("a number >= {:g}, or inf", 1 / largest_number));
+  return inverse;
+}
+
+std::string read_name(Keys& keys) {
+  const std::string name = keys.text("name");
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::islower(c) || std::isdigit(c) || c == '_';
+  });
+  if (name.empty() || !plain) keys.refuse("name", "`" + name + "`", "lower case letters, digits and _");
+  return name;
+}
+
+std::filesystem::path mesh_path(Keys& keys) {
+  auto path = std::filesystem::path(keys.file()).parent_path() / keys.text("file");
+  const auto reason = unreadable(path);
+  if (!reason.empty())
+    keys.refuse("file", path.string() + ", " + reason, "a mesh file, relative to the scene file");
+  return path;
+}
+
+std::string mesh_name(Keys& keys) {
+  return keys.has("file") ? keys.where() + ": " + keys.text("file") : keys.where();
+}
+
+Eigen::Matrix3d read_rotation(Keys& keys) {
+  const pbd::Vec3 rotation = keys.vector_or("rotation_rad", pbd::Vec3::Zero());
+  if (rotation.isZero(0)) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(rotation.stableNorm(), rotation.stableNormalized()).matrix();
 }
 
 }  // namespace pbdcheck

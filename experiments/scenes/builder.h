@@ -2,11 +2,13 @@
 // refers to them; effects keep the order in which the file names them, which is the order of Gauss-Seidel.
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <vector>
 
 #include "error.h"
 #include "keys.h"
+#include "named.h"
 #include "scene.h"
 
 namespace pbdcheck {
@@ -16,6 +18,9 @@ struct NodeRange {
   int first = 0;
   int count = 0;
 };
+
+/// All nodes but those of rigid bodies, which stand behind them and have names.
+NodeRange numbered_nodes(const pbd::Scene& scene);
 
 /// Links, triangles and tetrahedra of a scene. A tetrahedron takes about 1.5 kB in scene and rows, so that
 /// this many take 3 GB; more are taken for a typing error.
@@ -40,6 +45,8 @@ struct Builder {
   std::vector<Placed> placed;
   std::set<int> anchored;
   double elements = 0;
+  std::vector<NamedBody> bodies;   // one a body of the scene
+  std::vector<NamedJoint> joints;  // their parts' effects by kind, until the scene is finished
 
   void add(int line, pbd::Effect effect) { placed.push_back({line, std::move(effect)}); }
 
@@ -50,6 +57,12 @@ struct Builder {
   /// Anchors `nodes` at their initial places; `keys` names the table in errors: a node twice and one of
   /// infinite mass are refused.
   void anchor(const Keys& keys, const std::vector<int>& nodes, double compliance, pbd::Anchor& effect);
+
+  /// The body that `key` names; "world", fixed at the origin, is made when it is first asked for.
+  int body(Keys& keys, std::string_view key);
+  int body(const Keys& keys, std::string_view key, const std::string& name);
+
+  bool moves(int body) const;
 
   /// Moves the effects into the scene, in the file's order.
   pbd::Scene finish();
@@ -62,11 +75,24 @@ struct Builder {
 /// out of range or twice, and a box without nodes. To be called after the table's other keys were read.
 std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range);
 
-/// `compliance_m_per_n` or its inverse `stiffness_n_per_m`, whichever stands there; 0 if neither does.
-double read_compliance(Keys& keys);
+/// A compliance or its inverse, the stiffness, whichever of the two keys stands there; 0 if neither does.
+double read_compliance(Keys& keys, std::string_view compliance = "compliance_m_per_n",
+                       std::string_view stiffness = "stiffness_n_per_m");
 
 /// `damping_s`, a constraint's retardation time; 0, no damping, if absent.
 double read_damping(Keys& keys);
+
+/// `name`: lower case letters, digits and _.
+std::string read_name(Keys& keys);
+
+/// The file that `file` names, found relative to the scene file's folder.
+std::filesystem::path mesh_path(Keys& keys);
+
+/// The table, and the file if its mesh comes from one.
+std::string mesh_name(Keys& keys);
+
+/// The rotation by the rotation vector `rotation_rad`; none if absent.
+Eigen::Matrix3d read_rotation(Keys& keys);
 
 /// Gives the constraints of an effect from the `first` on the retardation time (s); an effect that has none
 /// and gets none stays without.
@@ -74,7 +100,7 @@ template <class Effect>
 void set_damping(Effect& effect, std::size_t first, double time) {
   if (time == 0 && effect.damping.empty()) return;
   effect.damping.resize(first, 0);
-  effect.damping.resize(effect.node.size(), time);
+  effect.damping.resize(effect.compliance.size(), time);
 }
 
 // One function per kind of table; each reads all tables of its kind below the root.
@@ -82,10 +108,15 @@ void read_particles(Keys& root, Builder& builder);
 void read_chains(Keys& root, Builder& builder);
 void read_cloths(Keys& root, Builder& builder);
 void read_solids(Keys& root, Builder& builder);
+void read_rigid_bodies(Keys& root, Builder& builder);
 void read_gravity(Keys& root, Builder& builder);
+void read_gyroscopic(Keys& root, Builder& builder);
 void read_forces(Keys& root, Builder& builder);
+void read_torques(Keys& root, Builder& builder);
 void read_anchors(Keys& root, Builder& builder);
 void read_distances(Keys& root, Builder& builder);
 void read_bendings(Keys& root, Builder& builder);
+void read_joints(Keys& root, Builder& builder);
+void read_attachments(Keys& root, Builder& builder);
 
 }  // namespace pbdcheck

@@ -165,6 +165,15 @@ std::string Keys::choice_or(std::string_view key, std::string_view fallback,
   return name;
 }
 
+std::vector<std::string> Keys::texts(std::string_view key, std::size_t size) {
+  const auto allowed = fmt::format("a list of {} texts in quotes", size);
+  const toml::array& array = need_array(key, allowed);
+  if (array.size() != size || !array.is_homogeneous<std::string>()) refuse(key, allowed);
+  std::vector<std::string> found;
+  for (const auto& entry : array) found.push_back(*entry.value<std::string>());
+  return found;
+}
+
 pbd::Vec3 Keys::vector(std::string_view key) {
   return checked_vector(need(key, vector_text), key);
 }

@@ -40,6 +40,7 @@ class Keys {
   int integer_or(std::string_view key, int fallback, int smallest);
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
+  std::vector<std::string> texts(std::string_view key, std::size_t size);
   std::string choice_or(std::string_view key, std::string_view fallback,
                         const std::vector<std::string>& allowed);
 

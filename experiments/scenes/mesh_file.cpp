@@ -61,4 +61,12 @@ pbd::TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
   return {std::move(x), std::move(found.nodes)};
 }
 
+pbd::Points read_mesh_nodes(const std::filesystem::path& file) {
+  const auto found = read_triangles(file);
+  pbd::Points x(3, static_cast<Eigen::Index>(found.x.size()));
+  for (std::size_t i = 0; i < found.x.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = pbd::Vec3::Map(found.x[i].data());
+  return x;
+}
+
 }  // namespace pbdcheck

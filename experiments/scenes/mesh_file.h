@@ -24,4 +24,7 @@ namespace pbdcheck {
 pbd::TetMesh read_tet_mesh(const std::filesystem::path& file);
 pbd::TriangleMesh read_triangle_mesh(const std::filesystem::path& file);
 
+/// All nodes of a triangle mesh's file, of which no triangle need be made.
+pbd::Points read_mesh_nodes(const std::filesystem::path& file);
+
 }  // namespace pbdcheck

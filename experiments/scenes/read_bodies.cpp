@@ -6,21 +6,16 @@
 #include <numeric>
 
 #include "builder.h"
-#include "lines.h"
 #include "mesh_file.h"
 
 namespace pbdcheck {
 namespace {
 
-/// The mesh file of a table, found relative to the scene file's folder.
-std::filesystem::path mesh_path(Keys& keys) {
+/// The mesh file of a table that has no grid.
+std::filesystem::path own_mesh_path(Keys& keys) {
   for (const auto* key : {"cells", "size_m"})
     if (keys.has(key)) keys.refuse(key, "a grid and a mesh file", "either file, or cells and size_m");
-  auto path = std::filesystem::path(keys.file()).parent_path() / keys.text("file");
-  const auto reason = unreadable(path);
-  if (!reason.empty())
-    keys.refuse("file", path.string() + ", " + reason, "a mesh file, relative to the scene file");
-  return path;
+  return mesh_path(keys);
 }
 
 template <std::size_t K>
@@ -39,7 +34,7 @@ pbd::TetMesh solid_mesh(Keys& keys, Builder& builder) {
     const auto size = keys.numbers("size_m", 3, Range::positive);
     return pbd::kuhn_grid(cells<3>(keys, 6, builder), {size[0], size[1], size[2]});
   }
-  auto mesh = read_tet_mesh(mesh_path(keys));
+  auto mesh = read_tet_mesh(own_mesh_path(keys));
   builder.reserve(keys, "file", static_cast<double>(mesh.tets.size()));
   return mesh;
 }
@@ -49,7 +44,7 @@ pbd::TriangleMesh cloth_mesh(Keys& keys, Builder& builder) {
     const auto size = keys.numbers("size_m", 2, Range::positive);
     return pbd::grid_sheet(cells<2>(keys, 2, builder), {size[0], size[1]});
   }
-  auto mesh = read_triangle_mesh(mesh_path(keys));
+  auto mesh = read_triangle_mesh(own_mesh_path(keys));
   builder.reserve(keys, "file", static_cast<double>(mesh.triangles.size()));
   return mesh;
 }
@@ -58,10 +53,10 @@ pbd::TriangleMesh cloth_mesh(Keys& keys, Builder& builder) {
 /// translation.
 void place(Keys& keys, pbd::Points& x) {
   const double scale = keys.number_or("scale", 1, Range::positive);
-  const pbd::Vec3 rotation = keys.vector_or("rotation_rad", pbd::Vec3::Zero());
+  const Eigen::Matrix3d rotation = read_rotation(keys);
   const pbd::Vec3 translation = keys.vector_or("translation_m", pbd::Vec3::Zero());
   if (scale != 1) x *= scale;
-  if (rotation.norm() > 0) x = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix() * x;
+  x = rotation * x;
   x.colwise() += translation;
   if (!(x.cwiseAbs().maxCoeff() <= largest_number))
     throw pbd::SetupError(keys.where(), "positions beyond 1e100 m", "positions up to 1e100 m in size");
@@ -127,11 +122,6 @@ std::optional<pbd::Material> read_viscosity(Keys& keys) {
   const pbd::Material moduli{damping->number("young_pa_s", Range::positive), read_poisson(*damping)};
   damping->refuse_unknown();
   return moduli;
-}
-
-/// The table, and the file if its mesh comes from one.
-std::string mesh_name(Keys& keys) {
-  return keys.has("file") ? keys.where() + ": " + keys.text("file") : keys.where();
 }
 
 void add_cloth_effects(Keys& keys, const pbd::TriangleMesh& mesh, int first, Builder& builder) {

@@ -8,12 +8,11 @@
 namespace pbdcheck {
 namespace {
 
-NodeRange all_nodes(const pbd::Scene& scene) {
-  return {0, scene.nodes()};
-}
-
 /// Refuses node indices beyond the scene and a node twice in one constraint.
-void check_nodes(const Keys& keys, const std::vector<int>& nodes, int count) {
+void check_nodes(const Keys& keys, const std::vector<int>& nodes, const pbd::Scene& scene) {
+  const int count = numbered_nodes(scene).count;
+  if (count == 0)
+    keys.refuse("nodes", "a choice in a scene without nodes", "a scene with one; rigid bodies have names");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i] >= count)
       keys.refuse("nodes", std::to_string(nodes[i]), fmt::format("a node index from 0 to {}", count - 1));
@@ -21,6 +20,10 @@ void check_nodes(const Keys& keys, const std::vector<int>& nodes, int count) {
       if (nodes[i] == nodes[j])
         keys.refuse("nodes", fmt::format("node {} twice", nodes[i]), "different nodes");
   }
+}
+
+int body_node(Keys& keys, Builder& builder) {
+  return builder.scene.bodies[static_cast<std::size_t>(builder.body(keys, "body"))].node;
 }
 
 void read_particle_arrays(Keys& keys, Builder& builder) {
@@ -120,7 +123,9 @@ void read_forces(Keys& root, Builder& builder) {
   pbd::ExternalForce effect;
   for (auto& keys : tables) {
     const pbd::Vec3 force = keys.vector("force_n");
-    for (const int node : select_nodes(keys, builder.scene, all_nodes(builder.scene))) {
+    const auto nodes = keys.has("body") ? std::vector<int>{body_node(keys, builder)}
+                                        : select_nodes(keys, builder.scene, numbered_nodes(builder.scene));
+    for (const int node : nodes) {
       effect.node.push_back(node);
       effect.force.push_back(force);
     }
@@ -136,7 +141,7 @@ void read_anchors(Keys& root, Builder& builder) {
   for (auto& keys : tables) {
     const double compliance = read_compliance(keys), damping = read_damping(keys);
     const bool moved = keys.has("target_m");
-    const auto nodes = select_nodes(keys, builder.scene, all_nodes(builder.scene));
+    const auto nodes = select_nodes(keys, builder.scene, numbered_nodes(builder.scene));
     builder.anchor(keys, nodes, compliance, effect);
     set_damping(effect, effect.node.size() - nodes.size(), damping);
     if (moved) {
@@ -160,7 +165,7 @@ void read_distances(Keys& root, Builder& builder) {
     if (keys.has("rest_length_m"))
       rest_length = keys.numbers_or_one("rest_length_m", links.size(), Range::not_negative);
     for (std::size_t i = 0; i < links.size(); ++i) {
-      check_nodes(keys, links[i], builder.scene.nodes());
+      check_nodes(keys, links[i], builder.scene);
       effect.node.push_back({links[i][0], links[i][1]});
       effect.rest_length.push_back(rest_length.empty() ? (x.col(links[i][1]) - x.col(links[i][0])).norm()
                                                        : rest_length[i]);
@@ -184,7 +189,7 @@ void read_bendings(Keys& root, Builder& builder) {
     const double compliance = keys.number_or("compliance_rad_per_n_m", 0, Range::not_negative);
     const std::size_t first = effect.node.size();
     for (const auto& hinge : keys.integer_lists("nodes", 4, 0)) {
-      check_nodes(keys, hinge, builder.scene.nodes());
+      check_nodes(keys, hinge, builder.scene);
       Eigen::Matrix<double, 3, 4> at;
       for (int i = 0; i < 4; ++i) at.col(i) = x.col(hinge[static_cast<std::size_t>(i)]);
       effect.node.push_back({hinge[0], hinge[1], hinge[2], hinge[3]});

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <set>
 #include <sstream>
 
 #include "builder.h"
 #include "choices.h"
 #include "document.h"
 #include "error.h"
+#include "read_probes.h"
 #include "validate.h"
 
 namespace pbdcheck {
@@ -58,56 +58,24 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   return method;
 }
 
-bool name_is_plain(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::islower(c) || std::isdigit(c) || c == '_';
-  });
-}
-
-Probe read_probe(Keys& keys, const pbd::Scene& scene) {
-  static const auto kinds = strings(probe_kinds);
-  keys.text("kind");
-  Probe probe;
-  probe.kind = keys.choice_or("kind", "", kinds);
-  const bool at_node = probe.kind == "position" || probe.kind == "velocity";
-  const bool named = keys.has("name");
-  if (at_node) {
-    const auto nodes = select_nodes(keys, scene, {0, scene.nodes()});
-    if (nodes.size() != 1)
-      throw pbd::SetupError(keys.where(), fmt::format("{} nodes", nodes.size()), "one node");
-    probe.node = nodes[0];
-  }
-  probe.name = named ? keys.text("name") : at_node ? fmt::format("node_{}", probe.node) : "";
-  if (named && !name_is_plain(probe.name))
-    keys.refuse("name", "`" + probe.name + "`", "lower case letters, digits and _");
-  keys.refuse_unknown();
-  return probe;
-}
-
-void read_probes(Keys& root, SceneFile& found) {
-  std::set<std::pair<std::string, std::string>> seen;
-  for (auto& keys : root.tables("probe")) {
-    found.probes.push_back(read_probe(keys, found.scene));
-    if (!seen.emplace(found.probes.back().kind, found.probes.back().name).second)
-      throw pbd::SetupError(keys.where(), "a probe with the same columns as another", "another `name`");
-  }
-}
-
-pbd::Scene read_scene(Keys& root) {
+void read_scene(Keys& root, SceneFile& found) {
   Builder builder;
-  for (const auto read : {read_particles, read_chains, read_cloths, read_solids, read_gravity, read_forces,
-                          read_anchors, read_distances, read_bendings})
+  for (const auto read : {read_particles, read_chains, read_cloths, read_solids, read_rigid_bodies,
+                          read_gravity, read_gyroscopic, read_forces, read_torques, read_anchors,
+                          read_distances, read_bendings, read_joints, read_attachments})
     read(root, builder);
   if (builder.scene.nodes() == 0) {
     root.refuse_unknown();
     throw pbd::SetupError(root.file(), "a scene without nodes",
-                          "at least one of particle, particles, chain, cloth, solid");
+                          "at least one of particle, particles, chain, cloth, solid, rigid_body");
   }
   const auto& mass = builder.scene.mass;
   if (std::count(mass.begin(), mass.end(), pbd::infinity) == builder.scene.nodes())
     throw pbd::SetupError(root.file(), "a scene in which every node has infinite mass",
                           "a node that can move");
-  return builder.finish();
+  found.scene = builder.finish();
+  found.bodies = std::move(builder.bodies);
+  found.joints = std::move(builder.joints);
 }
 
 }  // namespace
@@ -118,7 +86,7 @@ SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<s
   SceneFile found;
   if (root.has("description")) found.description = root.text("description");
   for (const auto* later : {"step", "method", "probe"}) root.has(later);  // known, though read last
-  found.scene = read_scene(root);
+  read_scene(root, found);
   read_step(root, found);
   if (auto keys = root.table("method")) found.method = read_method(*keys, found.method);
   read_probes(root, found);

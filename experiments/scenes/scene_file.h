@@ -9,23 +9,30 @@
 #include <string>
 #include <vector>
 
+#include "named.h"
 #include "scene.h"
 #include "step.h"
 
 namespace pbdcheck {
 
-/// What `simulate` writes down after every step. `node` is meant for positions and velocities only.
+/// What `simulate` writes down after every step, of a node, a point of a rigid body, a joint or the scene.
 struct Probe {
   std::string kind;  // one of probe_kinds
   std::string name;  // begins the names of its columns
   int node = 0;
+  int body = -1;                        // none
+  pbd::Vec3 point = pbd::Vec3::Zero();  // in the body's frame
+  std::size_t joint = 0;
 };
-inline constexpr std::array<std::string_view, 5> probe_kinds{"position", "velocity", "energy", "momentum",
-                                                             "constraint_error"};
+inline constexpr std::array<std::string_view, 8> probe_kinds{
+    "position", "velocity",    "orientation", "angular_velocity",
+    "energy",   "joint_force", "momentum",    "constraint_error"};
 
 struct SceneFile {
   std::string description;  // one line, shown by `pbdcheck list scenes`
   pbd::Scene scene;
+  std::vector<NamedBody> bodies;  // one a rigid body of the scene
+  std::vector<NamedJoint> joints;
   double step_s = 0;
   std::int64_t steps = 0;
   pbd::Method method;

@@ -1,8 +1,6 @@
 // What a user can get wrong: each mistake is refused with exit code 2 and a message that says where it is,
 // what stands there and what may, and nothing is written.
-#include <catch2/catch.hpp>
-
-#include "program.h"
+#include "mistakes.h"
 
 using namespace pbdcheck::test;
 
@@ -30,11 +28,7 @@ std::string deep(int parts) {
   return text;
 }
 
-struct Mistake {
-  std::string text;  // of the whole scene if it contains [step], of what follows the two particles otherwise
-  std::vector<std::string> message;
-};
-
+/// Of the whole scene if the text contains [step], of what follows the two particles otherwise.
 const std::vector<Mistake> mistakes{
     {"[graviti]\n", {"scene.toml:10: graviti", "unknown key", "did you mean `gravity`?"}},
     {"[gravity]\nacceleration = [0, 0, -1]\n",
@@ -175,12 +169,6 @@ const std::vector<Mistake> mistakes{
 
 std::string whole_scene(const Mistake& mistake) {
   return mistake.text.find("[step]") != std::string::npos ? mistake.text : two_particles + mistake.text;
-}
-
-void check_refused(const Ran& ran, const std::vector<std::string>& message) {
-  CHECK(ran.exit_code == 2);
-  CHECK(ran.out.empty());
-  for (const auto& part : message) CHECK_THAT(ran.err, Catch::Contains(part));
 }
 
 }  // namespace

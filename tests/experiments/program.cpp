@@ -39,7 +39,7 @@ TEST_CASE("every scene that comes with the program is read, and says what it sho
     CHECK_FALSE(read_scene_file(entry.path()).description.empty());
     ++count;
   }
-  CHECK(count >= 7);
+  CHECK(count >= 9);
 }
 
 TEST_CASE("simulate writes a row of probes a step and a record of the run") {
@@ -92,6 +92,16 @@ TEST_CASE("VTK frames hold the scene's cells and the collection names every fram
   CHECK_THAT(frame, Catch::Contains("NumberOfPoints=\"81\" NumberOfCells=\"192\""));
   CHECK_THAT(frame, Catch::Contains("Name=\"velocity\""));
   CHECK_THAT(read_text(folder.path / "simulation.pvd"), Catch::Contains("frames/frame_000003.vtu"));
+}
+
+TEST_CASE("VTK frames of rigid bodies hold their surfaces") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"simulate", scenes / "top.toml", "--set", "step.duration_s=0.003", "--export",
+                                "vtk", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto frame = read_text(folder.path / "frames" / "bodies_000003.vtu");
+  CHECK_THAT(frame, Catch::Contains("NumberOfPoints=\"66\" NumberOfCells=\"128\""));  // 2 x 32 + 2, 4 x 32
+  CHECK_THAT(read_text(folder.path / "bodies.pvd"), Catch::Contains("frames/bodies_000003.vtu"));
 }
 
 TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {

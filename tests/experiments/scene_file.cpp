@@ -310,5 +310,5 @@ TEST_CASE("every example of the format's description is read") {
     CHECK_NOTHROW(read_scene_file(folder.write("scene.toml", whole)));
     ++count;
   }
-  CHECK(count >= 15);
+  CHECK(count >= 18);
 }

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "error.h"
+
+#include "integrators.h"
 #include "step.h"
 
 using namespace pbd;
@@ -272,4 +274,38 @@ TEST_CASE("a motor of limited torque turns a free rotor no faster than the torqu
       {{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {1.0}, {0}, {}, {{-0.05, 0.05}}});
   const State end = run(scene, method_of("implicit_euler"), 0.01, 50);
   CHECK(end.spin(2, 1) == Approx(0.5 * 0.05 / 0.1).epsilon(1e-10));  // t torque / I, below the rate
+
+TEST_CASE("a body that hangs still is held by its weight, whatever the integrator") {
+  for (const Integrator& integrator : integrators()) {
+    INFO(integrator.name);
+    Scene scene;
+    add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+    add_body(scene, Vec3(0, 0, -1), 2, Vec3(0.1, 0.1, 0.1));
+    scene.effects.emplace_back(Gravity{});
+    scene.effects.emplace_back(PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(0, 0, 1)}}, {0}});
+    const Method method = method_of(integrator.name);
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    for (int k = 0; k < 4; ++k) CHECK(step(scene, method, 0.01, state, workspace).status == Status::ok);
+    const std::vector<double> force = workspace.forces(1);
+    REQUIRE(force.size() == 3);
+    CHECK(std::abs(force[0]) < 1e-9);
+    CHECK(force[2] == Approx(2 * 9.81).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("forces that act as given ones are not known as multipliers") {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), 1);
+  add_node(scene, Vec3::UnitX(), 3);
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Anchor{{0, 1}, {Vec3::Zero(), Vec3::UnitX()}, {1e-3, 0}});
+  const Method method = method_of("symplectic_euler");
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  step(scene, method, 0.001, state, workspace);
+  const std::vector<double> force = workspace.forces(1);
+  REQUIRE(force.size() == 6);
+  CHECK(std::isnan(force[2]));
+  CHECK(force[5] == Approx(3 * 9.81).epsilon(1e-9));
 }

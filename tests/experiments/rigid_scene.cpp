@@ -1,0 +1,367 @@
+// Rigid bodies and joints of scene files: what is read, and forces that statics tells.
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "joint_force.h"
+#include "probes.h"
+#include "program.h"
+#include "scene_file.h"
+#include "vtk.h"
+
+using namespace pbdcheck;
+using namespace pbdcheck::test;
+using pbd::Vec3;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const std::filesystem::path scenes = PBDCHECK_SCENES;
+
+SceneFile read(const std::string& text, const std::vector<std::string>& settings = {}) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory_symlink(scenes / "meshes", folder.path / "meshes");
+  return read_scene_file(folder.write("scene.toml", text + "[step]\nstep_s = 0.01\nsteps = 1\n"), settings);
+}
+
+/// The effect of the scene that is an E.
+template <class E>
+const E& only(const pbd::Scene& scene) {
+  const E* found = nullptr;
+  for (const auto& effect : scene.effects)
+    if (const auto* typed = std::get_if<E>(&effect)) {
+      REQUIRE(found == nullptr);
+      found = typed;
+    }
+  REQUIRE(found != nullptr);
+  return *found;
+}
+
+Eigen::Matrix3d turned(const Vec3& rotation) {
+  return Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
+}
+
+double volume(const pbd::TriangleMesh& surface) {
+  return pbd::surface_properties(surface, 1).mass;
+}
+
+const std::string box =
+    "[[rigid_body]]\nname = \"box\"\nshape = \"box\"\nsize_m = [0.2, 0.3, 0.4]\ndensity_kg_m3 = 500\n";
+const std::string placed =
+    "position_m = [1, 2, 3]\nrotation_rad = [0.3, -0.4, 0.5]\nvelocity_m_s = [1, 0, 2]\n"
+    "angular_velocity_rad_s = [3, -2, 1]\n";
+
+}  // namespace
+
+// The wedge is a right triangle of 2 x 1 m (x, z) along 1 m of y: centre (2/3, 1/2, 1/3), moments per mass
+// b^2/18 + h^2/18, 1/12 and the product -b h/36.
+TEST_CASE("a mesh and its hull have the mass, place and inertia of the prism that they are") {
+  for (const auto* shape : {"mesh", "hull"}) {
+    INFO(shape);
+    const auto file = read("[[rigid_body]]\nname = \"wedge\"\nshape = \"" + std::string(shape) +
+                           "\"\nfile = \"meshes/wedge.obj\"\nscale = 0.5\ndensity_kg_m3 = 80\n" + placed);
+    const auto& scene = file.scene;
+    const double mass = 80 * 0.125;
+    CHECK(scene.mass[0] == Approx(mass));
+    const Eigen::Matrix3d rotation = turned({0.3, -0.4, 0.5});
+    const Vec3 centre = Vec3(2.0 / 3, 0.5, 1.0 / 3) / 2;
+    CHECK((scene.initial.x.col(0) - (Vec3(1, 2, 3) + rotation * centre)).norm() < 1e-14);
+    CHECK(scene.initial.v.col(0) == Vec3(1, 0, 2));
+    Eigen::Matrix3d inertia;
+    inertia << 1.0 / 18 + 1.0 / 12, 0, 1.0 / 18, 0, 5.0 / 18, 0, 1.0 / 18, 0, 4.0 / 18 + 1.0 / 12;
+    inertia *= mass / 4;
+    const Eigen::Matrix3d axes = scene.initial.orientation[0].toRotationMatrix();
+    CHECK((axes * scene.bodies[0].inertia.asDiagonal() * axes.transpose() -
+           rotation * inertia * rotation.transpose())
+              .norm() < 1e-14);
+    CHECK((axes * scene.initial.spin.col(0) - Vec3(3, -2, 1)).norm() < 1e-14);
+
+    const BodySurfaces surfaces(scene, file.bodies);
+    pbd::Points x, v;
+    surfaces.place(scene.initial, x, v);
+    const Vec3 corner = Vec3(1, 2, 3) + rotation * Vec3(1, 0.5, 0);  // (2, 1, 0) of the file
+    Eigen::Index nearest = 0;
+    CHECK((x.colwise() - corner).colwise().norm().minCoeff(&nearest) < 1e-14);
+    const Vec3 lever = corner - scene.initial.x.col(0);
+    CHECK((v.col(nearest) - Vec3(1, 0, 2) - Vec3(3, -2, 1).cross(lever)).norm() < 1e-13);
+    CHECK(surfaces.cells().count == 8);
+  }
+}
+
+TEST_CASE("bodies stand behind all nodes, in the file's order, held or free, and the world behind them") {
+  const auto file = read(box + R"(
+[[rigid_body]]
+name = "wall"
+held = "fixed"
+position_m = [5, 0, 0]
+[[rigid_body]]
+name = "wheel"
+held = "moving"
+shape = "sphere"
+radius_m = 1
+velocity_m_s = [0, 7, 0]
+angular_velocity_rad_s = [0, 0, 4]
+rotation_rad = [1, 0, 0]
+[[particle]]
+position_m = [0, 0, 9]
+mass_kg = 3
+[[joint]]
+kind = "ball"
+bodies = ["world", "box"]
+point_m = [0, 0, 0]
+[[force]]
+near_m = [0, 0, 0]
+force_n = [1, 0, 0]
+[[force]]
+body = "box"
+force_n = [2, 0, 0]
+[[torque]]
+body = "wheel"
+torque_n_m = [0, 1, 0]
+[[attachment]]
+body = "wall"
+near_m = [5, 0, 0]
+stiffness_n_per_m = 4
+damping_s = 0.5
+)");
+  const auto& scene = file.scene;
+  CHECK(scene.mass[0] == 3);
+  CHECK(scene.mass[1] == Approx(500 * 0.024));
+  for (const std::size_t body : {1, 2, 3}) {
+    CHECK(scene.mass[body + 1] == pbd::infinity);
+    CHECK(scene.bodies[body].inertia == Vec3::Constant(pbd::infinity));
+  }
+  CHECK(file.bodies[3].name == "world");
+  CHECK(scene.initial.x.col(4) == Vec3::Zero());
+  CHECK(scene.initial.v.col(3) == Vec3(0, 7, 0));
+  CHECK((scene.initial.orientation[2] * Vec3(scene.initial.spin.col(2)) - Vec3(0, 0, 4)).norm() < 1e-15);
+  CHECK(only<pbd::ExternalForce>(scene).node == std::vector<int>{0, 1});
+  CHECK(only<pbd::ExternalTorque>(scene).body == std::vector<int>{2});
+  const auto& held = only<pbd::Attachment>(scene);
+  CHECK(held.body == std::vector<int>{1});
+  CHECK(held.point[0] == Vec3(-5, 0, 9));
+  CHECK(held.compliance[0] == 0.25);
+  CHECK(held.damping[0] == 0.5);
+}
+
+namespace {
+
+/// Two bodies anyhow in space, and a joint of them.
+SceneFile joined_pair(const std::string& joint) {
+  return read(
+      box + placed + "[[rigid_body]]\nname = \"rod\"\nmass_kg = 1\ninertia_kg_m2 = [1, 2, 2.5]\n" +
+      "position_m = [0, 1, 0]\nrotation_rad = [-1, 2, 0.5]\n[[joint]]\nbodies = [\"box\", \"rod\"]\n" +
+      joint);
+}
+
+}  // namespace
+
+TEST_CASE("every joint is met where it starts, by as many equations as its kind has") {
+  const std::string at = "point_m = [0.1, 0.5, 2]\n", pair = "points_m = [[1, 2, 2.5], [0.5, 1, 0]]\n";
+  const std::string axis = "axis = [1, 2, -2]\n", soft = "compliance_m_per_n = 0.5\n";
+  const std::string soft_angles = "stiffness_n_m_per_rad = 8\ndamping_s = 0.125\n";
+  struct Kind {
+    std::string text;
+    std::int64_t lengths, angles;
+  };
+  for (const auto& [text, lengths, angles] :
+       std::vector<Kind>{{"kind = \"ball\"\n" + at, 3, 0},
+                         {"kind = \"hinge\"\n" + at + axis, 3, 2},
+                         {"kind = \"weld\"\n" + at, 3, 3},
+                         {"kind = \"slider\"\n" + at + axis, 2, 3},
+                         {"kind = \"universal\"\nsecond_axis = [2, 1, 2]\n" + at + axis, 3, 1},
+                         {"kind = \"distance\"\n" + pair, 1, 0},
+                         {"kind = \"angle\"\n" + axis, 0, 1},
+                         {"kind = \"slide\"\n" + pair + axis, 1, 0}}) {
+    INFO(text);
+    const auto hard = joined_pair(text);
+    std::int64_t rows = 0;
+    for (const auto& cost : pbd::Workspace(hard.scene, {}).costs()) rows += cost.rows;
+    CHECK(rows == lengths + angles);
+    for (const auto& effect : hard.scene.effects)
+      CHECK(constraint_error(hard.scene, effect, hard.scene.initial) < 1e-14);
+    const auto compliant = joined_pair(text + (lengths > 0 ? soft : "") + (angles > 0 ? soft_angles : ""));
+    for (const auto& effect : compliant.scene.effects)
+      std::visit(
+          [&]<class E>(const E& typed) {
+            if constexpr (requires { typed.compliance; }) {
+              const bool of_angles =
+                  std::is_same_v<E, pbd::AxisJoint> || std::is_same_v<E, pbd::AngleJoint> ||
+                  std::is_same_v<E, pbd::RotationJoint> || std::is_same_v<E, pbd::PerpendicularJoint>;
+              CHECK(typed.compliance == std::vector<double>{of_angles ? 0.125 : 0.5});
+              CHECK(typed.damping == (angles > 0 ? std::vector<double>{0.125} : std::vector<double>{}));
+            }
+          },
+          effect);
+  }
+}
+
+TEST_CASE("rest lengths, angles and rates of joints are read, and each effect collects its joints") {
+  const auto file = joined_pair(R"(kind = "distance"
+points_m = [[0, 0, 0], [0, 3, 4]]
+[[joint]]
+kind = "distance"
+name = "rope"
+bodies = ["rod", "box"]
+points_m = [[0, 0, 0], [0, 3, 4]]
+rest_length_m = 2
+[[joint]]
+kind = "angle"
+bodies = ["box", "rod"]
+axis = [0, 0, 2]
+rest_angle_rad = 0.5
+rate_rad_s = -3
+[[joint]]
+kind = "slide"
+bodies = ["box", "rod"]
+points_m = [[0, 0, 0], [0, 3, 4]]
+axis = [0, 0, 2]
+rate_m_s = 6
+)");
+  CHECK(only<pbd::BodyDistance>(file.scene).rest_length[0] == Approx(5));
+  CHECK(only<pbd::BodyDistance>(file.scene).rest_length[1] == 2);
+  CHECK(only<pbd::BodyDistance>(file.scene).body[1] == std::array{1, 0});
+  CHECK(only<pbd::AngleJoint>(file.scene).rest_angle[0] == 0.5);
+  CHECK(only<pbd::AngleJoint>(file.scene).rate[0] == -3);
+  CHECK(only<pbd::SlideJoint>(file.scene).rest_position[0] == Approx(4));
+  CHECK(only<pbd::SlideJoint>(file.scene).rate[0] == 6);
+  CHECK(file.joints[1].name == "rope");
+}
+
+// A beam of weight m g held at one end, r = l/2 x from its centre of mass: the joint gives the force m g z,
+// and the torque -r x (-m g z) = -l/2 m g y about its place.
+TEST_CASE("joints exert the forces and torques that hold a beam") {
+  const double weight = 0.8 * 9.81;
+  const std::string beam =
+      "[gravity]\n[gyroscopic]\n[[rigid_body]]\nname = \"beam\"\nshape = \"box\"\nsize_m = [1, 0.2, 0.2]\n"
+      "mass_kg = 0.8\nposition_m = [0.5, 0, 0]\nrotation_rad = [0.5, 0, 0]\n[method]\ntolerance = "
+      "1e-12\nrelaxation "
+      "= \"direct\"\n";
+  const auto joint = [](const std::string& rest, bool turned_round = false) {
+    return "[[joint]]\nbodies = " +
+           std::string(turned_round ? R"(["beam", "world"])" : R"(["world", "beam"])") +
+           "\npoint_m = [0, 0, 0]\n" + rest;
+  };
+  const auto motor = std::string("[[joint]]\nbodies = [\"world\", \"beam\"]\n");
+  struct Held {
+    std::string joints;
+    std::vector<Wrench> expected;
+  };
+  const Vec3 up(0, 0, weight), bend(0, -weight / 2, 0), none = Vec3::Zero();
+  for (const auto& [joints, expected] : std::vector<Held>{
+           {joint("kind = \"weld\"\n"), {{up, bend}}},
+           {joint("kind = \"weld\"\n", true), {{-up, -bend}}},
+           {joint("kind = \"slider\"\naxis = [1, 0, 0]\n"), {{up, bend}}},
+           {joint("kind = \"hinge\"\naxis = [1, 0, 0]\n"), {{up, bend}}},
+           {joint("kind = \"universal\"\naxis = [1, 0, 0]\nsecond_axis = [0, 0, 1]\n"), {{up, bend}}},
+           {joint("kind = \"hinge\"\naxis = [0, 1, 0]\n") + motor + "kind = \"angle\"\naxis = [0, -1, 0]\n",
+            {{up, none}, {none, bend}}},
+           {joint("kind = \"slider\"\naxis = [0, 0, 1]\n") + motor +
+                "kind = \"slide\"\npoints_m = [[0, 0, 0], [0, 0, 0]]\naxis = [0, 0, 1]\n",
+            {{none, bend}, {up, none}}},
+           {joint("kind = \"ball\"\n") + motor + "kind = \"distance\"\npoints_m = [[1, 0, 2], [1, 0, 0]]\n",
+            {{up / 2, none}, {up / 2, none}}}}) {
+    INFO(joints);
+    const auto file = read(beam + joints);
+    pbd::Workspace workspace(file.scene, file.method);
+    auto state = file.scene.initial;
+    for (int k = 0; k < 3; ++k)
+      REQUIRE(pbd::step(file.scene, file.method, file.step_s, state, workspace).status == pbd::Status::ok);
+    REQUIRE(file.joints.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const Wrench found = joint_force(file.joints[i], file.scene, state, workspace);
+      CHECK((found.force - expected[i].force).norm() < 1e-9 * weight);
+      CHECK((found.torque - expected[i].torque).norm() < 1e-9 * weight);
+    }
+  }
+}
+
+// With the crank at the angle 4 rad/s t, the pin is where circles of 1 m about the crank's end and the
+// rocker's pivot meet above the line between them.
+TEST_CASE("the linkage goes through the places of a four-bar chain") {
+  const auto file = read_scene_file(scenes / "linkage.toml");
+  pbd::Workspace workspace(file.scene, file.method);
+  auto state = file.scene.initial;
+  const auto& probe = file.probes.at(0);
+  REQUIRE(probe.name == "pin");
+  for (std::int64_t k = 0; k < file.steps; ++k) {
+    REQUIRE(pbd::step(file.scene, file.method, file.step_s, state, workspace).status == pbd::Status::ok);
+    const Vec3 end(0.3 * std::cos(4 * state.time), 0, 0.3 * std::sin(4 * state.time)), pivot(1.5, 0, 0);
+    const Vec3 gap = pivot - end, across = Vec3(-gap.z(), 0, gap.x()).normalized();
+    const Vec3 pin = (end + pivot) / 2 + std::sqrt(1 - gap.squaredNorm() / 4) * across;
+    std::vector<Cell> row;
+    append_probes(file, state, &workspace, row);
+    const Vec3 found(std::get<double>(row[0]), std::get<double>(row[1]), std::get<double>(row[2]));
+    REQUIRE((found - pin).norm() < 1e-9);
+  }
+}
+
+// m g l = I3 s W - I1 W^2 cos(tilt): the axis goes round the vertical at W. The integrator is of order 2.
+TEST_CASE("the top precesses at the rate of its spin, to the order of its integrator") {
+  std::vector<double> errors;
+  for (const auto* step : {"0.004", "0.002"}) {
+    const auto file = read_scene_file(scenes / "top.toml", {std::string("step.step_s=") + step});
+    const double m = 0.5, l = 0.1, r = 0.1, tilt = pi / 6, rate = 5;
+    const double own = m * r * r / 2, across = m * (3 * r * r + 0.02 * 0.02) / 12 + m * l * l;
+    const double spin = file.scene.initial.spin(2, 0);
+    CHECK(own * spin * rate - across * rate * rate * std::cos(tilt) == Approx(m * 9.81 * l));
+    pbd::Workspace workspace(file.scene, file.method);
+    auto state = file.scene.initial;
+    for (std::int64_t k = 0; k < file.steps; ++k)
+      REQUIRE(pbd::step(file.scene, file.method, file.step_s, state, workspace).status == pbd::Status::ok);
+    const Vec3 expected = l * Vec3(std::sin(tilt) * std::cos(rate * state.time),
+                                   std::sin(tilt) * std::sin(rate * state.time), std::cos(tilt));
+    errors.push_back((state.x.col(0) - expected).norm());
+  }
+  CHECK(errors[0] / errors[1] == Approx(4).margin(0.4));
+  CHECK(errors[1] < 0.02 * 0.1 * 0.5);  // of the circle's radius
+}
+
+TEST_CASE("surfaces of round shapes are closed and inscribed") {
+  const double sides = 32, chord = std::cos(pi / sides);
+  const pbd::TriangleMesh cylinder = surface_of(Cylinder{0.5, 2});
+  CHECK(volume(cylinder) == Approx(2 * sides / 2 * 0.25 * std::sin(2 * pi / sides)));
+  CHECK(volume(surface_of(Box{{1, 2, 3}})) == Approx(6));
+  for (const Shape& shape : {Shape(Sphere{0.5}), Shape(Capsule{0.5, 2})}) {
+    const auto surface = surface_of(shape);
+    const double full = shape_properties(shape, 1).mass;
+    CHECK(volume(surface) < full);
+    CHECK(volume(surface) > std::pow(chord, 6) * full);  // a sphere of radius chord^2 r fits in
+    CHECK(volume(convex_hull(surface.x)) == Approx(volume(surface)));
+  }
+}
+
+TEST_CASE("probes of bodies are named after them, and a joint's force is empty at the start") {
+  const auto file = joined_pair(R"(kind = "ball"
+name = "elbow"
+point_m = [0, 0, 0]
+[[probe]]
+kind = "velocity"
+body = "box"
+point_m = [1, 2, 4]
+[[probe]]
+kind = "orientation"
+body = "rod"
+[[probe]]
+kind = "angular_velocity"
+body = "box"
+[[probe]]
+kind = "joint_force"
+joint = "elbow"
+)");
+  const auto columns = probe_columns(file);
+  CHECK(columns == std::vector<std::string>{
+                       "box_vx_m_s", "box_vy_m_s", "box_vz_m_s", "rod_qw", "rod_qx", "rod_qy", "rod_qz",
+                       "box_wx_rad_s", "box_wy_rad_s", "box_wz_rad_s", "elbow_force_x_n", "elbow_force_y_n",
+                       "elbow_force_z_n", "elbow_torque_x_n_m", "elbow_torque_y_n_m", "elbow_torque_z_n_m"});
+  std::vector<Cell> row;
+  append_probes(file, file.scene.initial, nullptr, row);
+  REQUIRE(row.size() == columns.size());
+  const auto number = [&](std::size_t i) { return std::get<double>(row[i]); };
+  const Vec3 velocity = Vec3(1, 0, 2) + Vec3(3, -2, 1).cross(Vec3(0, 0, 1));
+  CHECK((Vec3(number(0), number(1), number(2)) - velocity).norm() < 1e-14);
+  const Eigen::Quaterniond rod(number(3), number(4), number(5), number(6));
+  CHECK((rod.toRotationMatrix() - turned({-1, 2, 0.5})).norm() < 1e-14);
+  CHECK((Vec3(number(7), number(8), number(9)) - Vec3(3, -2, 1)).norm() < 1e-14);
+  CHECK(std::get<std::string>(row[10]).empty());
+}

@@ -34,6 +34,7 @@ const std::vector<Experiment>& experiments() {
        "stepping?",
        direction},
       {"damping", "Does damping take what its coefficient says, and nothing of rigid motion?", damping},
+      {"rotation", "What do the integrators and the gyroscopic torque make of rotating bodies?", rotation},
       {"joints", "How accurately do joints carry mechanisms, and what does a chain of bodies cost?", joints},
       {"redundant", "Does a mechanism move as before when joints hold what others hold already?", redundant},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",

@@ -18,6 +18,7 @@ void dual_vs_primal(Context& context);
 void mesh_refinement(Context& context);
 void time_order(Context& context);
 void energy(Context& context);
+void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);
 void work_precision(Context& context);

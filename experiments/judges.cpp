@@ -50,7 +50,7 @@ pbd::State start_of(const Case& each) {
   pbd::State state = each.scene.initial;
   for (int k = 0; k < each.lead_steps; ++k) {
     const auto judged = truth(each.scene, state, each.lead_step);
-    state = {state.time + each.lead_step, judged.x, judged.v};
+    state = {state.time + each.lead_step, judged.x, judged.v, judged.orientation, judged.spin};
   }
   return state;
 }

@@ -67,8 +67,11 @@ struct Model {
   }
 };
 
-/// Throws SetupError for a scene that `validate` refuses or that has no node of finite mass.
+/// Throws SetupError for a scene that `validate` refuses, with rigid bodies, or without a node of finite
+/// mass.
 Model make_model(const Scene& scene);
+/// The nodes' part of a scene that may have rigid bodies, and that may have no node of finite mass.
+Model make_node_model(const Scene& scene);
 
 /// Unknowns of positions x, and positions with their unknowns replaced (nodes of infinite mass from `x`).
 Vector gather(const Model& model, const Points& x);

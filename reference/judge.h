@@ -20,7 +20,9 @@ inline constexpr std::array<std::string_view, 3> outcome_names{"ok", "not_conver
 /// The implicit Euler step of length h from (x_l, v_l): M (v - v_l)/h = f - dU/dx(x) + J(x)^T gamma, x = x_l
 /// + h v, hard c(x) = 0.
 struct Judgement {
-  Points x, v;  // end of the step, m and m/s, 3 x N
+  Points x, v;                                  // end of the step, m and m/s, 3 x N
+  std::vector<Eigen::Quaterniond> orientation;  // of the rigid bodies, and
+  Points spin = Points(3, 0);                   // their angular velocities, 3 x B, rad/s
   Eigen::VectorXd
       multiplier;  // gamma of the hard rows in the scene's order, N for lengths; impulse p = h gamma
   Outcome outcome = Outcome::not_converged;
@@ -32,8 +34,8 @@ struct Judgement {
       0;  // largest |c| of a hard row, divided by the length of its gradient and by the displacement
   double correction =
       0;  // last Newton correction of x, relative to the step's largest displacement (or 1e-6 |x| if larger)
-  bool certified =
-      false;     // a strict local minimum: Hessian positive definite on the hard constraints' null space
+  bool certified = false;  // a strict local minimum: Hessian positive definite on the hard constraints' null
+                           // space; with rigid bodies an isolated solution (rigid_newton.h)
   int rank = 0;  // of the hard constraints' Jacobian; -1 where the judge does not find it
   int iterations = 0;
   double seconds = 0;

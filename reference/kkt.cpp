@@ -78,9 +78,13 @@ Vector inverse_effective_mass(const Model& model, const SparseMatrix& jacobian) 
 }
 
 std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian, double threshold) {
+  return independent_rows(scaled(model, jacobian, row_scales(model, jacobian)), threshold);
+}
+
+std::vector<int> independent_rows(const SparseMatrix& scaled_jacobian, double threshold) {
   std::vector<int> rows;
-  if (jacobian.rows() == 0) return rows;
-  SparseMatrix transposed = scaled(model, jacobian, row_scales(model, jacobian)).transpose();
+  if (scaled_jacobian.rows() == 0) return rows;
+  SparseMatrix transposed = scaled_jacobian.transpose();
   transposed.makeCompressed();
   Eigen::SPQR<SparseMatrix> qr;
   qr.setPivotThreshold(threshold);

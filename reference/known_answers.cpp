@@ -24,6 +24,7 @@ const std::vector<KnownAnswer>& known_answers() {
     known::particles(rows);
     known::chains(rows);
     known::solids(rows);
+    known::bodies(rows);
     return rows;
   }();
   return table;

@@ -20,5 +20,6 @@ void oscillators(Rows& rows);
 void particles(Rows& rows);
 void chains(Rows& rows);
 void solids(Rows& rows);
+void bodies(Rows& rows);
 
 }  // namespace pbd::reference::known

@@ -78,7 +78,7 @@ struct Builder {
       if (unknown >= 0) model.force.segment<3>(unknown) += external.force[i];
     }
   }
-  /// Effects of rigid bodies, of which the scene has none.
+  /// Effects of rigid bodies (rigid_model.h).
   template <class BodyEffect>
   void operator()(const BodyEffect&) {}
   void operator()(const Anchor& anchor) {
@@ -136,17 +136,22 @@ struct Builder {
 }  // namespace
 
 Model make_model(const Scene& scene) {
-  validate(scene);
   if (!scene.bodies.empty())
     throw SetupError("bodies", std::to_string(scene.bodies.size()) + " rigid bodies",
                      "none: this judge knows nodes only");
+  Model model = make_node_model(scene);
+  if (model.unknowns == 0) throw SetupError("scene mass", "infinite masses only", "at least one finite mass");
+  return model;
+}
+
+Model make_node_model(const Scene& scene) {
+  validate(scene);
   Model model;
   for (const double mass : scene.mass) {
     const bool fixed = std::isinf(mass);
     model.first.push_back(fixed ? -1 : model.unknowns);
     if (!fixed) model.unknowns += 3;
   }
-  if (model.unknowns == 0) throw SetupError("scene mass", "infinite masses only", "at least one finite mass");
   model.mass.resize(model.unknowns);
   model.force.setZero(model.unknowns);
   for (std::size_t a = 0; a < scene.mass.size(); ++a)

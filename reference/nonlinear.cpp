@@ -1,12 +1,13 @@
 #include "nonlinear.h"
 
-#include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <chrono>
 #include <cmath>
 
+#include "ipopt_settings.h"
 #include "kkt.h"
+#include "rigid_nonlinear.h"
 
 namespace pbd::reference {
 namespace {
@@ -145,7 +146,9 @@ class Program : public Ipopt::TNLP {
   int jacobian_entries_ = 0, hessian_entries_ = 0;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> application(double tolerance) {
+}  // namespace
+
+Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt_application(double tolerance) {
   Ipopt::SmartPtr<Ipopt::IpoptApplication> app = IpoptApplicationFactory();
   const auto& options = app->Options();
   for (const char* name : {"tol", "dual_inf_tol", "compl_inf_tol", "constr_viol_tol"})
@@ -159,15 +162,14 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application(double tolerance) {
   return app;
 }
 
-}  // namespace
-
 Judgement ipopt(const Scene& scene, const State& state, double h) {
+  if (!scene.bodies.empty()) return rigid_ipopt(scene, state, h);
   const auto begin = std::chrono::steady_clock::now();
   const Model model = make_model(scene);
   const Points target = state.x + h * state.v;
   const Ipopt::SmartPtr<Program> program =
       new Program({&model, model.mass / (h * h), gather(model, target), target}, gather(model, state.x));
-  const auto app = application(program->tolerance());
+  const auto app = ipopt_application(program->tolerance());
   Judgement j;
   if (app->Initialize() != Ipopt::Solve_Succeeded) {
     j.reason = "Ipopt refused its options";

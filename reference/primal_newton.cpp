@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "newton_search.h"
+#include "rigid_newton.h"
 
 namespace pbd::reference {
 namespace {
@@ -115,6 +116,7 @@ bool minimise(Search& s) {
 }  // namespace
 
 Judgement primal_newton(const Scene& scene, const State& state, double h, const NewtonSettings& settings) {
+  if (!scene.bodies.empty()) return rigid_newton(scene, state, h, settings);
   const Model model = make_model(scene);
   const Points target = state.x + h * state.v;
   Search search({&model, model.mass / (h * h), gather(model, target), target}, gather(model, state.x),

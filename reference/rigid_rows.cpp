@@ -1,0 +1,127 @@
+#include "rigid_rows.h"
+
+#include <Eigen/Dense>
+
+#include "joint_values.h"
+
+namespace pbd::reference {
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Vec3& a) {
+  return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
+}
+
+const Eigen::Quaterniond& orientation(const Joint& joint, std::size_t k, const Placement& at) {
+  static const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
+  return joint.body[k] < 0 ? upright : at.orientation[static_cast<std::size_t>(joint.body[k])];
+}
+
+template <class T>
+Frame<T> fixed_frame(const Joint& joint, std::size_t k, const Placement& at) {
+  const Vec3 x = at.x.col(joint.node[k]);
+  return {{T(x[0]), T(x[1]), T(x[2])}, constant<T>(orientation(joint, k, at))};
+}
+
+/// A frame whose coordinates are the jet's variables from 6 k (turns) or 7 k (quaternions) on.
+template <Coordinates C, class T>
+Frame<T> moving_frame(const Joint& joint, std::size_t k, const Placement& at) {
+  constexpr int size = C == Coordinates::turns ? 6 : 7;
+  const int first = size * static_cast<int>(k);
+  Frame<T> frame = fixed_frame<T>(joint, k, at);
+  for (int i = 0; i < 3; ++i) frame.x[static_cast<std::size_t>(i)].gradient(first + i) = 1;
+  if (joint.body[k] < 0) return frame;
+  if constexpr (C == Coordinates::turns) {
+    // exp(d/2) to second order: cos(|d|/2) = 1 - |d|^2/8, sin(|d|/2)/|d| = 1/2.
+    Triple<T> d;
+    for (int i = 0; i < 3; ++i) d[static_cast<std::size_t>(i)] = T::variable(0, first + 3 + i);
+    const T w = T(1) - dot(d, d) * 0.125;
+    frame.q = product(frame.q, {w, {d[0] * 0.5, d[1] * 0.5, d[2] * 0.5}});
+  } else {
+    frame.q.w.gradient(first + 3) = 1;
+    for (int i = 0; i < 3; ++i) frame.q.v[static_cast<std::size_t>(i)].gradient(first + 4 + i) = 1;
+  }
+  return frame;
+}
+
+template <Coordinates C>
+Block joint_block(const Joint& joint, const Placement& at) {
+  constexpr int size = C == Coordinates::turns ? 6 : 7;
+  using T = Jet<2 * size>;
+  const auto c =
+      joint_value<T>(joint, moving_frame<C, T>(joint, 0, at), moving_frame<C, T>(joint, 1, at), at.time);
+  Block block;
+  block.row = joint.row;
+  block.hard = joint.compliance == 0;
+  block.value.resize(joint.rows);
+  block.jacobian.resize(joint.rows, 2 * size);
+  block.compliance = joint.compliance * RowMatrix::Identity(joint.rows, joint.rows);
+  for (int k = 0; k < joint.rows; ++k) {
+    const T& row = c[static_cast<std::size_t>(k)];
+    block.value(k) = row.value;
+    block.jacobian.row(k) = row.gradient;
+    block.second[static_cast<std::size_t>(k)] = row.hessian;
+  }
+  for (std::size_t k = 0; k < 2; ++k)
+    block.parts.push_back({joint.node[k], joint.body[k], size * static_cast<int>(k)});
+  return block;
+}
+
+Block element_block(const Element& e, int row, const Points& x) {
+  Local local;
+  differentiate(e, x, local);
+  // From the entries of F, which is linear in the positions.
+  Eigen::MatrixXd by_x = Eigen::MatrixXd::Zero(e.variables(), 3 * e.nodes);
+  for (int a = 0; a < e.nodes; ++a)
+    for (int q = 0; q < e.columns; ++q)
+      by_x.block<3, 3>(3 * q, 3 * a) = e.weight(a, q) * Eigen::Matrix3d::Identity();
+  Block block;
+  block.row = row;
+  block.hard = e.hard();
+  block.value = local.value;
+  block.jacobian = local.jacobian * by_x;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(e.rows); ++k)
+    block.second[k] = by_x.transpose() * local.hessian[k] * by_x;
+  block.compliance = e.hard() ? RowMatrix(RowMatrix::Zero(e.rows, e.rows)) : RowMatrix(e.stiffness.inverse());
+  for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[static_cast<std::size_t>(a)], -1, 3 * a});
+  return block;
+}
+
+}  // namespace
+
+Block::Square Block::geometric(const RowVector& gamma, Coordinates coordinates) const {
+  Square sum = Square::Zero(jacobian.cols(), jacobian.cols());
+  for (int k = 0; k < rows(); ++k) sum += gamma(k) * second[static_cast<std::size_t>(k)];
+  if (coordinates == Coordinates::turns)
+    for (const auto& [node, body, offset] : parts) {
+      if (body < 0) continue;
+      const Vec3 torque = jacobian.middleCols<3>(offset + 3).transpose() * gamma;
+      sum.block<3, 3>(offset + 3, offset + 3) += cross_matrix(torque) / 2;
+    }
+  return sum;
+}
+
+std::vector<Block> blocks_at(const RigidModel& model, const Placement& at, Coordinates coordinates) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < model.element_row.size(); ++i)
+    blocks.push_back(element_block(model.nodes.elements[i], model.element_row[i], at.x));
+  for (const Joint& joint : model.joints)
+    blocks.push_back(coordinates == Coordinates::turns ? joint_block<Coordinates::turns>(joint, at)
+                                                       : joint_block<Coordinates::quaternions>(joint, at));
+  return blocks;
+}
+
+Vector values_at(const RigidModel& model, const Placement& at) {
+  Vector c(model.rows());
+  for (std::size_t i = 0; i < model.element_row.size(); ++i) {
+    const Element& e = model.nodes.elements[i];
+    c.segment(model.element_row[i], e.rows) = constraint_value(e, at.x);
+  }
+  for (const Joint& joint : model.joints) {
+    const auto value = joint_value<double>(joint, fixed_frame<double>(joint, 0, at),
+                                           fixed_frame<double>(joint, 1, at), at.time);
+    for (int k = 0; k < joint.rows; ++k) c(joint.row + k) = value[static_cast<std::size_t>(k)];
+  }
+  return c;
+}
+
+}  // namespace pbd::reference

@@ -1,0 +1,55 @@
+// The implicit Euler step of a scene with rigid bodies as a square system of equations, which no potential
+// has: the torque is that at the step's end. Unknowns are end velocities v, w (w in the body's frame) and
+// multipliers gamma; end pose x = x_l + h v, R = R_l exp(h [w]x).
+//
+//   M (v - v_l)/h = f + J_x^T gamma
+//   I (w - w_l)/h = R_l^T tau + J_d^T gamma - w x I w      (the last one of w_l if explicit, absent if none)
+//   c(x, R, t_l + h) + A gamma = 0
+//
+// with d the turn of the body as it stands at the end. Its derivatives are by increments (dx, d), with
+// d = h J_r(h w) dw.
+#pragma once
+
+#include "judge.h"
+#include "rigid_rows.h"
+
+namespace pbd::reference {
+
+struct RigidStep {
+  RigidModel model;
+  State start;
+  double h;
+
+  /// Velocities of the unknowns.
+  Vector start_velocity() const;
+  Placement placement(const Vector& velocity) const;
+  State end(const Vector& velocity) const;
+};
+
+/// The system at (velocity, gamma).
+struct RigidSystem {
+  /// M (v - v_l)/h - f and likewise of rotations (N, N m): what J^T gamma has to balance; and the sum of its
+  /// absolute contributions and those of J^T gamma.
+  Vector load, magnitude;
+  SparseMatrix tangent;   // of load - J^T gamma by (dx, d)
+  SparseMatrix jacobian;  // of all rows by (dx, d)
+  SparseMatrix compliance;
+  Vector value;  // c, all rows
+
+  Vector force(const Vector& gamma) const { return load - jacobian.transpose() * gamma; }
+  Vector gap(const Vector& gamma) const { return value + compliance * gamma; }
+};
+RigidSystem system_at(const RigidStep& step, const Vector& velocity, const Vector& gamma);
+
+/// Change of the velocities by increments (dx, d).
+Vector velocity_change(const RigidStep& step, const Vector& velocity, const Vector& increment);
+
+/// State, hard rows' multipliers, residual and infeasibility of a judgement. `displacement` (m) is that of
+/// the nodes and, times their radii of gyration, of the rotations.
+double displacement_of(const RigidStep& step, const Vector& velocity);
+void report(const RigidStep& step, const Vector& velocity, const Vector& gamma, Judgement& judgement);
+
+/// The rows of a matrix or vector that belong to hard constraints.
+SparseMatrix hard_rows(const RigidModel& model, const SparseMatrix& rows);
+
+}  // namespace pbd::reference

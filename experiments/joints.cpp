@@ -101,11 +101,11 @@ std::vector<Mechanism> mechanisms(bool full) {
 
 struct Level {
   double h = 0;  // s
-  Values values;
+  Values values{};
   double joint_error = 0;  // m or rad, the largest of any step
   double wall = 0;         // s
   int missed = 0;          // steps that missed the tolerance
-  Simulation run;
+  Simulation run{};
 };
 
 Level level_of(const Mechanism& mechanism, const Rule& rule, int steps) {

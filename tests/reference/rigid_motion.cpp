@@ -5,15 +5,18 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "body_scenes.h"
 #include "closed_form.h"
 #include "closed_form_bodies.h"
 #include "error.h"
-#include "mechanisms.h"
 #include "ode.h"
+#include "scenes/mechanisms.h"
 
 using namespace pbd;
 using namespace pbd::reference;
 using namespace pbd::test;
+using pbdcheck::andrews_squeezer;
+using pbdcheck::four_bars;
 
 namespace {
 
@@ -143,7 +146,7 @@ TEST_CASE("a linkage with redundant hinges moves as its single angle") {
   for (const int loops : {1, 2}) {
     const double inertia = (loops + 1) / 3.0 + loops, weight = ((loops + 1) / 2.0 + loops) * 9.81;
     const std::vector<double> times{0.1, 0.3};
-    const Trajectory found = solved(four_bar_chain(loops), times);
+    const Trajectory found = solved(four_bars(loops), times);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const Direction crank = circling_pendulum(inertia / weight * 9.81, 9.81, 1, times[i]);
       const Vec3 end = found.samples[i].x.col(1) * 2;
@@ -185,7 +188,7 @@ TEST_CASE("motions of joints that cannot be trusted are refused") {
   late.initial.v(0, 2) += 1e-6;
   CHECK_THROWS_AS(ode(late, {1}), SetupError);
   // Past the place where all its rods are in line a linkage's motion is not determined.
-  const Trajectory through = ode(four_bar_chain(1), {0.2, 2}, {1e-13, 20000});
+  const Trajectory through = ode(four_bars(1), {0.2, 2}, {1e-13, 20000});
   CHECK(through.outcome == Outcome::not_converged);
   CHECK(through.samples.empty());
 }

@@ -5,14 +5,17 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mechanisms.h"
+#include "body_scenes.h"
 #include "nonlinear.h"
 #include "numerics.h"
 #include "primal_newton.h"
+#include "scenes/mechanisms.h"
 
 using namespace pbd;
 using namespace pbd::reference;
 using namespace pbd::test;
+using pbdcheck::andrews_squeezer;
+using pbdcheck::four_bars;
 
 namespace {
 
@@ -264,7 +267,7 @@ TEST_CASE("redundant joints are found and share the multipliers of single ones")
   CHECK((doubled.multiplier.tail(9) - single.multiplier / 2).norm() <= 1e-9 * single.multiplier.norm());
   // A plane loop: of the five rows of each hinge three in all say what the others do.
   for (const int loops : {1, 3}) {
-    const Scene linkage = four_bar_chain(loops);
+    const Scene linkage = four_bars(loops);
     const Judgement j = primal_newton(linkage, linkage.initial, h);
     INFO(j.reason << j.note);
     CHECK(j.outcome == Outcome::ok);
@@ -296,7 +299,7 @@ TEST_CASE("the judges agree on joints, loops, ropes and solids on bodies") {
                                        {doubled, 1e-2},
                                        {every_joint(1e-3), 1e-2},
                                        {body_with_rope_and_solid(), 1e-2},
-                                       {four_bar_chain(2), 1e-2},
+                                       {four_bars(2), 1e-2},
                                        {andrews_squeezer(), 1e-3}})
     for (const double h : {longest, longest / 10}) {
       const Judgement newton = primal_newton(scene, scene.initial, h);

@@ -12,6 +12,7 @@
 #include "experiment.h"
 #include "judge.h"
 #include "rivals/blas.h"
+#include "shapes.h"
 
 namespace pbdcheck {
 namespace {
@@ -30,7 +31,8 @@ nlohmann::ordered_json libraries() {
       {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                     NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-      {"cli11", CLI11_VERSION}};
+      {"cli11", CLI11_VERSION},
+      {"qhull", qhull_version()}};
   for (const auto& [name, version] : pbd::reference::library_versions()) used[name] = version;
   used["blas"] = pbd::rivals::blas_library();
   return used;

@@ -35,6 +35,10 @@ struct Qhull {
 
 }  // namespace
 
+std::string qhull_version() {
+  return qh_version2;
+}
+
 pbd::TriangleMesh convex_hull(pbd::Points points) {
   const Eigen::Index count = points.cols();
   Qhull hull;

@@ -1,6 +1,7 @@
 // Shapes of rigid bodies, each in a frame of its own: about the origin, cylinder and capsule along z.
 #pragma once
 
+#include <string>
 #include <variant>
 
 #include "mass_properties.h"
@@ -40,5 +41,6 @@ pbd::TriangleMesh surface_of(const Shape& shape);
 
 /// The convex hull of points, by Qhull; throws SetupError where they lie in a plane.
 pbd::TriangleMesh convex_hull(pbd::Points points);
+std::string qhull_version();
 
 }  // namespace pbdcheck

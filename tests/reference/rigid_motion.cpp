@@ -180,6 +180,44 @@ TEST_CASE("Andrews' squeezer starts and moves as stated") {
   CHECK(found.samples[3].orientation[1].angularDistance(turned) <= 1e-8);
 }
 
+TEST_CASE("energy is told where nothing without a potential does work") {
+  PlaneMechanism m;
+  const int rod = m.body(0.5, 0, 0, 1, 1.0 / 12);
+  m.hinge(m.world, rod, 0, 0);
+  m.scene.effects = {Gravity{Vec3(0, -9.81, 0)},
+                     BodyDistance{{{m.world, rod}}, {{Vec3(1, 1, 0), Vec3(0.5, 0, 0)}}, {0.5}, {1e-2}}};
+  const Scene held = m.finished();
+  const Trajectory found = solved(held, {0.3, 1});
+  REQUIRE(found.energy_drift);
+  CHECK(*found.energy_drift <= 1e-11);
+  CHECK((found.samples[0].x - held.initial.x).norm() > 0.1);
+  Scene driven = held;
+  driven.effects.emplace_back(ExternalTorque{{rod}, {Vec3(0, 0, 1)}});
+  CHECK_FALSE(solved(driven, {0.1}).energy_drift);
+  driven = held;
+  driven.effects.emplace_back(
+      AngleJoint{{{m.world, rod}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0.3}, {1e-3}});
+  CHECK_FALSE(solved(driven, {0.1}).energy_drift);
+  driven = held;
+  driven.initial.spin(2, 0) = 1;
+  CHECK_FALSE(solved(driven, {0.1}).energy_drift);  // the spring's support turns
+}
+
+TEST_CASE("a hard motor's motion is that of its angle") {
+  Scene scene;
+  const int world = add_world(scene);
+  const double rate = 2, time = 0.7;
+  const int arm = add_body(scene, Vec3(0.5, 0, 0), 1, Vec3(0.1, 0.2, 0.25), Eigen::Quaterniond::Identity(),
+                           Vec3(0, 0.5 * rate, 0), Vec3(0, 0, rate));
+  PointJoint ball;
+  join(ball, world, arm, Vec3::Zero(), Vec3(-0.5, 0, 0));
+  scene.effects = {
+      Gravity{}, Gyroscopic{}, ball, AxisJoint{{{world, arm}}, {{Vec3::UnitZ(), Vec3::UnitZ()}}, {0}},
+      AngleJoint{{{world, arm}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {rate}, {0}}};
+  const State end = solved(scene, {time}).samples[0];
+  CHECK((end.x.col(1) - 0.5 * Vec3(std::cos(rate * time), std::sin(rate * time), 0)).norm() <= 1e-11);
+}
+
 TEST_CASE("motions of joints that cannot be trusted are refused") {
   Scene off = rod_chain(2);
   off.initial.x(0, 2) += 1e-6;

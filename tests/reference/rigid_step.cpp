@@ -206,6 +206,16 @@ TEST_CASE("one step of a hinged rod is the root of its equation in one angle") {
   }
 }
 
+TEST_CASE("a rod balanced upright is certified for steps that are short to its fall") {
+  // Turned by d: I d/h^2 - m g l/2 sin(d), I = m l^2/3: regular for all h but sqrt(2 l/(3 g)), stable below.
+  const Scene scene = hinged_rod(std::numbers::pi, 0);
+  const double limit = std::sqrt(2 / (3 * 9.81));
+  CHECK(primal_newton(scene, scene.initial, 0.9 * limit).certified);
+  const Judgement longer = primal_newton(scene, scene.initial, 1.1 * limit);
+  CHECK_FALSE(longer.certified);
+  CHECK_THAT(longer.note, Catch::Contains("regularity not shown"));
+}
+
 TEST_CASE("a compliant joint acts as the spring it is, a motor turns at its rate") {
   const double h = 0.02, mass = 2, compliance = 1e-3;
   Scene scene;

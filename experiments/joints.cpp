@@ -13,6 +13,7 @@
 #include "numerics.h"
 #include "order_fit.h"
 #include "probes.h"
+#include "relaxation.h"
 #include "rows_of_step.h"
 #include "scenes/mechanisms.h"
 

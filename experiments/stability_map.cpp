@@ -195,13 +195,13 @@ void joint_verdict(Context& context, const std::vector<MapCell>& cells) {
     const bool returns = plain_returns(cell.step.scene, cell.start, cell.step.h, cell.exact, 1000);
     wrong[k] = !(returns ? predicted < 1 : predicted >= 1);
   });
-  context.verdict("stability.predicted_joints",
-                  "predicted and measured convergence of plain agree on joints where the prediction is not "
-                  "within 5 % of 1",
-                  "share of cells of the rods' map where they do not",
-                  std::accumulate(wrong.begin(), wrong.end(), 0.0) /
-                      std::accumulate(decided.begin(), decided.end(), 0.0),
-                  0.01);
+  context.verdict(
+      "stability.predicted_joints",
+      "predicted and measured convergence of plain agree on joints where the prediction is not "
+      "within 5 % of 1",
+      "share of cells of the rods' map where they do not",
+      std::accumulate(wrong.begin(), wrong.end(), 0.0) / std::accumulate(decided.begin(), decided.end(), 0.0),
+      0.01);
 }
 
 }  // namespace
@@ -217,7 +217,8 @@ std::vector<Case> stability_map_cases(bool full) {
 void stability_map(Context& context) {
   context.begin(5);
   std::vector<std::vector<MapCell>> found;
-  for (const Map& map : {chain_map(context.full()), rods_map(context.full()), cantilever_map(context.full())}) {
+  for (const Map& map :
+       {chain_map(context.full()), rods_map(context.full()), cantilever_map(context.full())}) {
     found.push_back(run_map(context, map));
     write_map(context, map, found.back());
     context.advance(map.scene);

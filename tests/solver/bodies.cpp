@@ -274,6 +274,7 @@ TEST_CASE("a motor of limited torque turns a free rotor no faster than the torqu
       {{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {1.0}, {0}, {}, {{-0.05, 0.05}}});
   const State end = run(scene, method_of("implicit_euler"), 0.01, 50);
   CHECK(end.spin(2, 1) == Approx(0.5 * 0.05 / 0.1).epsilon(1e-10));  // t torque / I, below the rate
+}
 
 TEST_CASE("a body that hangs still is held by its weight, whatever the integrator") {
   for (const Integrator& integrator : integrators()) {

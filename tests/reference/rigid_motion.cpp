@@ -10,6 +10,7 @@
 #include "closed_form_bodies.h"
 #include "error.h"
 #include "ode.h"
+#include "plane_mechanism.h"
 #include "scenes/mechanisms.h"
 
 using namespace pbd;

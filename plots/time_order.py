@@ -1,6 +1,6 @@
 """At which order does each integrator approach the motion in continuous time?"""
 
-from common import BLACK, curve_points, draw_failed, figure, footnote, panels, shared_legend, slope_triangle, style
+from common import BLACK, curve_points, draw_failed, figure, footnote, order_triangles, panels, shared_legend, style
 from reading import failed, good, reasons_note, rule_names
 
 
@@ -13,12 +13,7 @@ def errors(frame):
         for name, rows in here.assign(rule=rule_names(here)).groupby("rule", sort=False):
             curve_points(ax, rows, "step_s", "error", name, style(name))
         ax.set(xscale="log", yscale="log", title=scene)
-        ok = here[(here["status"] == "ok") & (here["error"] > 0)]
-        for order, factor in ((1, 2.5), (2, 0.2)):
-            rows = ok[ok["step_s"] == ok["step_s"].min()]
-            if len(rows):
-                lowest = rows["error"].max() if order == 1 else rows["error"].min()
-                slope_triangle(ax, 1.6 * rows["step_s"].iloc[0], factor * lowest * 1.6 ** order, order, BLACK)
+        order_triangles(ax, here, "step_s", "error")
     fig.supxlabel("step (s)", fontsize=8)
     fig.supylabel("error against continuous time, of the motion", fontsize=8)
     shared_legend(fig, axes, columns=4)

@@ -19,7 +19,8 @@ from reading import InputError
 HERE = Path(__file__).resolve().parent
 LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
          "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
-         "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$",
+         "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
+         "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$", "±": r"$\pm$",
          "[": "{[}", "*": "{*}",  # after the end of a row they would be its arguments
          "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
 NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
@@ -84,8 +85,8 @@ def references(text):
 
 
 def plain_bibtex(text):
-    for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"\&", "&"), ("{$O(1/k^2)$}", "O(1/k²)"),
-                         (" and ", "; "), ("--", "–")):
+    for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
+                         ("{$O(1/k^2)$}", "O(1/k²)"), (" and ", "; "), ("--", "–")):
         text = text.replace(mark, letter)
     return text.replace("{", "").replace("}", "")
 

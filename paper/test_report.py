@@ -30,6 +30,10 @@ class Texts(unittest.TestCase):
         self.assertEqual(report.to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
         self.assertEqual(report.to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
 
+    def test_latex_knows_every_character_of_the_texts(self):
+        sources = "".join(path.read_text(encoding="utf-8") for path in (report.HERE / "sections").glob("*.py"))
+        self.assertEqual({c for c in sources if not c.isascii()} - set(report.LATEX), set())
+
     def test_a_citation_of_nothing_is_text(self):
         self.assertEqual(report.to_latex("[@key]\n*"), "{[}@key] {*}")
         self.assertEqual(report.to_html("[@key]", {}), "[@key]")

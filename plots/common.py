@@ -13,7 +13,7 @@ import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
 
 from command import replacing  # noqa: E402
-from reading import TEXT, drawable, failed, good  # noqa: E402
+from reading import LARGEST, TEXT, drawable, failed, good, text_number  # noqa: E402
 
 ZERO_DRAWN_AT = 1e-17  # an exact zero on a logarithmic axis, below the resolution of any relative error
 
@@ -115,6 +115,24 @@ def curve(ax, frame, x, y, label, look):
     draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, {"color": look["color"], "marker": look["marker"]})
 
 
+def trace(ax, rows, values, name, low=-np.inf, high=np.inf):
+    """A method's values over time, and a cross where a run ends that is not ok: at the last value there is, from `low` to
+    `high`, or under the upper edge."""
+    look = style(name)
+    time = rows["time_s"].to_numpy()
+    inside = np.isfinite(values) & (np.abs(values) <= LARGEST)
+    every = max(1, inside.sum() // 6)
+    start = len(ax.lines) % 8 * every // 8  # the markers of lines that cover each other stand apart
+    ax.plot(time[inside], values[inside], label=name, markerfacecolor="white", markevery=(start, every), **look)
+    if rows["status"].eq("ok").all():
+        return
+    look = {"color": look["color"], "marker": look["marker"]}
+    if inside.any():
+        crossed(ax, time[inside][-1], np.clip(values[inside][-1], low, high), look, ax.transData)
+    else:
+        crossed(ax, time[-1], 0.97, look, ax.get_xaxis_transform())
+
+
 def curve_points(ax, points, x, y, label, look):
     """A line through the good points in the order of x; all others crossed."""
     rows = good(points, x, y).sort_values(x)
@@ -127,6 +145,22 @@ def slope_triangle(ax, x, y, order, color):
     right, top = 1.7 * x, y * 1.7 ** order
     ax.fill([x, right, right], [y, y, top], facecolor="none", edgecolor=color, linewidth=0.8)
     ax.text(right * 1.04, (y * top) ** 0.5, f"{order}", fontsize=7, color=color, va="center")
+
+
+def ticks(ax, values, text=text_number):
+    """Labels at these values of x alone."""
+    values = sorted(set(values))
+    ax.set_xticks(values, [text(value) for value in values])
+    ax.set_xticks([], minor=True)
+
+
+def order_triangles(ax, frame, x, y, orders=(1, 2)):
+    """Triangles beside the finest level: of order 1 above the largest error there, of order 2 below the smallest."""
+    finest = good(frame, x, y)
+    finest = finest[finest[x] == finest[x].min()]
+    for order in orders if len(finest) else ():
+        error = 2.5 * finest[y].max() if order == 1 else 0.2 * finest[y].min()
+        slope_triangle(ax, 1.6 * finest[x].iloc[0], on_log(error) * 1.6 ** order, order, BLACK)
 
 
 def panels(count, columns=3, width=6.5, height=2.1, **keywords):

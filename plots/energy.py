@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from common import (BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle,
-                    style)
+                    style, trace)
 from reading import LARGEST, failed, good, reasons_note, rule_names, step_text, text_number
 
 RUN = ["scene", "step_s", "rule"]
@@ -18,18 +18,6 @@ def runs(frame):
 
 def last_rows(frame):
     return frame.assign(rule=rule_names(frame)).groupby(RUN, sort=False).tail(1)
-
-
-def trace(ax, rows, values, name, low, high):
-    """A line, and a cross where the run ends that is not ok: at the axis' edge if it left it."""
-    look = style(name)
-    time = rows["time_s"].to_numpy()
-    inside = np.isfinite(values) & (np.abs(values) <= LARGEST)
-    ax.plot(time[inside], values[inside], color=look["color"], linestyle=look["linestyle"], label=name)
-    if rows["status"].iloc[0] != "ok":
-        end = np.clip(values[inside][-1], low, high)
-        ax.plot([time[inside][-1]], [end], look["marker"], color=look["color"], markerfacecolor="none", markersize=6, clip_on=False)
-        ax.plot([time[inside][-1]], [end], "x", color=BLACK, markersize=4, clip_on=False, zorder=5)
 
 
 @figure("energy", "series", table="series")

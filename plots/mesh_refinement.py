@@ -1,6 +1,6 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
-from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style
+from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style, ticks
 from reading import failed, good, reasons_note
 
 QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
@@ -21,16 +21,11 @@ def beam(frame):
         for model, rows in here.groupby("model", sort=False):
             curve_points(ax, rows, "n", "error_beam", MODELS.get(model, model), style(model))
         ax.set(xscale="log", yscale="log", xlabel="cells across the beam, n", title=QUANTITIES.get(quantity, quantity))
-        whole_ticks(ax, frame["n"].unique())
+        ticks(ax, frame["n"], "{:.0f}".format)
     axes[0].set_ylabel("error against Timoshenko's beam\n(axial: the rod), relative")
     shared_legend(fig, axes, columns=2)
     footnote(fig, reasons_note(failed(frame, "error_beam")))
     return fig
-
-
-def whole_ticks(ax, numbers):
-    ax.set_xticks(sorted(numbers), [f"{n:.0f}" for n in sorted(numbers)])
-    ax.set_xticks([], minor=True)
 
 
 @figure("mesh_refinement", "mms", table="mms")

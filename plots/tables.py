@@ -3,6 +3,8 @@
 MAP = (" integrator outer relaxation memory predicted_contraction iterations error_final outer_iterations sweeps "
        "status reason")
 METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
+ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
+ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
 
 TABLES = {
@@ -37,9 +39,8 @@ TABLES = {
     ("mesh_refinement", "beam"): "model n elements h_m quantity value reference_mesh reference_beam error_mesh "
                                  "error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
-    ("time_order", "errors"): "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason",
-    ("time_order", "orders"): "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status "
-                              "reason",
+    ("time_order", "errors"): ORDER_ERRORS,
+    ("time_order", "orders"): ORDERS,
     ("energy", "series"): "scene integrator alpha outer relaxation step_s time_s energy_j scale_j momentum_kg_m_s "
                           "angular_momentum_kg_m2_s status reason",
     ("energy", "drift"): "scene integrator alpha outer relaxation step_s drift ratio status reason",
@@ -48,6 +49,16 @@ TABLES = {
     ("energy", "map"): "scene integrator alpha outer relaxation compliance_m_per_n step_s predicted_growth energy_factor status "
                        "reason",
     ("energy", "frontier"): "scene compliance_m_per_n step_s predicted_alpha safe_alpha",
+    ("rotation", "errors"): ORDER_ERRORS,
+    ("rotation", "orders"): ORDERS,
+    ("rotation", "series"): "torque integrator alpha outer relaxation step_s time_s energy_change momentum_change "
+                            "momentum_length_change status reason",
+    ("rotation", "tumbling"): "disturbance_rad_s integrator alpha outer relaxation step_s period_s exact_s error status reason",
+    ("joints", "accuracy"): "mechanism integrator alpha outer relaxation step_s error order joint_error missed_steps wall_s status "
+                            "reason",
+    ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
+    ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
+                             "row_updates missed_steps status reason",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
@@ -71,6 +82,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("direction", "energy"): SCHEME,
     ("damping", "rotation"): "scene integrator retardation_s",
+    ("rotation", "series"): "torque integrator alpha",
     ("point_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }

@@ -141,6 +141,15 @@ class Failures(unittest.TestCase):
         frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
         self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
 
+    def test_traces_that_fail_are_crossed(self):
+        for values, place in (([1.0, np.nan], (0.1, 1.0)), ([1.0, 3.0], (0.2, 2.0)), ([np.nan, np.nan], (0.2, 0.97))):
+            rows = reading.pd.DataFrame({"time_s": [0.1, 0.2], "status": ["ok", "diverged"]})
+            figure, (ax,) = common.panels(1)
+            common.trace(ax, rows, np.array(values), "bdf2", high=2.0)
+            crosses = [line for line in ax.lines if line.get_marker() == "x"]
+            self.assertEqual([(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses], [place])
+            common.plt.close(figure)
+
     def test_steps_read_as_fractions(self):
         self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
 

@@ -1,24 +1,20 @@
-"""At which order does each integrator approach the motion in continuous time?"""
+"""At which order does each integrator approach motions in continuous time, those of particles and of rotating bodies?"""
 
-from common import BLACK, curve_points, draw_failed, figure, footnote, panels, shared_legend, slope_triangle, style
+from common import BLACK, curve_points, draw_failed, figure, footnote, order_triangles, panels, shared_legend, style
 from reading import failed, good, reasons_note, rule_names
 
 
 @figure("time_order", "errors", table="errors")
+@figure("rotation", "errors", table="errors")
 def errors(frame):
     """Error over the step, one panel a motion, with triangles of the two orders under the curves."""
     scenes = list(frame.groupby("scene", sort=False))
-    fig, axes = panels(len(scenes), columns=3, height=2.2)
+    fig, axes = panels(len(scenes), columns=2 if len(scenes) == 4 else 3, height=2.2)
     for ax, (scene, here) in zip(axes, scenes):
         for name, rows in here.assign(rule=rule_names(here)).groupby("rule", sort=False):
             curve_points(ax, rows, "step_s", "error", name, style(name))
         ax.set(xscale="log", yscale="log", title=scene)
-        ok = here[(here["status"] == "ok") & (here["error"] > 0)]
-        for order, factor in ((1, 2.5), (2, 0.2)):
-            rows = ok[ok["step_s"] == ok["step_s"].min()]
-            if len(rows):
-                lowest = rows["error"].max() if order == 1 else rows["error"].min()
-                slope_triangle(ax, 1.6 * rows["step_s"].iloc[0], factor * lowest * 1.6 ** order, order, BLACK)
+        order_triangles(ax, here, "step_s", "error")
     fig.supxlabel("step (s)", fontsize=8)
     fig.supylabel("error against continuous time, of the motion", fontsize=8)
     shared_legend(fig, axes, columns=4)
@@ -27,6 +23,7 @@ def errors(frame):
 
 
 @figure("time_order", "orders", table="orders")
+@figure("rotation", "orders", table="orders")
 def orders(frame):
     """Observed orders, one column a motion."""
     fig, (ax,) = panels(1, height=2.7)

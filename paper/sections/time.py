@@ -34,8 +34,8 @@ def lost_text(orders):
     if bad.empty:
         return "Every integrator follows every motion."
     lost = "; ".join(f"`{name}` on {', '.join(rows['scene'])}" for name, rows in bad.groupby(rule_names(bad), sort=False))
-    return (f"These do not follow their motion at the steps fitted: {lost}. The section on energy derives why: alpha = 1/2 and the "
-            "midpoint rule do not damp an error of a hard constraint's velocity, and turning directions make it grow.")
+    return (f"These do not follow their motion at the steps fitted: {lost}. The section on energy derives why hard constraints need "
+            "damping: alpha = 1/2 and the midpoint rule do not damp an error of their velocity, and turning directions make it grow.")
 
 
 def orders_table(orders):

@@ -251,10 +251,13 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
     }
   });
   last_product_ = product;
-  constexpr double redundant = 1e-14;  // where N s is lost in rounding, s changes no velocity
-  const bool useful = curvature > redundant * square_;
-  const double length = useful ? -slope / curvature : 0.0;
-  if (!useful) last_product_ = 0;
+  constexpr double redundant =
+      1e-10;  // s that changes next to no velocity: what rows contradict each other by
+  if (!(curvature > redundant * square_)) {
+    last_product_ = 0;
+    return beta > 0 ? std::sqrt(product) : 0.0;  // begin anew; nothing left to gain
+  }
+  const double length = -slope / curvature;
   visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] += length * entries(direction_, block, first_row, i);

@@ -66,7 +66,7 @@ Run run(int extra, const Method& method, double h, int steps) {
 }  // namespace
 
 void redundant(Context& context) {
-  const int steps = context.full() ? 1000 : 100;
+  const int steps = context.full() ? 1000 : 50;
   const double h = 0.004;
   const std::vector<std::string> relaxations{"direct", "conjugate_gradients", "nesterov_jacobi",
                                              "gauss_seidel"};
@@ -79,7 +79,7 @@ void redundant(Context& context) {
     Method method;
     method.relaxation = relaxation;
     method.tolerance = 1e-14;
-    method.max_sweeps = 2000;
+    method.max_sweeps = 500;
     const Run plain = run(0, method, h, steps);
     double size = 0;
     for (const Vec3& net : plain.net) size = std::max(size, net.norm());

@@ -36,7 +36,7 @@ struct Judgement {
       0;  // last Newton correction of x, relative to the step's largest displacement (or 1e-6 |x| if larger)
   bool certified = false;  // a strict local minimum: Hessian positive definite on the hard constraints' null
                            // space; with rigid bodies an isolated solution (rigid_newton.h)
-  int rank = 0;  // of the hard constraints' Jacobian; -1 where the judge does not find it
+  int rank = 0;            // of the hard constraints' Jacobian; -1 where the judge does not find it
   int iterations = 0;
   double seconds = 0;
 };

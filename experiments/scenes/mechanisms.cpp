@@ -215,9 +215,8 @@ Scene rod_chain(int count, double ratio) {
   add_ground(scene);
   PointJoint joints;
   for (int i = 0; i < count; ++i) {
-    const int rod =
-        add_rod(scene, in_plane(i * length, 0), in_plane((i + 1) * length, 0),
-                (i + 1 < count ? 1.0 : ratio) / count, Vec3::Zero(), 0);
+    const int rod = add_rod(scene, in_plane(i * length, 0), in_plane((i + 1) * length, 0),
+                            (i + 1 < count ? 1.0 : ratio) / count, Vec3::Zero(), 0);
     joints.body.push_back({rod - 1, rod});
     joints.point.push_back({i == 0 ? Vec3(Vec3::Zero()) : in_plane(length / 2, 0), in_plane(-length / 2, 0)});
     joints.compliance.push_back(0);

@@ -16,7 +16,7 @@ struct Motion {
   std::string name;
   pbd::Scene scene;
   double duration;     // s
-  int coarsest_steps;  // of the first level
+  int coarsest_steps;  // of the first level; a multiple of 4
   bool hard = false;
   bool judged = true;     // false: so long that the orders are not yet seen
   int highest_order = 2;  // that the scene's forces allow

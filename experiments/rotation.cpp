@@ -24,11 +24,11 @@ std::vector<Motion> motions() {
   // Steady precession would hide the tilt's errors: the top starts a tenth too fast about its foot.
   const double tilt = std::numbers::pi / 6;
   const double slow = reference::steady_precession({0.0125, 0.005, 9.81 * 0.1}, tilt, 100).slow;
-  return {{"free body", free_body(moments, Vec3(1, 1, 1)), 2, 50},
+  return {{"free body", free_body(moments, Vec3(1, 1, 1)), 2, 64},
           {.name = "free body, explicit torque",
            .scene = free_body(moments, Vec3(1, 1, 1), false),
            .duration = 2,
-           .coarsest_steps = 50,
+           .coarsest_steps = 64,
            .highest_order = 1},
           {"heavy top on a spring", heavy_top(tilt, 100, 1.1 * slow, 1e-4), 0.25, 1000},
           {"heavy top", heavy_top(tilt, 100, 1.1 * slow), 0.25, 500, true}};

@@ -94,16 +94,6 @@ TEST_CASE("VTK frames hold the scene's cells and the collection names every fram
   CHECK_THAT(read_text(folder.path / "simulation.pvd"), Catch::Contains("frames/frame_000003.vtu"));
 }
 
-TEST_CASE("VTK frames of rigid bodies hold their surfaces") {
-  const TemporaryFolder folder;
-  const auto ran = run_program({"simulate", scenes / "top.toml", "--set", "step.duration_s=0.003", "--export",
-                                "vtk", "-o", folder.path});
-  CHECK(ran.exit_code == 0);
-  const auto frame = read_text(folder.path / "frames" / "bodies_000003.vtu");
-  CHECK_THAT(frame, Catch::Contains("NumberOfPoints=\"66\" NumberOfCells=\"128\""));  // 2 x 32 + 2, 4 x 32
-  CHECK_THAT(read_text(folder.path / "bodies.pvd"), Catch::Contains("frames/bodies_000003.vtu"));
-}
-
 TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");

@@ -1,7 +1,6 @@
 // Rigid bodies and joints of scene files: what is read, and forces that statics tells.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-#include <numbers>
 
 #include "joint_force.h"
 #include "probes.h"
@@ -15,7 +14,6 @@ using pbd::Vec3;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 const std::filesystem::path scenes = PBDCHECK_SCENES;
 
 SceneFile read(const std::string& text, const std::vector<std::string>& settings = {}) {
@@ -39,10 +37,6 @@ const E& only(const pbd::Scene& scene) {
 
 Eigen::Matrix3d turned(const Vec3& rotation) {
   return Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
-}
-
-double volume(const pbd::TriangleMesh& surface) {
-  return pbd::surface_properties(surface, 1).mass;
 }
 
 const std::string box =
@@ -273,61 +267,6 @@ TEST_CASE("joints exert the forces and torques that hold a beam") {
       CHECK((found.force - expected[i].force).norm() < 1e-9 * weight);
       CHECK((found.torque - expected[i].torque).norm() < 1e-9 * weight);
     }
-  }
-}
-
-// With the crank at the angle 4 rad/s t, the pin is where circles of 1 m about the crank's end and the
-// rocker's pivot meet above the line between them.
-TEST_CASE("the linkage goes through the places of a four-bar chain") {
-  const auto file = read_scene_file(scenes / "linkage.toml");
-  pbd::Workspace workspace(file.scene, file.method);
-  auto state = file.scene.initial;
-  const auto& probe = file.probes.at(0);
-  REQUIRE(probe.name == "pin");
-  for (std::int64_t k = 0; k < file.steps; ++k) {
-    REQUIRE(pbd::step(file.scene, file.method, file.step_s, state, workspace).status == pbd::Status::ok);
-    const Vec3 end(0.3 * std::cos(4 * state.time), 0, 0.3 * std::sin(4 * state.time)), pivot(1.5, 0, 0);
-    const Vec3 gap = pivot - end, across = Vec3(-gap.z(), 0, gap.x()).normalized();
-    const Vec3 pin = (end + pivot) / 2 + std::sqrt(1 - gap.squaredNorm() / 4) * across;
-    std::vector<Cell> row;
-    append_probes(file, state, &workspace, row);
-    const Vec3 found(std::get<double>(row[0]), std::get<double>(row[1]), std::get<double>(row[2]));
-    REQUIRE((found - pin).norm() < 1e-9);
-  }
-}
-
-// m g l = I3 s W - I1 W^2 cos(tilt): the axis goes round the vertical at W. The integrator is of order 2.
-TEST_CASE("the top precesses at the rate of its spin, to the order of its integrator") {
-  std::vector<double> errors;
-  for (const auto* step : {"0.004", "0.002"}) {
-    const auto file = read_scene_file(scenes / "top.toml", {std::string("step.step_s=") + step});
-    const double m = 0.5, l = 0.1, r = 0.1, tilt = pi / 6, rate = 5;
-    const double own = m * r * r / 2, across = m * (3 * r * r + 0.02 * 0.02) / 12 + m * l * l;
-    const double spin = file.scene.initial.spin(2, 0);
-    CHECK(own * spin * rate - across * rate * rate * std::cos(tilt) == Approx(m * 9.81 * l));
-    pbd::Workspace workspace(file.scene, file.method);
-    auto state = file.scene.initial;
-    for (std::int64_t k = 0; k < file.steps; ++k)
-      REQUIRE(pbd::step(file.scene, file.method, file.step_s, state, workspace).status == pbd::Status::ok);
-    const Vec3 expected = l * Vec3(std::sin(tilt) * std::cos(rate * state.time),
-                                   std::sin(tilt) * std::sin(rate * state.time), std::cos(tilt));
-    errors.push_back((state.x.col(0) - expected).norm());
-  }
-  CHECK(errors[0] / errors[1] == Approx(4).margin(0.4));
-  CHECK(errors[1] < 0.02 * 0.1 * 0.5);  // of the circle's radius
-}
-
-TEST_CASE("surfaces of round shapes are closed and inscribed") {
-  const double sides = 32, chord = std::cos(pi / sides);
-  const pbd::TriangleMesh cylinder = surface_of(Cylinder{0.5, 2});
-  CHECK(volume(cylinder) == Approx(2 * sides / 2 * 0.25 * std::sin(2 * pi / sides)));
-  CHECK(volume(surface_of(Box{{1, 2, 3}})) == Approx(6));
-  for (const Shape& shape : {Shape(Sphere{0.5}), Shape(Capsule{0.5, 2})}) {
-    const auto surface = surface_of(shape);
-    const double full = shape_properties(shape, 1).mass;
-    CHECK(volume(surface) < full);
-    CHECK(volume(surface) > std::pow(chord, 6) * full);  // a sphere of radius chord^2 r fits in
-    CHECK(volume(convex_hull(surface.x)) == Approx(volume(surface)));
   }
 }
 

@@ -1,4 +1,6 @@
 // pbdcheck: the command line. Everything it does is in command_*.cpp.
+#include <malloc.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -180,9 +182,20 @@ int run_command(int argc, char** argv) {
   }
 }
 
+/// Memory that was freed once is not given back to the system: a timed step would else take it again page by
+/// page, or not, as the heap happens to lie.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int largest_mapped = 4 * 1024 * 1024 * static_cast<int>(sizeof(long));  // glibc's most
+  mallopt(M_MMAP_THRESHOLD, largest_mapped);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int exit_code = run_command(argc, argv);
   if (exit_code == exit_usage || (std::cout.flush() && std::fflush(stdout) == 0)) return exit_code;
   error_message("stdout: got a place that cannot be written; allowed: one that takes the whole output");

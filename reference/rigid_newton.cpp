@@ -30,18 +30,18 @@ Scales scales_of(const RigidStep& s, const RigidSystem& system) {
   return scales;
 }
 
-/// Rows to solve for: the compliant ones, and the hard ones that are independent by more than `threshold`.
-std::vector<bool> kept_rows(const RigidModel& model, const RigidSystem& system, const Scales& scales,
-                            double threshold, int& rank) {
+/// Sets the scale of hard rows to zero that depend on others but for `threshold`, and returns how many do
+/// not.
+int drop_dependent(const RigidModel& model, const RigidSystem& system, double threshold, Scales& scales) {
   const SparseMatrix hard =
       hard_rows(model, scales.row.asDiagonal() * system.jacobian * scales.unknown.asDiagonal());
   const std::vector<int> independent = independent_rows(hard, threshold);
-  rank = static_cast<int>(independent.size());
-  std::vector<bool> kept;
   int position = 0;
-  for (const bool is_hard : model.hard)
-    kept.push_back(!is_hard || std::binary_search(independent.begin(), independent.end(), position++));
-  return kept;
+  for (int i = 0; i < model.rows(); ++i)
+    if (model.hard[static_cast<std::size_t>(i)] &&
+        !std::binary_search(independent.begin(), independent.end(), position++))
+      scales.row(i) = 0;
+  return static_cast<int>(independent.size());
 }
 
 struct RigidSearch {
@@ -63,7 +63,7 @@ struct RigidSearch {
   }
 };
 
-/// Residual of both equations in units of inertia^1/2 times length.
+/// Residual of both equations, without dropped rows, in units of inertia^1/2 times length.
 double merit(const RigidSearch& s, const Scales& scales, const Point& at) {
   const RigidSystem system = system_at(s.step, at.velocity, at.gamma);
   const double h2 = s.step.h * s.step.h;
@@ -71,12 +71,11 @@ double merit(const RigidSearch& s, const Scales& scales, const Point& at) {
                     scales.row.cwiseProduct(system.gap(at.gamma)).norm());
 }
 
-/// Increments (dx, d) and the new gamma; false where the system is singular.
-bool newton_step(RigidSearch& s, const RigidSystem& system, const Scales& scales, Vector& increment,
+/// Increments (dx, d) and the new gamma, zero of dropped rows; false where the system is singular.
+bool newton_step(const RigidSearch& s, const RigidSystem& system, const Scales& scales, Vector& increment,
                  Vector& gamma) {
   const RigidModel& model = s.step.model;
   const double h2 = s.step.h * s.step.h;
-  const std::vector<bool> kept = kept_rows(model, system, scales, s.threshold, s.rank);
   const int n = model.unknowns, rows = model.rows();
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](const SparseMatrix& part, const auto& use) {
@@ -87,7 +86,6 @@ bool newton_step(RigidSearch& s, const RigidSystem& system, const Scales& scales
     entries.emplace_back(i, j, h2 * scales.unknown(i) * value * scales.unknown(j));
   });
   add(system.jacobian, [&](int i, int j, double value) {
-    if (!kept[static_cast<std::size_t>(i)]) return;
     const double own = scales.row(i) * value * scales.unknown(j);
     entries.emplace_back(n + i, j, own);
     entries.emplace_back(j, n + i, -own);
@@ -96,13 +94,11 @@ bool newton_step(RigidSearch& s, const RigidSystem& system, const Scales& scales
     entries.emplace_back(n + i, n + j, scales.row(i) * value * scales.row(j) / h2);
   });
   for (int i = 0; i < rows; ++i)
-    if (!kept[static_cast<std::size_t>(i)]) entries.emplace_back(n + i, n + i, 1.0);
+    if (scales.row(i) == 0) entries.emplace_back(n + i, n + i, 1.0);
   SparseMatrix matrix(n + rows, n + rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Vector rhs(n + rows);
   rhs << -h2 * scales.unknown.cwiseProduct(system.load), -scales.row.cwiseProduct(system.value);
-  for (int i = 0; i < rows; ++i)
-    if (!kept[static_cast<std::size_t>(i)]) rhs(n + i) = 0;
   Eigen::UmfPackLU<SparseMatrix> lu(matrix);
   if (lu.info() != Eigen::Success) return false;
   const Vector solution = lu.solve(rhs);
@@ -129,7 +125,8 @@ bool solve(RigidSearch& s, Point& at) {
   double previous = infinity;
   for (int k = 0; k < 60 && s.iterations < s.settings.max_iterations; ++k, ++s.iterations) {
     const RigidSystem system = system_at(s.step, at.velocity, at.gamma);
-    const Scales scales = scales_of(s.step, system);
+    Scales scales = scales_of(s.step, system);
+    s.rank = drop_dependent(s.step.model, system, s.threshold, scales);
     Vector increment, gamma;
     if (!newton_step(s, system, scales, increment, gamma)) return false;
     const Vector change = velocity_change(s.step, at.velocity, increment);

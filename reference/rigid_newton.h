@@ -1,7 +1,7 @@
 // The step of a scene with rigid bodies by Newton's method on its equations (rigid_step.h).
 //
-//   [ K  -J^T ] [ (dx, d) ]   [ -load        ]
-//   [ J   A   ] [  gamma  ] = [ -(c + A . 0) ]
+//   [ K  -J^T ] [ (dx, d) ]   [ -load ]
+//   [ J   A   ] [  gamma  ] = [ -c    ]
 //
 // scaled by masses and by the rows' lengths in their metric, solved by UMFPACK on independent hard rows, each
 // step shortened until the scaled residual falls. Where that fails from (v_l, w_l, 0) the step's length is

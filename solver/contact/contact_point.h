@@ -1,0 +1,55 @@
+// Where two shapes a and b may touch: a pair of features, given in the frames of their bodies, from which
+// gap, normal and touching points follow wherever the bodies have moved to.
+//
+//   face   a's point against b's plane:       n = R_b direction_b,            gap = n . (y_a - y_b) - radii
+//   point  a's point against b's point:       n = (y_a - y_b)/|y_a - y_b|,    gap = |y_a - y_b| - radii
+//   line   a's point against b's line:        n = unit part of y_a - y_b across R_b direction_b, gap likewise
+//   edges  a's line against b's line:         n = +-(e_a x e_b)/|e_a x e_b|,  gap = n . (y_a - y_b) - radii
+//
+// y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
+// are rounded by. A rim, the edge of a disc about a's point of radius rim_a across direction_a, is the point
+// of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis
+// (face alone). Normals point from b to a: the impulse of a contact pushes a along n. The gap's derivative by
+// the bodies' motion is n . (velocity of a - velocity of b) at the touching points.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace pbd {
+
+/// Takes a body's (or a shape's) frame to the world's (or the body's): x = origin + rotation x'.
+struct Frame {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+
+  Eigen::Vector3d place(const Eigen::Vector3d& point) const { return origin + rotation * point; }
+};
+
+struct ContactPoint {
+  enum class Kind : std::uint8_t { face, point, line, edges };
+
+  Kind kind = Kind::face;
+  bool swapped = false;              // a is the second shape asked for, b the first
+  std::uint32_t key = 0;             // the features' names: the same contact has the same one in every step
+  Eigen::Vector3d point_a, point_b;  // m
+  Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or of its rim's axis
+  Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line
+  double radius_a = 0, radius_b = 0;                      // m
+  double rim_a = 0;                                       // m
+  double side = 1;                                        // edges: the sign of e_a x e_b in n
+};
+
+struct Touching {
+  double gap = 0;                    // m; negative where the shapes overlap
+  Eigen::Vector3d normal;            // unit, from b to a
+  Eigen::Vector3d point_a, point_b;  // m, in the world: what touches of a and of b
+};
+
+/// The contact with its features' carriers at frames a and b.
+Touching touching(const ContactPoint& contact, const Frame& a, const Frame& b);
+
+/// The same contact with features given in the frames that a and b place theirs in.
+ContactPoint placed(const ContactPoint& contact, const Frame& a, const Frame& b);
+
+}  // namespace pbd

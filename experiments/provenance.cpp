@@ -12,7 +12,7 @@
 #include "experiment.h"
 #include "judge.h"
 #include "rivals/blas.h"
-#include "shapes.h"
+#include "body_shapes.h"
 
 namespace pbdcheck {
 namespace {

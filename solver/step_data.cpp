@@ -78,7 +78,7 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   since_factor = 0;
   heavier = false;
   if (on_potential || in_metric) {
-    if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, Shape::rest);
+    if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, MetricShape::rest);
     turn_metric(scene, map.x0 + map.d * v);
   }
 }

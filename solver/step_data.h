@@ -155,7 +155,7 @@ struct StepData {
   Configuration placed(const Points& at, std::vector<Pose>& storage, double time);
   void add_gyroscopic(Points& velocity) const;
   void find_free_components();
-  void factor_metric(const Scene& scene, Shape shape);
+  void factor_metric(const Scene& scene, MetricShape shape);
   bool start_low(const Scene& scene);
   void turn_metric(const Scene& scene, const Points& at);
   BlockResidual evaluate_potential(const Scene& scene);

@@ -7,7 +7,7 @@ extern "C" {
 #undef infinity  // a macro of Qhull's
 
 #include "error.h"
-#include "shapes.h"
+#include "body_shapes.h"
 
 namespace pbdcheck {
 namespace {

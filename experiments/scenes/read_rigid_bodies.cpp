@@ -35,14 +35,15 @@ Shape read_shape(Keys& keys, Builder& builder) {
   }
   if (kind == "mesh" || kind == "hull") {
     const auto path = mesh_path(keys);
-    if (kind == "mesh") {
-      ClosedMesh mesh{scaled(keys, read_triangle_mesh(path))};
-      builder.reserve(keys, "file", static_cast<double>(mesh.surface.triangles.size()));
-      return mesh;
-    }
-    Hull hull{located(mesh_name(keys), [&] { return convex_hull(read_mesh_nodes(path)); })};
-    hull.surface = scaled(keys, std::move(hull.surface));
-    return hull;
+    auto surface = kind == "mesh"
+                       ? read_triangle_mesh(path)
+                       : located(mesh_name(keys), [&] { return convex_hull(read_mesh_nodes(path)); });
+    surface = scaled(keys, std::move(surface));
+    if (kind == "mesh") builder.reserve(keys, "file", static_cast<double>(surface.triangles.size()));
+    return located(mesh_name(keys), [&]() -> Shape {
+      if (kind == "hull") return ConvexHull(std::move(surface));
+      return ClosedMesh(std::move(surface));
+    });
   }
   const double radius = keys.number("radius_m", Range::positive);
   if (kind == "sphere") return Sphere{radius};

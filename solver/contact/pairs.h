@@ -16,6 +16,10 @@ void core_core(const Core& a, const Core& b, const Roles& roles);
 /// The same and a half space.
 void core_plane(const Core& a, const Roles& roles);
 
+void cylinder_plane(const Cylinder& a, const Roles& roles);
+void cylinder_cylinder(const Cylinder& a, const Cylinder& b, const Roles& roles);
+void cylinder_core(const Core& a, const Cylinder& b, const Roles& roles);
+
 /// Where the part of a that faces b's face f is above that face, gaps at least `floor` (m).
 void face_manifold(const Core& a, const Core& b, int f, double floor, const Roles& roles);
 

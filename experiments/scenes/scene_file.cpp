@@ -38,6 +38,7 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.integrator = keys.choice_or("integrator", method.integrator, integrator_choices());
   method.outer = keys.choice_or("outer", method.outer, outer_choices());
   method.relaxation = keys.choice_or("relaxation", method.relaxation, relaxation_choices());
+  method.friction = keys.choice_or("friction", method.friction, friction_choices());
   method.tolerance = keys.number_or("tolerance", method.tolerance, Range::not_negative);
   method.max_outer = keys.integer_or("max_outer", method.max_outer, 1);
   method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);

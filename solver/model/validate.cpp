@@ -224,6 +224,47 @@ struct EffectCheck {
     retardation_times(count, effect.damping);
   }
 
+  void operator()(const Contact& effect) const {
+    int count = 0;
+    for (const Effect& other : scene.effects) count += std::holds_alternative<Contact>(other);
+    require(count == 1, name, text(count) + " of them", "one in a scene");
+    const auto material_index = [&](int material, const std::string& where) {
+      require(material >= 0 && material < effect.materials, where, text(material),
+              "a material from 0 to " + text(effect.materials - 1));
+    };
+    for (std::size_t i = 0; i < effect.collider.size(); ++i) {
+      body_index(effect.collider[i].body, at(i, "collider"));
+      material_index(effect.collider[i].material, at(i, "collider material"));
+    }
+    same_size(effect.node.size(), effect.radius, "radius");
+    same_size(effect.node.size(), effect.node_material, "node_material");
+    node_indices(effect.node);
+    not_negative(effect.radius, "radius");
+    for (std::size_t i = 0; i < effect.node.size(); ++i)
+      material_index(effect.node_material[i], at(i, "node_material"));
+    node_indices(effect.triangle);
+    require(effect.thickness >= 0 && std::isfinite(effect.thickness), name + " thickness",
+            text(effect.thickness), "a finite number >= 0, m");
+    material_index(effect.surface_material, name + " surface_material");
+    require(effect.materials > 0, name + " materials", text(effect.materials), "at least one");
+    const auto materials = static_cast<std::size_t>(effect.materials);
+    require(effect.law.size() == materials * materials, name + " law", text(effect.law.size()) + " entries",
+            "one per pair of materials, " + text(materials * materials));
+    for (std::size_t i = 0; i < effect.law.size(); ++i) {
+      const ContactLaw& law = effect.law[i];
+      require(law.friction >= 0 && std::isfinite(law.friction), at(i, "friction"), text(law.friction),
+              "a finite number >= 0");
+      require(law.restitution >= 0 && law.restitution <= 1, at(i, "restitution"), text(law.restitution),
+              "0 to 1");
+      not_negative({law.compliance}, "compliance");
+      not_negative({law.damping}, "damping");
+    }
+    for (std::size_t i = 0; i < effect.apart.size(); ++i)
+      for (const int body : effect.apart[i]) body_index(body, at(i, "apart"));
+    not_negative({effect.margin}, "margin");
+    require(effect.recovery >= 0, name + " recovery", text(effect.recovery), "a number >= 0, m/s");
+  }
+
   static void quaternion(const Eigen::Quaterniond& q, const std::string& where) {
     constexpr double slack = 1e-9;
     require(std::abs(q.norm() - 1) <= slack, where, "a quaternion of norm " + text(q.norm()), "norm 1");

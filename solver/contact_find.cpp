@@ -135,6 +135,7 @@ void ContactRows::find(const Scene& scene, const Bodies& bodies, const Configura
                        const std::vector<double>& inverse_mass, Rows& rows) {
   const auto& effect = std::get<Contact>(scene.effects[static_cast<std::size_t>(effect_)]);
   start_v_ = start_v;
+  relaxed_ = false;
   place_colliders(effect, bodies, start, inverse_mass);
   const Points free = map.x0 + map.d * map.v_free;
   for (Motion& motion : motions_) motion.reach = displacement(motion, bodies, start, free);
@@ -162,10 +163,9 @@ bool ContactRows::widen(const Scene& scene, const Bodies& bodies, const Configur
     for (const int node : surfaces_->nodes())
       extend(reach_[static_cast<std::size_t>(node)], (x.col(node) - start.x.col(node)).norm());
   if (!farther) return false;
-  const int before = rows.generation;
   keep_impulses(rows);
   fill(std::get<Contact>(scene.effects[static_cast<std::size_t>(effect_)]), bodies, start, map, h, rows);
-  return rows.generation != before;
+  return true;
 }
 
 /// What a contact asks for in this step, and the impulse it begins with.
@@ -179,6 +179,7 @@ void ContactRows::begin_contact(const Begin& begin, ActiveContact& contact, Bloc
 
   const double closing = (jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(begin.free_shift, i))[0];
+  contact.closing = closing < 0;
   contact.restitution = closing < 0 && ahead < 0 ? contact.law.restitution : 0.0;
   const double share = 1 / (1 + contact.law.damping / begin.map.d);
   contact.compliance = share * contact.law.compliance;

@@ -13,14 +13,18 @@ namespace {
 
 /// What the rows ask to vanish, or not to be negative, without the compliance's part, per second.
 template <class Block>
-typename Block::Value rates(const ActiveContact& contact, const Block& block, std::size_t i, double gap,
-                            const typename Block::Jacobian& jacobian, const StepMap& map,
-                            const Points& start_v, const Points& v) {
-  typename Block::Value rate = jacobian * block.gather(v, i);
-  if (contact.restitution > 0)
-    rate[0] += contact.restitution * (jacobian * block.gather(start_v, i))[0];
-  else
-    rate[0] = (gap - contact.target - contact.offset) / map.d;
+typename Block::Value rates(const ActiveContact& contact, const typename Block::Jacobian& jacobian,
+                            double gap, const StepMap& map, const typename Block::Velocities& start_v,
+                            const typename Block::Velocities& v) {
+  typename Block::Value rate = jacobian * v;
+  const double apart = (gap - contact.target - contact.offset) / map.d;
+  if (contact.restitution > 0) {
+    rate[0] += contact.restitution * (jacobian * start_v)[0];
+    if (contact.closing) return rate;
+    rate[0] = std::min(rate[0], apart);
+  } else {
+    rate[0] = apart;
+  }
   return rate;
 }
 
@@ -73,34 +77,38 @@ ContactRows::ContactRows(const Scene& scene, Friction law, Rows& rows,
   std::sort(ignored_.begin(), ignored_.end());
 }
 
+/// One contact's rows; adds to the residual.
+template <class Block>
+void ContactRows::linearise_contact(const Linearisation& to, ActiveContact& contact, Block& block,
+                                    std::size_t i, BlockResidual& sums) const {
+  if (relaxed_ && block.impulse[i][0] > 0) contact.restitution = contact.law.restitution;
+  auto& jacobian = block.jacobian[i];
+  const Touching found = evaluate<Block>(contact, to.at, jacobian);
+  if (to.directions != nullptr) evaluate<Block>(contact, *to.directions, jacobian);
+  const typename Block::Value rate =
+      rates<Block>(contact, jacobian, found.gap, to.map, block.gather(start_v_, i), block.gather(to.v, i));
+  block.bias[i] = rate - jacobian * block.gather(to.v, i);
+  block.compliance[i].setZero();
+  block.compliance[i](0, 0) = contact.compliance / (to.map.s * to.map.d);
+  block.bounds[i] = {0, infinity};
+  invert_diagonal(block, to.inverse_mass, i);
+  const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
+  sums.squared +=
+      block.squared_residual(i, r, block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r));
+  constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
+  const double size = roundoff * largest(contact, found, to.at) / to.map.d;
+  sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
+}
+
 BlockResidual ContactRows::linearise(const Configuration& at, const Configuration* directions,
                                      const StepMap& map, const Points& v,
-                                     const std::vector<double>& inverse_mass, std::size_t index,
-                                     Rows& rows) const {
+                                     const std::vector<double>& inverse_mass, std::size_t index, Rows& rows) {
   BlockResidual sums;
-  with_contacts(rows, index, first_block_, contacts_,
-                [&]<class Block>(Block& block, const std::vector<ActiveContact>& contacts) {
-                  for (std::size_t i = 0; i < block.size(); ++i) {
-                    const ActiveContact& contact = contacts[i];
-                    auto& jacobian = block.jacobian[i];
-                    const Touching found = evaluate<Block>(contact, at, jacobian);
-                    if (directions != nullptr) evaluate<Block>(contact, *directions, jacobian);
-                    const typename Block::Value rate =
-                        rates(contact, block, i, found.gap, jacobian, map, start_v_, v);
-                    block.bias[i] = rate - jacobian * block.gather(v, i);
-                    block.compliance[i].setZero();
-                    block.compliance[i](0, 0) = contact.compliance / (map.s * map.d);
-                    block.bounds[i] = {0, infinity};
-                    invert_diagonal(block, inverse_mass, i);
-                    const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
-                    sums.squared += block.squared_residual(
-                        i, r, block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r));
-                    constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
-                    const double size = roundoff * largest(contact, found, at) / map.d;
-                    sums.rounding_squared +=
-                        size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
-                  }
-                });
+  const Linearisation to{at, directions, map, v, inverse_mass};
+  with_contacts(rows, index, first_block_, contacts_, [&]<class Block>(Block& block, auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i) linearise_contact(to, contacts[i], block, i, sums);
+  });
+  if (index + 1 == first_block_ + groups) relaxed_ = true;
   return sums;
 }
 
@@ -161,11 +169,8 @@ void ContactRows::perturb(const StepMap& map, const Configuration& turned, const
           block.apply(inverse_mass, i, jacobian, block.impulse[i], push);
           const typename Block::Value before = block.bias[i] + block.jacobian[i] * block.gather(v, i);
           const typename Block::Velocities moved = block.gather(v, i) + scale * block.gather(error, i);
-          typename Block::Value after = jacobian * moved;
-          if (contacts[i].restitution > 0)
-            after[0] += contacts[i].restitution * (jacobian * block.gather(start_v_, i))[0];
-          else
-            after[0] = (found.gap - contacts[i].target - contacts[i].offset) / map.d;
+          const typename Block::Value after =
+              rates<Block>(contacts[i], jacobian, found.gap, map, block.gather(start_v_, i), moved);
           block.bias[i] = (after - before) / scale - block.jacobian[i] * block.gather(error, i);
           const bool open = block.impulse[i][0] <= 0;
           block.bounds[i] = open ? std::array{0.0, 0.0} : std::array{-infinity, infinity};

@@ -2,9 +2,10 @@
 // a pair of features carried by a body or a node; gap and normal n follow the iterates. Rows of a contact,
 // with the velocities v of the map x(v) (integrators.h):
 //   normal      (g(x) - min(0, g_l + recovery h)) / d, g the gap (m), g_l where the step begins
-//               or, where shapes collide with restitution e in this step, n . (u(v) + e u(v_l)), u the
-//               relative velocity of what touches: with newmark and alpha = 1/2 energy is then kept exactly
-//               for e = 1
+//               or, where shapes collide with restitution e in this step, by their free motion or as an
+//               iterate has found, n . (u(v) + e u(v_l)), u the relative velocity of what touches (the
+//               smaller of the two where they did not approach each other): with newmark and alpha = 1/2
+//               energy is then kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. Impulses push along n and t at x.
 #pragma once
@@ -34,6 +35,7 @@ struct ActiveContact {
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
   double target = 0;               // m, the gap aimed at
   double restitution = 0;          // e where the shapes collide in this step, else 0
+  bool closing = false;            // they approach each other where it begins
   ContactLaw law;                  // of its materials
   double offset = 0;               // m, of the gap by damping
   double compliance = 0;           // m/N, with damping's share
@@ -52,14 +54,14 @@ class ContactRows {
             const StepMap& map, double h, bool warm_start, const std::vector<double>& inverse_mass,
             Rows& rows);
 
-  /// Finds the contacts anew if a collider has moved farther to x than was thought of; true if there are
-  /// others then.
+  /// Finds the contacts anew if a collider has moved farther to x than was thought of; true if so: the rows
+  /// are to be linearised again then.
   bool widen(const Scene& scene, const Bodies& bodies, const Configuration& start, const Points& x,
              const StepMap& map, double h, Rows& rows);
 
   BlockResidual linearise(const Configuration& at, const Configuration* directions, const StepMap& map,
                           const Points& v, const std::vector<double>& inverse_mass, std::size_t block,
-                          Rows& rows) const;
+                          Rows& rows);
 
   /// As those of other effects (linearise.h).
   void add_geometric_inertia(const StepMap& map, const Configuration& at, double factor, const Rows& rows,
@@ -112,6 +114,17 @@ class ContactRows {
     double h;                      // s
   };
 
+  struct Linearisation {
+    const Configuration& at;
+    const Configuration* directions;
+    const StepMap& map;
+    const Points& v;
+    const std::vector<double>& inverse_mass;
+  };
+
+  template <class Block>
+  void linearise_contact(const Linearisation& to, ActiveContact& contact, Block& block, std::size_t i,
+                         BlockResidual& sums) const;
   template <class Block>
   void begin_contact(const Begin& begin, ActiveContact& contact, Block& block, std::size_t i) const;
   void keep_impulses(const Rows& rows);
@@ -139,6 +152,7 @@ class ContactRows {
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<double> reach_;  // m, of each node, where there are surfaces
   Points start_v_;             // m/s, where the step begins
+  bool relaxed_ = false;       // the impulses are those of an iterate of this step
 };
 
 }  // namespace pbd

@@ -107,7 +107,7 @@ void Direct::analyse(const Rows& rows) {
 }
 
 void Direct::begin(Rows& rows, const Points&, bool) {
-  if (rows.contacts) return;
+  if (rows.contacts) return newton_.begin();
   if (slot_.empty()) analyse(rows);
   factorise(rows);
 }

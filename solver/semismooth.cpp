@@ -93,7 +93,11 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
 
 double SemismoothNewton::iterate(Rows& rows, Points& v) {
   const double residual = natural_residual(rows, v);
-  if (!(residual > 0)) return residual;
+  constexpr double enough = 0.9;
+  constexpr int patience = 10;
+  idle_ = residual < enough * lowest_ ? 0 : idle_ + 1;
+  lowest_ = std::min(lowest_, residual);
+  if (!(residual > 0) || idle_ > patience) return 0;
   assemble(rows, v);
   factor_->compute(matrix_);
   bool better = false;
@@ -102,7 +106,6 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
     const int velocities = static_cast<int>(solution_.size() - row_count(rows));
     keep_impulses_and_biases(rows, kept_);
     start_ = v;
-    constexpr double enough = 0.9;
     for (double length = 1; !better && length > 0.1; length /= 2) {
       restore_impulses_and_biases(kept_, rows);
       v = start_;

@@ -18,7 +18,14 @@ namespace pbd {
 
 class SemismoothNewton {
  public:
-  /// Improves impulses and v by one iteration; returns the residual (sqrt(J)) it met.
+  /// To be called when the rows have changed.
+  void begin() {
+    lowest_ = infinity;
+    idle_ = 0;
+  }
+
+  /// Improves impulses and v by one iteration; returns the residual (sqrt(J)) it met, or 0 where that has not
+  /// fallen for some iterations: nothing left to gain.
   double iterate(Rows& rows, Points& v);
 
  private:
@@ -32,6 +39,8 @@ class SemismoothNewton {
   std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();
   Eigen::VectorXd right_, solution_;
   std::vector<double> kept_;
+  double lowest_ = infinity;
+  int idle_ = 0;  // iterations since the residual was clearly lower than ever
   Points start_;
 };
 

@@ -41,10 +41,12 @@ struct Units {
   void operator()(LineJoint& e) const { of_lengths(e); }
   void operator()(BodyDistance& e) const {
     of_lengths(e);
+    bounds(e, mass * length);
     for (auto& rest : e.rest_length) rest *= length;
   }
   void operator()(SlideJoint& e) const {
     of_lengths(e);
+    bounds(e, mass * length);
     for (auto& rest : e.rest_position) rest *= length;
     for (auto& rate : e.rate) rate *= length;
   }
@@ -55,9 +57,17 @@ struct Units {
   void operator()(AxisJoint& e) const { of_angles(e); }
   void operator()(PerpendicularJoint& e) const { of_angles(e); }
   void operator()(RotationJoint& e) const { of_angles(e); }
-  void operator()(AngleJoint& e) const { of_angles(e); }
+  void operator()(AngleJoint& e) const {
+    of_angles(e);
+    bounds(e, mass * length * length);
+  }
 
  private:
+  template <class Joint>
+  static void bounds(Joint& e, double unit) {
+    for (auto& pair : e.bounds)
+      for (auto& force : pair) force *= unit;
+  }
   template <class Joint>
   void of_lengths(Joint& e) const {
     for (auto& pair : e.point)

@@ -34,6 +34,7 @@ std::vector<Case> stability_map_cases(bool full);
 std::vector<Case> contraction_cases(bool full);
 std::vector<Case> inner_convergence_cases(bool full);
 std::vector<Case> dual_vs_primal_cases(bool full);
+std::vector<Case> joints_cases(bool full);
 std::vector<Case> work_precision_cases(bool full);
 
 }  // namespace pbdcheck

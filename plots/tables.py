@@ -12,7 +12,9 @@ TABLES = {
     ("outer_convergence", "map"):
         "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason",
     ("stability_map", "chain20"): "scene step_s mass_ratio" + MAP,
+    ("stability_map", "rods10"): "scene step_s mass_ratio" + MAP,
     ("stability_map", "cantilever"): "scene step_s young_pa" + MAP,
+    ("stability_map", "cantilevers"): "scene step_s young_pa" + MAP,
     ("stability_map", "predictions"): "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
     ("stability_map", "cost"): "scene step_s parameter value measured_rate outer relaxation outer_iterations sweeps row_updates "
                                "wall_s error status reason",

@@ -164,6 +164,20 @@ double read_compliance(Keys& keys, std::string_view compliance, std::string_view
   return inverse;
 }
 
+std::optional<Course> read_course(Keys& keys) {
+  if (!keys.has("over_time")) return std::nullopt;
+  Course course;
+  for (const auto& [time, value] : keys.pairs("over_time")) {
+    if (!course.time.empty() && !(time > course.time.back()))
+      keys.refuse("over_time", fmt::format("the time {} after {}", time, course.time.back()),
+                  "times that grow");
+    course.time.push_back(time);
+    course.value.push_back(value);
+  }
+  if (course.time.empty()) keys.refuse("over_time", "an empty list", "at least one [time_s, factor]");
+  return course;
+}
+
 std::string read_name(Keys& keys) {
   const std::string name = keys.text("name");
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {

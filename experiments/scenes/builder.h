@@ -10,6 +10,7 @@
 #include "keys.h"
 #include "named.h"
 #include "scene.h"
+#include "script.h"
 
 namespace pbdcheck {
 
@@ -48,6 +49,8 @@ struct Builder {
   std::vector<NamedBody> bodies;   // one a body of the scene
   std::vector<NamedJoint> joints;  // their parts' effects by kind, until the scene is finished
 
+  Script script;
+
   void add(int line, pbd::Effect effect) { placed.push_back({line, std::move(effect)}); }
 
   /// Counts the links, triangles or tetrahedra of a body before they are made, and refuses the value of `key`
@@ -81,6 +84,9 @@ double read_compliance(Keys& keys, std::string_view compliance = "compliance_m_p
 
 /// `damping_s`, a constraint's retardation time; 0, no damping, if absent.
 double read_damping(Keys& keys);
+
+/// `over_time`, pairs of a time (s) and a factor; nothing if absent.
+std::optional<Course> read_course(Keys& keys);
 
 /// `name`: lower case letters, digits and _.
 std::string read_name(Keys& keys);

@@ -168,6 +168,15 @@ class JointReader {
     effect.axis.push_back({own(0, a), own(1, b)});
   }
 
+  /// A motor's rate, and its factor over time.
+  std::optional<Course> read_rate(std::string_view key, std::vector<double>& rates) {
+    rates.push_back(keys_.number_or(key, 0, Range::finite));
+    auto course = read_course(keys_);
+    if (course && !keys_.has(key))
+      keys_.refuse("over_time", "a course without a rate", fmt::format("{}, which it multiplies", key));
+    return course;
+  }
+
   void add_distance() {
     const double initial = read_points().norm(), compliance = positions();
     const auto rest = [&] {
@@ -189,13 +198,15 @@ class JointReader {
   void add_slide() {
     const Vec3 gap = read_points(), axis = read_axis(keys_, "axis");
     const auto rest = [&] { return keys_.number_or("rest_position_m", axis.dot(gap), Range::finite); };
-    add_limited("position_m", "max_force_n", Range::finite, {"rest_position_m", "rate_m_s", "max_force_n"},
-                rest, [&](double position, const pbd::ForceBounds& bounds) {
+    add_limited("position_m", "max_force_n", Range::finite,
+                {"rest_position_m", "rate_m_s", "over_time", "max_force_n"}, rest,
+                [&](double position, const pbd::ForceBounds& bounds) {
                   auto& effect = add<pbd::SlideJoint>(positions());
                   effect.point.push_back(point_);
                   effect.axis.push_back(own(0, axis));
                   effect.rest_position.push_back(position);
-                  effect.rate.push_back(keys_.number_or("rate_m_s", 0, Range::finite));
+                  if (const auto course = read_rate("rate_m_s", effect.rate))
+                    builder_.script.slide(effect.rate.size() - 1, *course);
                   set_bounds(effect, bounds);
                 });
   }
@@ -205,13 +216,14 @@ class JointReader {
     const Vec3 axis = read_axis(keys_, "axis"), reference = axis.unitOrthogonal();
     const auto rest = [&] { return keys_.number_or("rest_angle_rad", 0, Range::finite); };
     add_limited("angle_rad", "max_torque_n_m", Range::finite,
-                {"rest_angle_rad", "rate_rad_s", "max_torque_n_m"}, rest,
+                {"rest_angle_rad", "rate_rad_s", "over_time", "max_torque_n_m"}, rest,
                 [&](double angle, const pbd::ForceBounds& bounds) {
                   auto& effect = add<pbd::AngleJoint>(rotations());
                   effect.axis.push_back(own(0, axis));
                   effect.reference.push_back({own(0, reference), own(1, reference)});
                   effect.rest_angle.push_back(angle);
-                  effect.rate.push_back(keys_.number_or("rate_rad_s", 0, Range::finite));
+                  if (const auto course = read_rate("rate_rad_s", effect.rate))
+                    builder_.script.angle(effect.rate.size() - 1, *course);
                   set_bounds(effect, bounds);
                 });
     if (keys_.has("min_angle_rad") && keys_.has("max_angle_rad") &&

@@ -125,7 +125,9 @@ void read_forces(Keys& root, Builder& builder) {
     const pbd::Vec3 force = keys.vector("force_n");
     const auto nodes = keys.has("body") ? std::vector<int>{body_node(keys, builder)}
                                         : select_nodes(keys, builder.scene, numbered_nodes(builder.scene));
+    const auto course = read_course(keys);
     for (const int node : nodes) {
+      if (course) builder.script.force(effect.node.size(), *course);
       effect.node.push_back(node);
       effect.force.push_back(force);
     }

@@ -117,6 +117,12 @@ void read_rigid_body(Keys& keys, Builder& builder) {
   const bool shaped = shape.index() != 0;
   Inertia inertia = shaped ? read_shape_inertia(keys, shape, held) : read_given_inertia(keys, held);
   const Motion motion = read_motion(keys, hold);
+  if (const auto course = read_course(keys)) {
+    if (hold != "moving")
+      keys.refuse("over_time", fmt::format("a course of a body with held = \"{}\"", hold),
+                  "held = \"moving\", or a [[force]] or a [[joint]] with over_time");
+    builder.script.body(builder.bodies.size(), *course);
+  }
 
   Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();  // shape's frame to world
   placed.linear() = read_rotation(keys);
@@ -160,6 +166,7 @@ void read_torques(Keys& root, Builder& builder) {
   pbd::ExternalTorque effect;
   for (auto& keys : tables) {
     effect.body.push_back(builder.body(keys, "body"));
+    if (const auto course = read_course(keys)) builder.script.torque(effect.body.size() - 1, *course);
     effect.torque.push_back(keys.vector("torque_n_m"));
     keys.refuse_unknown();
   }

@@ -75,6 +75,7 @@ void read_scene(Keys& root, SceneFile& found) {
     throw pbd::SetupError(root.file(), "a scene in which every node has infinite mass",
                           "a node that can move");
   found.scene = builder.finish();
+  found.script = std::move(builder.script);
   found.bodies = std::move(builder.bodies);
   found.joints = std::move(builder.joints);
 }

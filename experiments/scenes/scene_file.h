@@ -11,6 +11,7 @@
 
 #include "named.h"
 #include "scene.h"
+#include "script.h"
 #include "step.h"
 
 namespace pbdcheck {
@@ -31,6 +32,7 @@ inline constexpr std::array<std::string_view, 8> probe_kinds{
 struct SceneFile {
   std::string description;  // one line, shown by `pbdcheck list scenes`
   pbd::Scene scene;
+  Script script;                  // what of the scene changes with time
   std::vector<NamedBody> bodies;  // one a rigid body of the scene
   std::vector<NamedJoint> joints;
   double step_s = 0;

@@ -22,6 +22,7 @@ import point_hard_cases  # noqa: F401
 import redundant  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
+import simbenchmark  # noqa: F401
 import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import work_precision  # noqa: F401

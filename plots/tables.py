@@ -61,6 +61,12 @@ TABLES = {
     ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
+    ("simbenchmark", "accuracy"): "benchmark step_s integrator alpha outer relaxation friction error simulated_s "
+                                  "outer_iterations sweeps row_updates missed_steps wall_s status reason",
+    ("simbenchmark", "published"): "benchmark engine step_s error cpu_s",
+    ("contact_hard_cases", "gates"): "scene step_s integrator outer relaxation friction steps steps_ok sweeps gate measured "
+                                     "bound holds status reason",
+    ("contact_hard_cases", "frontier"): "scene outer relaxation friction largest_step_s fewest_sweeps status reason",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
@@ -86,6 +92,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("damping", "rotation"): "scene integrator retardation_s",
     ("rotation", "series"): "torque integrator alpha",
     ("point_hard_cases", "gates"): "scene relaxation",
+    ("contact_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id statement quantity measured bound verdict"

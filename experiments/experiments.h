@@ -21,6 +21,8 @@ void energy(Context& context);
 void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);
+void incline(Context& context);
+void stopping(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
 void work_precision(Context& context);

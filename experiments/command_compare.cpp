@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "contact_sums.h"
 #include "contender.h"
+#include "error.h"
 #include "files.h"
 #include "interrupt.h"
 #include "judges.h"
@@ -120,8 +122,12 @@ void draw(const std::filesystem::path& directory) {
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
-  const auto contenders = parsed_contenders(options.methods, file);
   const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
+  if (contact_of(file.scene) != nullptr)
+    throw pbd::SetupError("--reference " + name, "a scene with contact",
+                          "a scene without the table [contact]: this reference solves equations, and a gap "
+                          "is none");
+  const auto contenders = parsed_contenders(options.methods, file);
   require_writable(options.directory);
   Comparison comparison(options, file);
   PartialFile record(options.directory / "run.json");

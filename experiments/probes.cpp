@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "contact_sums.h"
 #include "effect_rows.h"
 #include "joint_force.h"
 #include "placed.h"
@@ -154,6 +155,12 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
     per_axis("force_{}_n");
     per_axis("torque_{}_n_m");
   }
+  if (probe.kind == "contact_force") {
+    per_axis("contact_force_{}_n");
+    per_axis("friction_force_{}_n");
+  }
+  if (probe.kind == "contacts")
+    for (const auto* name : {"contacts", "least_gap_m"}) columns.push_back(begin + name);
   if (probe.kind == "energy")
     for (const auto* name : {"kinetic_energy_j", "gravity_energy_j", "elastic_energy_j"})
       columns.push_back(begin + name);
@@ -180,6 +187,26 @@ void append_joint_force(const SceneFile& file, const NamedJoint& joint, const pb
   const Wrench wrench = joint_force(joint, file.scene, state, *stepped);
   append(row, wrench.force);
   append(row, wrench.torque);
+}
+
+/// Empty cells before the first step, and for the gap where nothing is near.
+void append_contact(const SceneFile& file, const Probe& probe, const pbd::Workspace* stepped,
+                    std::vector<Cell>& row) {
+  const bool force = probe.kind == "contact_force";
+  if (stepped == nullptr) {
+    row.insert(row.end(), force ? 6 : 2, "");
+    return;
+  }
+  const auto found = stepped->contacts();
+  if (force) {
+    const auto sum = contact_force(*contact_of(file.scene), found, probe.body, probe.other);
+    append(row, sum.force);
+    append(row, sum.friction);
+  } else {
+    row.emplace_back(pressing(found));
+    const auto gap = least_gap(found);
+    row.emplace_back(gap ? Cell(*gap) : Cell(""));
+  }
 }
 
 }  // namespace
@@ -245,6 +272,7 @@ void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Wo
       for (const double part : {q.w(), q.x(), q.y(), q.z()}) row.emplace_back(part);
     }
     if (probe.kind == "joint_force") append_joint_force(file, file.joints[probe.joint], state, stepped, row);
+    if (probe.kind.starts_with("contact")) append_contact(file, probe, stepped, row);
     if (probe.kind == "energy")
       for (const auto energy : {kinetic_energy, gravity_energy, elastic_energy})
         row.emplace_back(energy(scene, state));

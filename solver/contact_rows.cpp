@@ -191,19 +191,21 @@ void ContactRows::apply(const Rows& rows, const std::vector<double>& inverse_mas
 std::vector<ContactForce> ContactRows::forces(const Configuration& at, const StepMap& map, const Points& v,
                                               const Rows& rows) const {
   std::vector<ContactForce> all;
+  const auto first_node = static_cast<int>(motions_.size());  // of a surface
   for (std::size_t index = first_block_; listed() && index < rows.blocks.size(); ++index)
     with_contacts(rows, index, first_block_, contacts_, [&]<class Block>(const Block& block, auto& contacts) {
       RowBlock<3, Block::nodes> full;  // all three directions, of a contact without friction too
       for (std::size_t i = 0; i < block.size(); ++i) {
         typename decltype(full)::Jacobian jacobian = decltype(full)::Jacobian::Zero();
         const Touching found = evaluate<decltype(full)>(contacts[i], at, jacobian);
-        const int column = 3 * column_of<Block>(contacts[i], 0);
-        const Eigen::Matrix3d directions = jacobian.template middleCols<3>(column);
+        const Directions<3> directions = directions_in<decltype(full)>(contacts[i], jacobian);
+        std::array<int, 2> collider = contacts[i].collider;
+        for (int& index : collider) index += contacts[i].of_surfaces ? first_node : 0;
         Vec3 impulse = Vec3::Zero();
         impulse.head<Block::rows>() = block.impulse[i];
         Vec3 slip = jacobian * block.gather(v, i);
         slip[0] = 0;
-        all.push_back({contacts[i].collider, (found.point_a + found.point_b) / 2, found.normal,
+        all.push_back({collider, (found.point_a + found.point_b) / 2, found.normal,
                        directions.transpose() * impulse / map.s, directions.transpose() * slip, found.gap});
       }
     });

@@ -43,7 +43,7 @@ struct EffectCost {
 
 /// What a contact does at the end of a step, in the world: `force` acts on a, its opposite on b.
 struct ContactForce {
-  std::array<int, 2> collider;  // a and b, as the effect counts them, nodes behind the colliders
+  std::array<int, 2> collider;  // a and b: colliders, then the effect's nodes, then (surfaces) the scene's
   Vec3 point;                   // m
   Vec3 normal;                  // from b to a
   Vec3 force;                   // N

@@ -240,15 +240,24 @@ TEST_CASE("deformable surfaces rest on each other") {
     }
     contact.thickness = thickness;
     contact.law[0].friction = 0.3;
+    contact.collider.push_back({Sphere{1}, add_body(scene, Vec3(9, 0, 0), 1, Vec3::Ones())});
     scene.effects = {Gravity{}, links, contact};
     const Method method = method_of("direct");
     Workspace workspace(scene, method);
-    const State end = run(scene, method, 0.01, 3, workspace);
+    constexpr double h = 0.01;
+    State end = run(scene, method, h, 2, workspace);
+    const Points before = end.v;
+    REQUIRE(step(scene, method, h, end, workspace).status == Status::ok);
     double carried = 0, gap = 1;
+    Vec3 on_upper = Vec3::Zero();
     for (const ContactForce& each : workspace.contacts()) {
+      CHECK(std::min(each.collider[0], each.collider[1]) >= 1);  // nodes, counted behind the sphere
+      on_upper += each.collider[0] - 1 >= upper ? each.force : -each.force;
       carried += std::abs(each.force.z());
       gap = std::min(gap, each.gap);
     }
+    const Vec3 gained = (end.v - before).middleCols<3>(upper).rowwise().sum() / h;  // times 1 kg
+    CHECK((gained - 3 * Vec3(0, 0, -gravity) - on_upper).norm() <= 1e-7 * gravity);
     INFO((edges ? "edges" : "node and triangle"));
     CHECK(gap >= -1e-10);
     CHECK(carried > gravity);

@@ -1,5 +1,6 @@
 // Do the two judges agree on every scene the experiments use? They share the energies and differ in method.
-// Where rigid bodies are joined, do they agree with the solver, too?
+// Where rigid bodies are joined, do they agree with the solver, too? A column under more load than a step's
+// inertia bears has several solutions, and finds another: such steps are shown and not judged.
 #include "judge.h"
 
 #include <chrono>
@@ -69,19 +70,25 @@ void judges(Context& context) {
       context.table("agreement", {"scene", "nodes", "step_s", "reference_a", "reference_b", "difference",
                                   "residual_a", "residual_b", "wall_s_a", "wall_s_b", "status", "reason"});
   Worst between_judges, of_solver;
+  int certified = 0;  // steps of bodies that have one solution near the start
   for (const auto& each : all) {
     const State start = start_of(each);
     const auto newton = reference::find_judge("primal_newton")(each.scene, start, each.h);
     const auto ipopt = reference::find_judge("ipopt")(each.scene, start, each.h);
     between_judges.add(compare(table, each, start, newton, ipopt, "ipopt"));
-    if (!each.scene.bodies.empty())
-      of_solver.add(compare(table, each, start, newton, solved(each, start), "solver"));
+    if (!each.scene.bodies.empty()) {
+      const double difference = compare(table, each, start, newton, solved(each, start), "solver");
+      if (newton.certified) of_solver.add(difference), ++certified;
+    }
     context.advance(each.name);
   }
   context.verdict("judges.agreement", "primal_newton and ipopt find the same step on every scene",
                   "largest difference relative to the step's largest displacement", between_judges.value(),
                   1e-9);
-  context.verdict("judges.solver", "the solver finds the judges' step on every scene with rigid bodies",
+  context.verdict("judges.solver",
+                  fmt::format("the solver finds the judges' step of rigid bodies where it is certified to be "
+                              "regular ({} steps)",
+                              certified),
                   "largest difference relative to the step's largest displacement", of_solver.value(), 1e-9);
   table.close();
 }

@@ -1,20 +1,17 @@
 #include "script.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace pbdcheck {
 namespace {
 
 /// The effect of this kind: a scene file makes one.
 template <class E>
-const E& only(const pbd::Scene& scene) {
+auto& only(auto& scene) {
   return std::get<E>(*std::find_if(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {
     return std::holds_alternative<E>(effect);
   }));
-}
-template <class E>
-E& only(pbd::Scene& scene) {
-  return const_cast<E&>(only<E>(std::as_const(scene)));
 }
 
 /// The straight line through the motor's places where the step begins and ends.

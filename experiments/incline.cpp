@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "choices.h"
+#include "contact_answers.h"
 #include "experiments.h"
-#include "known_answers.h"
 #include "relaxation.h"
 #include "scenes/contacts.h"
 

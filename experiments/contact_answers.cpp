@@ -1,4 +1,4 @@
-#include "known_answers.h"
+#include "contact_answers.h"
 
 #include <algorithm>
 #include <cmath>

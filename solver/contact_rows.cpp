@@ -200,7 +200,7 @@ std::vector<ContactForce> ContactRows::forces(const Configuration& at, const Ste
         const Touching found = evaluate<decltype(full)>(contacts[i], at, jacobian);
         const Directions<3> directions = directions_in<decltype(full)>(contacts[i], jacobian);
         std::array<int, 2> collider = contacts[i].collider;
-        for (int& index : collider) index += contacts[i].of_surfaces ? first_node : 0;
+        for (int& own : collider) own += contacts[i].of_surfaces ? first_node : 0;
         Vec3 impulse = Vec3::Zero();
         impulse.head<Block::rows>() = block.impulse[i];
         Vec3 slip = jacobian * block.gather(v, i);

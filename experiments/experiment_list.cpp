@@ -40,6 +40,8 @@ const std::vector<Experiment>& experiments() {
       {"redundant", "Does a mechanism move as before when joints hold what others hold already?", redundant},
       {"incline", "Does a box on a plane stick and slide as Coulomb's law says?", incline},
       {"stopping", "Do sliding bodies come to rest, or to roll, where they should?", stopping},
+      {"friction_isotropy", "Is friction the same in every direction?", friction_isotropy},
+      {"convex_gap", "How high does a sliding body hover by the convex law?", convex_gap},
       {"simbenchmark", "How accurate and how fast is contact, beside five engines' published figures?",
        simbenchmark},
       {"contact_hard_cases", "Does one method without settings survive the contacts that solvers fail on?",

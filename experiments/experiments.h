@@ -23,6 +23,8 @@ void joints(Context& context);
 void redundant(Context& context);
 void incline(Context& context);
 void stopping(Context& context);
+void friction_isotropy(Context& context);
+void convex_gap(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
 void work_precision(Context& context);

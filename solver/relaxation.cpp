@@ -137,9 +137,11 @@ double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
 void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
   omega_ = 1 / bound_.update(rows, v);
   previous_v_ = v;
-  if (fresh) {
+  const auto count = static_cast<std::size_t>(row_count(rows));
+  if (fresh || previous_.size() != count) {  // contacts may have joined within the step
+    fresh = true;
     restart();
-    previous_.resize(static_cast<std::size_t>(row_count(rows)));
+    previous_.resize(count);
   }
   // The velocities of the previous impulses along the new directions; a fresh start has no previous impulses.
   std::size_t first_row = 0;

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "contact_answers.h"
 #include "experiments.h"
-#include "known_answers.h"
 #include "relaxation.h"
 #include "scenes/contacts.h"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "contact/friction.h"
+#include "contact_answers.h"
 #include "experiments.h"
-#include "known_answers.h"
 #include "scenes/contacts.h"
 
 namespace pbdcheck {

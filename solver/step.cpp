@@ -182,7 +182,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   Report report;
   const double free_change = w.distance(w.map.v_free, w.start_v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
-  double first_residual = 0;
+  double first_residual = 0, last_residual = std::numeric_limits<double>::infinity();
   double lowest = std::numeric_limits<double>::infinity();
   int without_fall = 0;  // iterations since the primal residual was `lowest`
   StepIteration iteration(scene, method, w, report);
@@ -203,7 +203,11 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     w.keep_if_best(report.outer_iterations, std::max(report.primal, report.dual));
     w.last_change = w.change;
     w.change = w.distance(w.v, w.previous);
-    const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v);
+    const double now = std::max(report.primal, report.dual);
+    constexpr double falling = 0.5;  // the impulses may go on where v has arrived
+    const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v) &&
+                         !(now < falling * last_residual);
+    last_residual = now;
     if (finished(method, velocity_rounding, rounding, first_residual, report)) {
       if (report.status != Status::ok || !w.widen_contacts(scene, h)) break;
       continue;

@@ -59,6 +59,15 @@ TABLES = {
     ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
+    **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
+                                "sweeps steps missed_steps status reason"
+       for experiment in ("incline", "stopping", "restitution", "stack")},
+    ("friction_isotropy", "headings"): "relaxation friction step_s heading_deg deceleration_share expected_share share_error "
+                                       "heading_change_rad heading_error_rad status reason",
+    ("convex_gap", "gaps"): "relaxation friction step_s speed_m_per_s gap_m expected_m error sweeps missed_steps status reason",
+    ("restitution", "heights"): "relaxation step_s restitution bounce height_m expected_m allowed_m status reason",
+    ("stack", "thresholds"): "structure count share outer relaxation friction step_s duration_s moved outcome right sweeps "
+                             "missed_steps status reason",
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",

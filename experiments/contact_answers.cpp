@@ -32,7 +32,12 @@ Method contact_method(std::string_view relaxation, std::string_view friction) {
   method.relaxation = relaxation;
   method.friction = friction;
   method.tolerance = 1e-12;
+  if (!accurate(method)) method.max_outer = 10, method.max_sweeps = 100;
   return method;
+}
+
+bool accurate(const Method& method) {
+  return method.relaxation == "direct" || method.relaxation == "conjugate_gradients";
 }
 
 double relative_difference(double a, double b) {

@@ -42,6 +42,8 @@ const std::vector<Experiment>& experiments() {
       {"stopping", "Do sliding bodies come to rest, or to roll, where they should?", stopping},
       {"friction_isotropy", "Is friction the same in every direction?", friction_isotropy},
       {"convex_gap", "How high does a sliding body hover by the convex law?", convex_gap},
+      {"restitution", "Do bodies bounce as high and push each other as they should?", restitution},
+      {"stack", "Do stacks, overhangs and arches stand and fall where they should?", stack},
       {"simbenchmark", "How accurate and how fast is contact, beside five engines' published figures?",
        simbenchmark},
       {"contact_hard_cases", "Does one method without settings survive the contacts that solvers fail on?",

@@ -25,6 +25,8 @@ void incline(Context& context);
 void stopping(Context& context);
 void friction_isotropy(Context& context);
 void convex_gap(Context& context);
+void restitution(Context& context);
+void stack(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
 void work_precision(Context& context);

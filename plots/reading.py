@@ -26,7 +26,7 @@ RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": s
 TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
         "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
-        "parameter", "family", "limit", "torque", "mechanism"}
+        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome"}
 
 
 class InputError(Exception):

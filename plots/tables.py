@@ -61,6 +61,15 @@ TABLES = {
     ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
+    **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
+                                "sweeps steps missed_steps status reason"
+       for experiment in ("incline", "stopping", "restitution", "stack")},
+    ("friction_isotropy", "headings"): "relaxation friction step_s heading_deg deceleration_share expected_share share_error "
+                                       "heading_change_rad heading_error_rad status reason",
+    ("convex_gap", "gaps"): "relaxation friction step_s speed_m_per_s gap_m expected_m error sweeps missed_steps status reason",
+    ("restitution", "heights"): "relaxation step_s restitution bounce height_m expected_m allowed_m status reason",
+    ("stack", "thresholds"): "structure count share outer relaxation friction step_s duration_s moved outcome right sweeps "
+                             "missed_steps status reason",
     ("simbenchmark", "accuracy"): "benchmark step_s integrator alpha outer relaxation friction error simulated_s "
                                   "outer_iterations sweeps row_updates missed_steps wall_s status reason",
     ("simbenchmark", "published"): "benchmark engine step_s error cpu_s",

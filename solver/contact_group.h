@@ -55,8 +55,8 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
     }
   const Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
   const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
-  const Vec3 point = (found.point_a + found.point_b) / 2;
   for (const int side : {0, 1}) {
+    const Vec3& point = side == 0 ? found.point_a : found.point_b;  // where they touch, each on its own
     const int column = 3 * column_of<Block>(contact, side);
     const double sign = side == 0 ? 1 : -1;
     jacobian.template middleCols<3>(column) = sign * directions;

@@ -68,7 +68,7 @@ const std::vector<Mistake> mistakes{
     {contact("margin_m = -1\n"), {"scene.toml:21: contact.margin_m", "got -1", ">= 0"}},
     {contact("margin = 1\n"), {"scene.toml:21: contact.margin", "did you mean `margin_m`?"}},
     {contact("recovery_m_s = -1\n"), {"scene.toml:21: contact.recovery_m_s", "got -1", ">= 0"}},
-    {contact("thickness_m = \"thin\"\n"), {"scene.toml:21: contact.thickness_m", "got thin"}},
+    {contact("thickness_m = \"thin\"\n"), {"scene.toml:21: contact.thickness_m", "got 'thin'"}},
     {contact("damping_s = nan\n"), {"scene.toml:21: contact.damping_s", "got nan"}},
     {contact("compliance_m_per_n = 1\nstiffness_n_per_m = 1\n"),
      {"scene.toml:22: contact.stiffness_n_per_m", "a stiffness and a compliance"}},

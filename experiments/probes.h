@@ -27,8 +27,8 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 /// they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
-/// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none. A
-/// limit counts where it is passed, a motor of limited force not at all.
+/// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
+/// A limit counts where it is passed, a motor of limited force not at all.
 double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state);
 
 }  // namespace pbdcheck

@@ -14,8 +14,8 @@ namespace pbd {
 /// undefined), anchors on nodes of infinite mass (nothing moves these).
 void validate(const Scene& scene);
 
-/// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume (or a rest
-/// triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
+/// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume
+/// (or a rest triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
 void require_proper(const Eigen::Matrix<double, 3, 4>& rest, std::string_view what, std::size_t index);
 void require_proper(const Eigen::Matrix3d& rest, std::string_view what, std::size_t index);
 

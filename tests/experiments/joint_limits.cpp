@@ -16,8 +16,9 @@ namespace {
 
 SceneFile read(const std::string& text) {
   const TemporaryFolder folder;
-  return read_scene_file(folder.write("scene.toml", text + "[step]\nstep_s = 0.01\nsteps = 300\n[method]\n"
-                                                           "relaxation = \"gauss_seidel\"\ntolerance = 1e-9\n"));
+  return read_scene_file(folder.write("scene.toml", text +
+                                                        "[step]\nstep_s = 0.01\nsteps = 300\n[method]\n"
+                                                        "relaxation = \"gauss_seidel\"\ntolerance = 1e-9\n"));
 }
 
 /// The first body's state at the end, and what the joint named last exerts there.

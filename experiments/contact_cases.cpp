@@ -204,16 +204,16 @@ std::vector<ContactCase> contact_cases(bool full) {
   all.push_back(dropped_box());
   all.push_back(heavy_cylinder());
   all.push_back(at_rest("cubes, each twice as heavy", column(10, 2), frame, 1, 0.2));
-  all.push_back(card_house(full ? 3 : 2));
+  if (full) all.push_back(card_house(3));
   for (const int side : {2, 4, 10})
-    if (full || side < 10) all.push_back(slab(side));
+    if (full || side < 4) all.push_back(slab(side));
   all.push_back(on_incline(0.5, true));
   all.push_back(on_incline(0.49, false));
   for (const double friction : {0.0, 1e-6, 0.5, 1.0, 5.0, 10.0, 1e6}) all.push_back(rough_cube(friction));
   for (const int links : {3, 5, 10})
-    if (full || links == 5) all.push_back(wrecking_ball(links, 100));
+    if (full) all.push_back(wrecking_ball(links, 100));
   all.push_back(balls(full ? 6 : 3));
-  all.push_back(coin());
+  if (full) all.push_back(coin());
   for (const double friction : {0.1, 0.5}) all.push_back(turntable(friction));
   return all;
 }

@@ -51,7 +51,7 @@ def falls(rows):
 def lengths(frame):
     """Seconds a step and a sweep over the number of bodies."""
     fig, axes = panels(2, columns=2, height=2.6)
-    for ax, column, title in zip(axes, ("wall_s_per_step", "wall_s_per_sweep"), ("a step of four linearisations", "a sweep")):
+    for ax, column, title in zip(axes, ("cpu_s_per_step", "cpu_s_per_sweep"), ("a step of four linearisations", "a sweep")):
         for relaxation, rows in frame.groupby("relaxation", sort=False):
             curve_points(ax, rows, "bodies", column, relaxation, style(relaxation))
         ok = good(frame, "bodies", column)
@@ -60,7 +60,7 @@ def lengths(frame):
             slope_triangle(ax, 3 * fewest["bodies"].iloc[0], 0.9 * on_log(fewest[column].min()), 1, BLACK)
         ax.set(xscale="log", yscale="log", title=title, xlabel="bodies")
         ticks(ax, frame["bodies"], "{:.0f}".format)
-    axes[0].set_ylabel("wall time (s)")
+    axes[0].set_ylabel("processor time (s)")
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "wall_s_per_step", "wall_s_per_sweep")))
+    footnote(fig, reasons_note(failed(frame, "cpu_s_per_step", "cpu_s_per_sweep")))
     return fig

@@ -58,7 +58,7 @@ TABLES = {
     ("rotation", "tumbling"): "disturbance_rad_s integrator alpha outer relaxation step_s period_s exact_s error status reason",
     ("joints", "accuracy"): "mechanism integrator alpha outer relaxation step_s error order joint_error missed_steps wall_s status "
                             "reason",
-    ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
+    ("joints", "lengths"): "relaxation bodies cpu_s_per_step cpu_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "

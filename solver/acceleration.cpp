@@ -59,7 +59,9 @@ bool Anderson::accelerate(const std::vector<double>& inverse_mass, Rows& rows, P
   combine(columns);
   constexpr double longest = 100;
   const double length = (start_ - image_).head(v.size()).cwiseProduct(root_mass_).norm();
-  if (!(length <= longest * residual_.norm())) return false;
+  if (!std::isfinite(length)) return false;
+  const double cap = longest * residual_.norm();
+  if (length > cap) start_ = image_ + cap / length * (start_ - image_);
   spread(start_, rows, v);
   return true;
 }

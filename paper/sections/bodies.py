@@ -126,7 +126,7 @@ def joints(results):
                    "the largest one), and below it the largest error of a joint in any step. Triangles show the orders 1 and 2. "
                    "Crossed: a step missed its tolerance, or a joint came apart. The motor fixes the slider at every step, so that "
                    "only the solve's error is left."),
-            Figure("joints_lengths", "Wall time over the length of a chain, smallest of three repeats; the triangle is linear.")])
+            Figure("joints_lengths", "Processor time over the length of a chain, smallest of five repeats; the triangle is linear.")])
     section.tell(results.table("joints", "accuracy"), lambda frame: SINGULAR, accuracy_text, accuracy_table)
     return section.tell(results.table("joints", "lengths"), lengths_text, lengths_table)
 
@@ -163,9 +163,9 @@ def lengths_text(frame):
 
 def lengths_table(frame):
     longest = frame[frame["bodies"] == frame["bodies"].max()]
-    return Table(f"A chain of {longest['bodies'].iloc[0]:.0f} bodies: wall time (s) and exponents of the length.",
+    return Table(f"A chain of {longest['bodies'].iloc[0]:.0f} bodies: processor time (s) and exponents of the length.",
                  ["relaxation", "a step", "a sweep", "exponent, step", "exponent, sweep", "status"],
-                 [[f"`{r['relaxation']}`", number(r["wall_s_per_step"]), number(r["wall_s_per_sweep"]), f"{r['exponent_step']:.3f}",
+                 [[f"`{r['relaxation']}`", number(r["cpu_s_per_step"]), number(r["cpu_s_per_sweep"]), f"{r['exponent_step']:.3f}",
                    f"{r['exponent_sweep']:.3f}", f"`{r['status']}`"] for _, r in longest.iterrows()])
 
 

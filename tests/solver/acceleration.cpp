@@ -31,6 +31,20 @@ TEST_CASE(
   CHECK(error_after(8, 0) > 1e9);  // 20^8
 }
 
+// What one iteration multiplies by 0.999 would be extrapolated by 999 changes: 100 of them are taken.
+TEST_CASE("an acceleration that is too long is shortened") {
+  Rows rows;
+  rows.inverse_mass = {1};
+  Points v = Points::Ones(3, 1);
+  Anderson anderson(5);
+  for (int k = 0; k < 2; ++k) {
+    anderson.begin(rows, v);
+    v *= 0.999;
+    CHECK(anderson.accelerate(rows.inverse_mass, rows, v) == (k == 1));
+  }
+  CHECK(v(0, 0) == Approx(0.999 * 0.999 - 100 * 0.001 * 0.999).epsilon(1e-9));
+}
+
 TEST_CASE("a rejected acceleration leaves the image") {
   Rows rows;
   rows.inverse_mass = {1};

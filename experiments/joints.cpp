@@ -194,9 +194,9 @@ void lengths(Context& context) {
       Method method;
       method.relaxation = relaxation;
       method.outer = "plain";
-      method.tolerance = 0;  // all linearisations and sweeps are spent
+      method.tolerance = 0;  // all linearisations are spent, of one sweep each
       method.max_outer = 4;
-      method.max_sweeps = 10;
+      method.max_sweeps = 1;
       double step_best = infinity, sweep_best = infinity;
       Workspace workspace(scene, method);
       for (int repeat = 0; repeat < 6; ++repeat) {

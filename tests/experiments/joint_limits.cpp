@@ -19,7 +19,7 @@ SceneFile read(const std::string& text, const std::string& relaxation) {
   return read_scene_file(folder.write("scene.toml", text +
                                                         "[step]\nstep_s = 0.01\nsteps = 300\n[method]\n"
                                                         "relaxation = \"" +
-                                                        relaxation + "\"\n"));
+                                                        relaxation + "\"\ntolerance = 1e-9\n"));
 }
 
 /// The first body's state at the end, and what the joint named last exerts there.

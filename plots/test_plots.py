@@ -124,6 +124,18 @@ class Reading(unittest.TestCase):
             with self.assertRaisesRegex(reading.InputError, f"'{key}': got "):
                 self.run_json(json.dumps(run | {key: value}))
 
+    def test_a_table_has_the_rows_that_its_run_counted(self):
+        for counted, said in ((2, None), (1, "got 2 rows; allowed: 1"), (3, "got 2 rows; allowed: 3"), ("x", 'allowed: "x"')):
+            sample.write_run(self.path.parent, ".")
+            self.run_json(json.dumps(reading.read_run(self.path.parent) | {"rows": {"table": counted, "other": 7}}))
+            if said:
+                self.assert_refused("error\n1\n2\n", said, "run.json")
+            else:
+                self.assertEqual(len(self.read("error\n1\n2\n")), 2)
+        self.run_json('{"status": "interrupted", "rows": [2]}')
+        with self.assertRaisesRegex(reading.InputError, "run.json: key 'rows': got"):
+            self.read("error\n1\n2\n")
+
     def test_runs_that_are_not_complete(self):
         self.assertIn("no run.json", reading.shortfall(reading.read_run(self.path.parent)))
         self.assertEqual(reading.shortfall(self.run_json('{"status": "interrupted"}')), "interrupted")
@@ -140,6 +152,10 @@ class Failures(unittest.TestCase):
     def test_reasons_are_counted(self):
         frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
         self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
+
+    def test_a_long_reason_is_cut_with_a_mark(self):
+        frame = reading.pd.DataFrame({"status": ["diverged"], "reason": ["far away " * 30]})
+        self.assertRegex(reading.reasons_note(frame), r"far away \.\.\.$")
 
     def test_traces_that_fail_are_crossed(self):
         for values, place in (([1.0, np.nan], (0.1, 1.0)), ([1.0, 3.0], (0.2, 2.0)), ([np.nan, np.nan], (0.2, 0.97))):
@@ -270,6 +286,7 @@ class Commands(unittest.TestCase):
             result = self.run_plots("make.py", folder)
             self.assertIn("skipped: judges_agreement: ", result.stderr)
             self.assertIn("no run.json", result.stderr)
+            self.assertEqual(result.returncode, 2)
             self.assertFalse(old.exists())
 
     def test_bad_table_exits_with_2_and_names_the_place(self):
@@ -282,9 +299,28 @@ class Commands(unittest.TestCase):
 
     def test_missing_experiments_are_skipped_with_a_message(self):
         with tempfile.TemporaryDirectory() as folder:
+            sample.judges(folder)
+            sample.write_run(folder, "judges")
             result = self.run_plots("make.py", folder)
             self.assertEqual(result.returncode, 0)
-            self.assertIn("skipped: judges_agreement", result.stderr)
+            self.assertIn("skipped: outer_convergence_map", result.stderr)
+
+    def test_a_folder_without_any_result_exits_with_2(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = self.run_plots("make.py", folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("got no result to draw", result.stderr)
+
+    def test_sigterm_leaves_no_partial_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            begun = f"with command.replacing(command.Path('{folder}/x.png')) as p: p.touch(); print(flush=True); time.sleep(60)"
+            script = f"import command, sys, time\ndef main(_):\n  {begun}\nsys.argv = ['x']\ncommand.command(main, '')"
+            with subprocess.Popen([sys.executable, "-c", script], cwd=HERE, stdout=subprocess.PIPE) as process:
+                process.stdout.readline()
+                self.assertEqual(len(list(Path(folder).iterdir())), 1)
+                process.terminate()
+                self.assertEqual(process.wait(30), 143)
+            self.assertEqual(list(Path(folder).iterdir()), [])
 
     def test_no_folder_exits_with_2(self):
         self.assertEqual(self.run_plots("make.py", "/nonexistent/results").returncode, 2)
@@ -294,6 +330,14 @@ class Commands(unittest.TestCase):
             sample.write_all(folder)
             self.assertEqual(self.run_plots("compare.py", folder).returncode, 0)
             self.assertTrue((Path(folder) / "figures" / "compare_seconds.svg").exists())
+
+    def test_a_comparison_without_an_error_is_never_ok(self):
+        with tempfile.TemporaryDirectory() as folder:
+            row = ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 1.0, math.nan, "ok", "")
+            sample.write(folder, ".", "compare", tables.METHOD, [row])
+            result = self.run_plots("compare.py", folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("compare.csv: line 2: column 'error': got nan", result.stderr)
 
 
 if __name__ == "__main__":

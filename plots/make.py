@@ -38,7 +38,8 @@ def say(text):
 
 
 def draw(entry, directory):
-    """Draws one figure in place of an older one, and whether; says so if its run is not complete or there is nothing to draw."""
+    """Draws one figure in place of an older one and returns whether it did; says so if its run is not complete or there is
+    nothing to draw."""
     name = f"{entry.experiment}_{entry.name}"
     for kind in KINDS:
         (directory / "figures" / f"{name}.{kind}").unlink(missing_ok=True)

@@ -7,6 +7,7 @@ with 17 digits, `nan`, `inf` or `-inf`. A row whose `status` is not `ok`, or who
 
 import csv
 import json
+import re
 import textwrap
 from pathlib import Path
 
@@ -20,12 +21,12 @@ VERDICTS = ("holds", "fails")
 COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
-            "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance", "disturbance_rad_s", "bodies",
-            "redundant_joints"}  # chosen or counted: numbers
+            "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance",
+            "disturbance_rad_s", "bodies", "redundant_joints"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
-TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
-        "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
+TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
+        "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
         "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome"}
 
@@ -35,8 +36,8 @@ class InputError(Exception):
 
 
 def read_table(path, columns=()):
-    """A table as a DataFrame; raises InputError unless it has `columns`, every row that its run counted, and every cell is
-    well formed."""
+    """A table as a DataFrame; raises InputError unless it has `columns`, every row that its run counted, and every cell
+    is well formed."""
     header, rows = _read_cells(Path(path))
     _check_count(Path(path), len(rows))
     missing = [c for c in columns if c not in header]
@@ -239,9 +240,21 @@ def reasons_note(rows, limit=4):
     return "Crossed, not ok: " + "; ".join(lines)
 
 
+def missed_note(frame):
+    """How many steps the runs missed that did not solve all, '' if all did."""
+    missed = frame["missed_steps"][frame["missed_steps"] > 0]
+    spanned = f"{missed.min():.0f} to {missed.max():.0f}" if len(missed) else ""
+    return f"Of each crossed run {spanned} steps missed their tolerance. " if spanned else ""
+
+
 def text_number(value):
     """A number with three digits: 0.004, 1e6."""
     return f"{value:.3g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+
+
+def scene_text(scene):
+    """A scene's name with the numbers of its parameters as `text_number` writes them."""
+    return re.sub(r"(?<==)\d+(\.\d*)?(e[-+]?\d+)?", lambda match: text_number(float(match[0])), scene)
 
 
 def step_text(step):

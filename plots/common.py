@@ -224,7 +224,8 @@ def _give_empty_axes_limits(figure):
 def power_text(value):
     """A power of ten or a multiple of it, as on the axes."""
     digit, exponent = f"{value:.0e}".split("e")
-    return f"${'' if digit == '1' else digit + chr(92) + 'cdot'}10^{{{int(exponent)}}}$"
+    times = "" if digit == "1" else digit + r"\cdot"
+    return f"${times}10^{{{int(exponent)}}}$"
 
 
 def _label_log_axes(figure):
@@ -234,7 +235,7 @@ def _label_log_axes(figure):
         if axis.get_scale() != "log" or not isinstance(axis.get_major_locator(), LogLocator):
             continue
         low, high = sorted(axis.get_view_interval())
-        decades = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+        decades = np.arange(np.floor(np.log10(low)) - 1, np.ceil(np.log10(high)) + 2)
         for factors in ((1,), (1, 3), (1, 2, 5)):
             places = np.sort(np.outer(factors, 10.0 ** decades).ravel())
             if ((low <= places) & (places <= high)).sum() >= 2:

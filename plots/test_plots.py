@@ -85,6 +85,22 @@ class Drawing(unittest.TestCase):
                     figure.draw_without_rendering()
                     common.plt.close(figure)
 
+    def test_logarithmic_axes_have_two_labels(self):
+        for low, high in ((3e-16, 2e5), (2e-4, 5e-3), (0.2, 0.9), (2.1e-11, 2.2e-11), (1e-11, 1.5e-11), (4.0, 4.1), (99.0, 101.0)):
+            for limits in ((low, high), (high, low)):
+                figure, (ax,) = common.panels(1)
+                ax.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
+                common._label_log_axes(figure)
+                figure.draw_without_rendering()
+                for axis in (ax.xaxis, ax.yaxis):
+                    first, last = axis.get_view_interval()
+                    shown = [tick for tick in axis.get_major_ticks() if tick.label1.get_text()
+                             and min(first, last) <= tick.get_loc() <= max(first, last)]
+                    self.assertGreaterEqual(len(shown), 2, limits)
+                    self.assertEqual(first < last, limits[0] < limits[1])
+                    self.assertTrue(min(first, last) <= low and high <= max(first, last))
+                common.plt.close(figure)
+
     def test_the_list_of_experiments_names_every_table(self):
         text = (HERE.parent / "experiments" / "README.md").read_text(encoding="utf-8")
         named = {}

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import common
+import judges
 import reading
 import sample
 
@@ -158,6 +159,20 @@ class Failures(unittest.TestCase):
             crosses = [line for line in ax.lines if line.get_marker() == "x"]
             self.assertEqual([(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses], [place])
             common.plt.close(figure)
+
+    def test_scenes_read_with_short_numbers(self):
+        for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
+                            ("chain20 tip x100", "chain20 tip x100")):
+            self.assertEqual(reading.scene_text(scene), text)
+
+    def test_families_of_scenes(self):
+        for scene, family in (("contraction: triangle_strain  1e+06 Pa, -2 N", "contraction: triangle_strain"),
+                              ("contraction: bending  100 N m/rad, -50 N", "contraction: bending"),
+                              ("contraction: point_joint  inf N/m, 50 N", "contraction: point_joint"),
+                              ("stability_map: cantilever8 corotational E=10000 Pa", "stability_map: cantilever corotational"),
+                              ("inner_convergence: chain20 hanging, tip x100", "inner_convergence: chain hanging"),
+                              ("joints: A01 pendulum", "joints: A01 pendulum")):
+            self.assertEqual(judges.family(scene), family)
 
     def test_steps_read_as_fractions(self):
         self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])

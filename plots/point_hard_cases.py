@@ -50,7 +50,7 @@ def gates(frame):
 
 def folded(name):
     """A gate's name in lines of a column's width."""
-    return textwrap.fill(name.replace("_", "_ "), 8).replace("_ ", "_")
+    return textwrap.fill(name.replace("_", "_ "), 8, break_long_words=False).replace("_ ", "_")
 
 
 def unsolved_mark(rows):

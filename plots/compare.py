@@ -1,5 +1,7 @@
 """Draws the table of a comparison."""
 
+import numpy as np
+
 from command import command
 from common import literal, save
 from reading import InputError, read_table
@@ -13,6 +15,10 @@ def main(directory):
     frame = read_table(path, columns(".", "compare"))
     if frame.empty:
         raise InputError(f"{path}: got no rows; at least one is needed")
+    for i, row in frame.iterrows():
+        if row["status"] == "ok" and not np.isfinite(row["error"]):
+            raise InputError(f"{path}: line {i + 2}: column 'error': got {row['error']}; allowed where the status is ok: "
+                             "a finite number")
     fig = draw_methods(literal(frame), "wall_s", "wall time (s)")
     save(fig, directory / "figures", "compare_seconds", f"pbdcheck compare: {path}")
 

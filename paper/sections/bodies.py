@@ -124,7 +124,8 @@ def joints(results):
         figures=[
             Figure("joints_accuracy", "Error at the end, relative to the mechanism's size (squeezer: of angles modulo a turn, to "
                    "the largest one), and below it the largest error of a joint in any step. Triangles show the orders 1 and 2. "
-                   "Crossed: a step missed its tolerance, or a joint came apart. The motor fixes the slider at every step, so that "
+                   "Crossed: a step missed its tolerance, or a joint came apart; a thin line joins these, too. Dashed: the bound of "
+                   "the joints' error. The motor fixes the slider at every step, so that "
                    "only the solve's error is left."),
             Figure("joints_lengths", "Processor time over the length of a chain, smallest of five repeats; the triangle is linear.")])
     section.tell(results.table("joints", "accuracy"), lambda frame: SINGULAR, accuracy_text, accuracy_table)
@@ -177,8 +178,8 @@ def redundant(results):
         "impulses?",
         figures=[Figure("redundant_motion", "Largest difference of positions and of net forces in the plane (of the largest force) "
                         "to the same relaxation without redundant joints, and largest difference of the impulses that joints of "
-                        "one place share (of their sum). Crossed: some step was not solved, or the run diverged; at the upper edge "
-                        "where there is no value.")])
+                        "one place share (of their sum). Dashed: the bounds. Crossed: some step was not solved, or the run "
+                        "diverged; at the lower edge the run without redundant joints.")])
     return section.tell(results.table("redundant", "motion"), lambda frame: MULTIPLIERS, redundant_text, redundant_table)
 
 

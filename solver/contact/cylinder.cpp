@@ -8,38 +8,37 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The angle of a's rim that is nearest to (or deepest in) b: the best of 16, then golden sections.
+/// The angle of a's rim that is nearest to (or deepest in) b: about the least of 16
+/// samples, where the distance's slope changes its sign.
 double nearest_angle(const Round& a, int end, const Round& b) {
-  constexpr int samples = 16, sections = 45;
+  constexpr int samples = 16, halvings = 52;
+  constexpr double part = 2 * pi / samples;
   const auto distance = [&](double angle) { return b.place(a.on_rim(end, angle)).distance; };
+  std::array<double, samples> sampled{};
+  for (int k = 0; k < samples; ++k) sampled[static_cast<std::size_t>(k)] = distance(k * part);
   double best = 0, least = infinity;
   for (int k = 0; k < samples; ++k) {
-    const double angle = 2 * pi * k / samples, here = distance(angle);
-    if (here < least) {
+    const double here = sampled[static_cast<std::size_t>(k)];
+    const double before = sampled[static_cast<std::size_t>((k + samples - 1) % samples)];
+    const double after = sampled[static_cast<std::size_t>((k + 1) % samples)];
+    const bool level = std::max(before, after) - here < rounding * a.radius;
+    if (level && here < least) {
       least = here;
-      best = angle;
+      best = k * part;
     }
-  }
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double low = best - 2 * pi / samples, high = best + 2 * pi / samples;
-  double x = high - golden * (high - low), y = low + golden * (high - low), at_x = distance(x),
-         at_y = distance(y);
-  for (int k = 0; k < sections; ++k) {
-    if (at_x < at_y) {
-      high = y;
-      y = x;
-      at_y = at_x;
-      x = high - golden * (high - low);
-      at_x = distance(x);
-    } else {
-      low = x;
-      x = y;
-      at_x = at_y;
-      y = low + golden * (high - low);
-      at_y = distance(y);
+    if (level || here > before || here > after || here - part * a.radius > least) continue;
+    double low = (k - 1) * part, high = (k + 1) * part;
+    for (int halving = 0; halving < halvings; ++halving) {
+      const double middle = (low + high) / 2;
+      const Vec3 y = a.on_rim(end, middle), along = a.axis.cross(y - a.cap(end));
+      (b.place(y).normal.dot(along) < 0 ? low : high) = middle;
     }
+    const double found = distance(low);
+    if (found >= least) continue;
+    least = found;
+    best = low;
   }
-  return (low + high) / 2;
+  return best;
 }
 
 /// a's rims and the points of its caps against b's caps and sides.
@@ -52,15 +51,6 @@ void rims_on_cylinder(const Round& a, const Round& b, double floor, const Roles&
     const Vec3 y = a.on_rim(end, nearest_angle(a, end, b));
     write_point(y, 0, Feature::rim, end + 1, b, roles);
   }
-}
-
-double least_gap(const Roles& roles) {
-  double gap = infinity;
-  for (std::size_t i = roles.begin; i < roles.out.size(); ++i) {
-    const bool same = roles.out[i].swapped == roles.swapped;
-    gap = std::min(gap, touching(roles.out[i], same ? roles.a : roles.b, same ? roles.b : roles.a).gap);
-  }
-  return gap;
 }
 
 /// A plane against a's rim that is deepest along its normal.
@@ -120,7 +110,11 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Role
     roles.write(sides, sides_key, beside);
   else if (inside && beside > 0)
     roles.write(on_line(from_a + axes.s * a.axis, a.radius, b.centre, b.axis, b.radius), sides_key, beside);
-  if (most > 0 || least_gap(roles) <= most + tiny || least_gap(roles) > 0) return;
+  const double least = roles.least();
+  // Without a rim in the other, they overlap where their sides cross or one goes through the other.
+  const bool crossing = (inside && beside < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
+                        a.place(from_b + axes.t * b.axis).distance <= tiny;
+  if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
   if (most == beside) return roles.write(sides, sides_key, beside);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;

@@ -44,7 +44,7 @@ struct Round {
     if (above > 0 && outside > 0) {
       const Vec3 nearest = cap(end) + radius * radial;
       const double distance = std::hypot(above, outside);
-      return {distance, Part::rim, nearest, (x - nearest) / distance, end};
+      return {distance, Part::rim, nearest, (outside * radial + above * end * axis) / distance, end};
     }
     if (above > outside) return {above, Part::cap, x - above * end * axis, end * axis, end};
     return {outside, Part::side, x - outside * radial, radial, end};

@@ -47,7 +47,7 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, Metri
 /// Adds the volumes times the deformation gradients (m^3) of the elements about each node at positions x.
 void add_deformation(const Effect& effect, const Points& x, std::vector<Eigen::Matrix3d>& deformation);
 
-/// True if every row of the effect gives way: A is positive definite.
+/// True if every row of the effect gives way: A is positive definite. Contacts act at a step's end alone.
 bool all_compliant(const Effect& effect);
 
 /// True if the effect's constraints are those of rigid bodies: they have no potential by the columns.

@@ -6,8 +6,8 @@ extern "C" {
 }
 #undef infinity  // a macro of Qhull's
 
-#include "error.h"
 #include "body_shapes.h"
+#include "error.h"
 
 namespace pbdcheck {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 namespace pbd {
-const std::vector<std::array<int, 2>>& BroadPhase::pairs(const std::vector<Collider>& colliders) {
-  const auto at = [&](int i) -> const Collider& { return colliders[static_cast<std::size_t>(i)]; };
+const std::vector<std::array<int, 2>>& BroadPhase::pairs(const std::vector<MovingBox>& boxes) {
+  const auto at = [&](int i) -> const MovingBox& { return boxes[static_cast<std::size_t>(i)]; };
   boxes_.clear();
   finite_.clear();
   infinite_.clear();
   pairs_.clear();
-  for (int i = 0; i < static_cast<int>(colliders.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
     if (at(i).box.isEmpty()) continue;
     const bool finite = at(i).box.min().allFinite() && at(i).box.max().allFinite();
     (finite ? finite_ : infinite_).push_back(i);

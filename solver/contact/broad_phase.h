@@ -9,7 +9,7 @@
 namespace pbd {
 
 /// What collides: its box, and whether it may move. Things that cannot move do not pair with each other.
-struct Collider {
+struct MovingBox {
   AxisBox box;
   bool moves = true;
 };
@@ -17,10 +17,10 @@ struct Collider {
 /// Keeps its memory from step to step.
 class BroadPhase {
  public:
-  /// Pairs of intersecting boxes, the smaller index first, sorted. Of n colliders of which each is near a
+  /// Pairs of intersecting boxes, the smaller index first, sorted. Of n boxes of which each is near a
   /// few, n log n. A tree of the project's own (the one for meshes, too) and not a library's: the solver has
   /// no dependency but Eigen, and the order of pairs must not depend on what was asked before.
-  const std::vector<std::array<int, 2>>& pairs(const std::vector<Collider>& colliders);
+  const std::vector<std::array<int, 2>>& pairs(const std::vector<MovingBox>& boxes);
 
  private:
   BoxTree tree_;

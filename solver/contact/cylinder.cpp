@@ -1,7 +1,6 @@
 // Cylinders against half spaces and cylinders.
 #include "contact/pairs.h"
 #include "contact/round.h"
-#include "contact/segments.h"
 
 namespace pbd {
 namespace {
@@ -53,17 +52,24 @@ void rims_on_cylinder(const Round& a, const Round& b, double floor, const Roles&
   }
 }
 
-/// A plane against a's rim that is deepest along its normal.
-void write_deepest_rim(const Round& a, const Vec3& on_plane, const Vec3& normal, Feature feature, int j,
-                       const Roles& roles) {
-  const int end = a.axis.dot(normal) > 0 ? -1 : 1;
-  ContactPoint contact = on_face(a.cap(end), 0, on_plane, normal, 0);
-  contact.direction_a = a.axis;
-  contact.rim_a = a.radius;
-  roles.write(contact, roles.key(Feature::rim, 9 * (end + 1) + 8, feature, j), touching(contact, {}, {}).gap);
-}
-
 }  // namespace
+
+double nearest_arc(const Segment& edge, const Round& b) {
+  const auto slope = [&](double s) {
+    const Round::Place at = b.place(edge.at(s));
+    return at.distance > 0 ? edge.along.dot(at.normal) : 0.0;
+  };
+  double low = 0, high = edge.length;
+  if (slope(low) >= 0) return low;
+  if (slope(high) <= 0) return high;
+  constexpr int halvings = 60;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2, here = slope(middle);
+    if (here == 0) return middle;
+    (here < 0 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
 
 void write_point(const Vec3& y, double radius, Feature feature, int i, const Round& b, const Roles& roles) {
   const Round::Place at = b.place(y);
@@ -81,6 +87,15 @@ void write_point(const Vec3& y, double radius, Feature feature, int i, const Rou
                 gap);
 }
 
+void write_deepest_rim(const Round& a, const Vec3& on_plane, const Vec3& normal, Feature feature, int j,
+                       const Roles& roles) {
+  const int end = a.axis.dot(normal) > 0 ? -1 : 1;
+  ContactPoint contact = on_face(a.cap(end), 0, on_plane, normal, 0);
+  contact.direction_a = a.axis;
+  contact.rim_a = a.radius;
+  roles.write(contact, roles.key(Feature::rim, 9 * (end + 1) + 8, feature, j), touching(contact, {}, {}).gap);
+}
+
 void cylinder_plane(const Cylinder& a, const Roles& roles) {
   write_rims(Round(a, roles.a), roles.b.origin, roles.b.rotation.col(2), 0, Feature::face, 0, -infinity,
              roles, [](const Vec3&) { return true; });
@@ -93,29 +108,34 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Role
   // The caps' planes and the plane along both axes.
   const double over_b = std::abs(apart.dot(b.axis)) - a.support(b.axis) - b.half;
   const double over_a = std::abs(apart.dot(a.axis)) - b.support(a.axis) - a.half;
-  const Vec3 normal =
-      cross.norm() > rounding ? Vec3(cross / cross.norm() * (cross.dot(apart) < 0 ? -1 : 1)) : Vec3::Zero();
-  const double beside = cross.norm() > rounding ? normal.dot(apart) - a.radius - b.radius : -infinity;
+  const Vec3 from_a = a.cap(-1), from_b = b.cap(-1);
+  const Nearest axes = nearest(Segment{from_a, a.axis, 2 * a.half}, Segment{from_b, b.axis, 2 * b.half});
+  const bool inside = axes.s > 0 && axes.s < 2 * a.half && axes.t > 0 && axes.t < 2 * b.half;
+  constexpr double parallel = 1e-5;
+  const double sine = cross.norm();
+  const bool crossed = sine >= crossing_sine;
+  Vec3 normal = sine >= parallel ? cross : inside ? axes.apart : Vec3(apart - apart.dot(b.axis) * b.axis);
+  normal = normal.norm() > 0 ? Vec3(normal / normal.norm()) : b.axis.unitOrthogonal();
+  if (normal.dot(apart) < 0) normal = -normal;
+  const double beside = normal.dot(apart) - a.support(normal) - b.support(normal);
   const double most = std::max({over_a, over_b, beside});
   if (most >= roles.margin) return;
   rims_on_cylinder(a, b, most - tiny, roles);
   rims_on_cylinder(b, a, most - tiny, roles.exchanged());
-  const Vec3 from_a = a.cap(-1), from_b = b.cap(-1);
-  const Nearest axes = nearest(Segment{from_a, a.axis, 2 * a.half}, Segment{from_b, b.axis, 2 * b.half});
-  const ContactPoint sides = on_edges(from_a + axes.s * a.axis, a.axis, a.radius, from_b + axes.t * b.axis,
-                                      b.axis, b.radius, normal.isZero() ? axes.apart : normal);
+  const Vec3 y_a = from_a + axes.s * a.axis;
+  const ContactPoint edges =
+      on_edges(y_a, a.axis, a.radius, from_b + axes.t * b.axis, b.axis, b.radius, normal);
+  const ContactPoint line = on_line(y_a, a.radius, b.centre, b.axis, b.radius);
   const auto sides_key = roles.key(Feature::axis, 0, Feature::axis, 0);
-  const bool inside = axes.s > 0 && axes.s < 2 * a.half && axes.t > 0 && axes.t < 2 * b.half;
-  if (inside && cross.norm() >= crossing_sine && beside >= most - tiny)
-    roles.write(sides, sides_key, beside);
-  else if (inside && beside > 0)
-    roles.write(on_line(from_a + axes.s * a.axis, a.radius, b.centre, b.axis, b.radius), sides_key, beside);
+  const double along_line = axes.apart.norm() - a.radius - b.radius;
+  if (inside && crossed && beside >= most - tiny) roles.write(edges, sides_key, beside);
+  if (inside && !crossed && along_line > 0) roles.write(line, sides_key, along_line);
   const double least = roles.least();
   // Without a rim in the other, they overlap where their sides cross or one goes through the other.
-  const bool crossing = (inside && beside < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
+  const bool crossing = (inside && along_line < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
                         a.place(from_b + axes.t * b.axis).distance <= tiny;
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
-  if (most == beside) return roles.write(sides, sides_key, beside);
+  if (most == beside) return roles.write(sine >= parallel ? edges : line, sides_key, most);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, roles);

@@ -1,7 +1,6 @@
 // Cylinders against spheres, capsules, boxes and hulls.
 #include "contact/pairs.h"
 #include "contact/round.h"
-#include "contact/segments.h"
 
 namespace pbd {
 namespace {
@@ -112,16 +111,8 @@ struct Pair {
                  along_across = along - cosine * b.axis;
       const double sine_squared = along_across.squaredNorm();
       const auto inside = [&](double s) { return s > 0 && s < length; };
-      if (sine_squared < 0.25 && std::abs(cosine) > 0)
-        for (const int at_end : {-1, 1}) {
-          const double s = (at_end * b.half - from.dot(b.axis)) / cosine;
-          if (!inside(s)) continue;
-          const Vec3 y = point(e, s);
-          const double outside = (y - b.cap(at_end)).norm() - b.radius;
-          if (outside >= 0 && faces_farther(e, y - b.cap(at_end)))
-            roles.write(on_line(y, a.radius, b.centre, b.axis, b.radius),
-                        roles.key(Feature::edge, e, Feature::rim, at_end + 11), outside - a.radius);
-        }
+      write_where_it_leaves({a.node(a.edge(e).node[0]), along, length}, a.radius, e, b, roles,
+                            [&](const Vec3& apart) { return faces_farther(e, apart); });
       if (!(sine_squared > rounding)) continue;
       const double middle = -across.dot(along_across) / sine_squared;
       const double least_squared = (across + middle * along_across).squaredNorm();
@@ -145,23 +136,9 @@ struct Pair {
     }
   }
 
-  /// The arc of an edge's point nearest to the cylinder: the distance is convex, its slope is bisected.
-  double nearest_arc(int e) const {
-    const Vec3 &from = a.node(a.edge(e).node[0]), &along = a.along[static_cast<Index>(e)];
-    const auto slope = [&](double s) {
-      const Round::Place at = b.place(from + s * along);
-      return at.distance > 0 ? along.dot(at.normal) : 0.0;
-    };
-    double low = 0, high = a.length[static_cast<Index>(e)];
-    if (slope(low) >= 0) return low;
-    if (slope(high) <= 0) return high;
-    constexpr int halvings = 60;
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = (low + high) / 2, here = slope(middle);
-      if (here == 0) return middle;
-      (here < 0 ? low : high) = middle;
-    }
-    return (low + high) / 2;
+  double nearest_arc_of(int e) const {
+    const auto i = static_cast<Index>(e);
+    return nearest_arc({a.node(a.edge(e).node[0]), a.along[i], a.length[i]}, b);
   }
 
   void rims(int f, double floor) const {
@@ -210,7 +187,7 @@ struct Pair {
     double nearest = infinity, arc = 0;
     int edge = 0;
     for (int e = 0; e < a.edge_count(); ++e) {
-      const double s = nearest_arc(e);
+      const double s = nearest_arc_of(e);
       const double distance = b.place(point(e, s)).distance;
       if (distance >= nearest) continue;
       nearest = distance;

@@ -1,7 +1,7 @@
 // Faces and edges of a closed surface of triangles.
 #pragma once
 
-#include "mesh.h"
+#include "geometry.h"
 
 namespace pbd {
 

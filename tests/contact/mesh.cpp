@@ -75,6 +75,38 @@ TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
   CHECK(worst < 1e-10);
 }
 
+TEST_CASE("a closed mesh of a box is as far from other shapes as the box is") {
+  const auto kind =
+      GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "cylinder", "mesh");
+  Random random(47);
+  double worst = 0;
+  int apart = 0, differ = 0;
+  for (int number = 0; number < 10000; ++number) {
+    const Box box = std::get<Box>(random_shape("box", random));
+    const Shape other = random_shape(kind, random), mesh = ClosedMesh(box_surface(box.size));
+    const Shape convex_other =
+        kind == "mesh" ? Shape(ConvexHull(std::get<ClosedMesh>(other).surface)) : other;
+    const Frame at_box{random.vector(), random.rotation()};
+    Frame at{at_box.place(random.uniform(0, 1.8) * random.vector().normalized()), at_box.rotation};
+    at.rotation *= number % 2 == 0 ? random.quarter_turns() : random.rotation();
+    const auto least = [&](const Shape& a, const Shape& b) {
+      double gap = infinity;
+      for (const auto& contact : contacts(a, at, b, at_box, 1))
+        gap = std::min(gap, touch(contact, at, at_box).gap);
+      return gap;
+    };
+    const double of_mesh = least(other, mesh), of_box = least(convex_other, box);
+    if ((of_mesh < 0) != (of_box < 0)) ++differ;
+    if (!(of_box > 0 && of_box < 1)) continue;
+    ++apart;
+    worst = std::max(worst, std::abs(of_mesh - of_box));
+  }
+  INFO(kind << " apart " << apart << " off by " << worst);
+  CHECK(apart > 500);
+  CHECK(differ == 0);
+  CHECK(worst < 1e-10);
+}
+
 TEST_CASE("edges within a flat side of a mesh are not felt") {
   const Shape ground = ClosedMesh(refined(refined(refined(refined(box_surface({6, 6, 1}))))));
   const auto kind =

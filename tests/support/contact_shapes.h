@@ -63,7 +63,7 @@ inline Shape random_shape(const std::string& kind, Random& random) {
   return HalfSpace{};
 }
 
-/// In the world; cylinders, meshes and half spaces are none.
+/// In the world, meshes as if convex; cylinders and half spaces are none.
 inline Convex convex(const Shape& shape, const Frame& at) {
   Convex made;
   const auto surface = [&](const TriangleMesh& mesh) {
@@ -80,6 +80,8 @@ inline Convex convex(const Shape& shape, const Frame& at) {
     surface(box_surface(box->size));
   } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
     surface(hull->surface);
+  } else if (const auto* mesh = std::get_if<ClosedMesh>(&shape)) {
+    surface(mesh->surface);
   }
   return made;
 }

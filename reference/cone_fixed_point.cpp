@@ -1,0 +1,44 @@
+#include "cone_fixed_point.h"
+
+#include <chrono>
+
+namespace pbd::reference {
+
+using Eigen::VectorXd;
+
+ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance,
+                                    const ConvexSolver& solver) {
+  constexpr int most = 50, patience = 10;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto residual = [&](const VectorXd& r) {
+    return measure_cone(problem, FrictionLaw::coulomb, r).natural_residual;
+  };
+  ConeProblem shifted = problem;
+  VectorXd shift = VectorXd::Zero(3 * problem.contacts());
+  ConeSolution best;
+  best.impulse = shift;
+  double best_residual = infinity, part = 1, previous = infinity;
+  int iterations = 0;
+  for (int k = 0, improved = 0; k < most && k - improved < patience && best_residual > tolerance; ++k) {
+    shifted.free_velocity = problem.free_velocity + shift;
+    ConeSolution found = solver.solve(shifted);
+    iterations += found.iterations;
+    const VectorXd u = problem.velocity(found.impulse);
+    const VectorXd wanted = shifted_velocity(problem, FrictionLaw::coulomb, u) - u;
+    if (solver.polish) iterations += solver.polish(problem, found.impulse);
+    if (const double now = residual(found.impulse); now < best_residual) {
+      if (now < best_residual / 2) improved = k;
+      best_residual = now, best.impulse = found.impulse;
+    }
+    const double change = (wanted - shift).norm();
+    if (change > 0.9 * previous) part = std::max(part / 2, 0.05);
+    shift += part * (wanted - shift);
+    previous = change;
+  }
+  best.iterations = iterations;
+  certify(problem, FrictionLaw::coulomb, tolerance, best);
+  best.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return best;
+}
+
+}  // namespace pbd::reference

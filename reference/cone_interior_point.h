@@ -1,0 +1,20 @@
+// The first judge of contact with friction: interior point, then semismooth Newton.
+//
+//   min 1/2 r.W r + q.r over |r_T| <= mu r_N   by   x = (mu r_N, r_T), z = (u_N / mu, u_T) in Lorentz cones
+// Nesterov-Todd scaling Theta (Theta x = Theta^-1 z), Mehrotra's predictor and corrector; each Newton step is
+// (N + Theta^2) dx = rhs, solved by a sparse Cholesky factorisation. Contacts are equilibrated by one
+// positive number each; one with mu = 0 has a half line. Vandenberghe 2010 (CVXOPT), Nesterov, Todd 1997.
+// Coulomb's law is solved as a sequence of such problems (cone_fixed_point.h).
+#pragma once
+
+#include "cone_problem.h"
+
+namespace pbd::reference {
+
+/// The minimum within about the square root of its gap: impulses and number of iterations. No polish.
+ConeSolution interior_point(const ConeProblem& problem);
+
+/// Interior point and polish, certified by the natural residual. `tolerance` bounds that residual.
+ConeSolution cone_interior_point(const ConeProblem& problem, FrictionLaw law, double tolerance);
+
+}  // namespace pbd::reference

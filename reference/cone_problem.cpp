@@ -1,0 +1,104 @@
+#include "cone_problem.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace pbd::reference {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Vector3d project_on_cone(const Vector3d& point, double mu) {
+  const double n = point.x(), tau = point.tail<2>().norm();
+  if (mu * tau <= -n) return Vector3d::Zero();  // first, or mu = 0 would keep n < 0
+  if (tau <= mu * n) return point;
+  // On the boundary, along the ray d = (1, mu t/|t|): (point.d / d.d) d.
+  const double normal = (n + mu * tau) / (1 + mu * mu);
+  Vector3d nearest(normal, 0, 0);
+  if (tau > 0) nearest.tail<2>() = mu * normal / tau * point.tail<2>();
+  return nearest;
+}
+
+Matrix3d cone_projection_derivative(const Vector3d& point, double mu) {
+  const double n = point.x(), tau = point.tail<2>().norm();
+  if (mu * tau <= -n) return Matrix3d::Zero();
+  if (tau < mu * n) return Matrix3d::Identity();
+  // Along the ray 1; around the axis the ratio of the circles' radii; along the normal 0.
+  const Vector2d t = tau > 0 ? Vector2d(point.tail<2>() / tau) : Vector2d(1, 0);
+  const Vector3d ray = Vector3d(1, mu * t.x(), mu * t.y()) / std::sqrt(1 + mu * mu);
+  const Vector3d around(0, -t.y(), t.x());
+  const double radius = mu * (n + mu * tau) / (1 + mu * mu);
+  return ray * ray.transpose() + (tau > 0 ? radius / tau : 0) * around * around.transpose();
+}
+
+VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law, const VectorXd& velocity) {
+  VectorXd shifted = velocity;
+  if (law == FrictionLaw::coulomb)
+    for (int i = 0; i < problem.contacts(); ++i)
+      shifted(3 * i) += problem.friction(i) * velocity.segment<2>(3 * i + 1).norm();
+  return shifted;
+}
+
+VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
+  const VectorXd shifted = shifted_velocity(problem, law, problem.velocity(impulse));
+  VectorXd map = impulse;
+  for (int i = 0; i < problem.contacts(); ++i)
+    map.segment<3>(3 * i) -=
+        project_on_cone(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), problem.friction(i));
+  return map;
+}
+
+ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
+  const auto over = [](double value, double scale) { return scale > 0 ? value / scale : value; };
+  const VectorXd velocity = problem.velocity(impulse);
+  const VectorXd shifted = shifted_velocity(problem, law, velocity);
+  const double size = problem.free_velocity.norm();
+  double from_cone = 0, from_dual = 0;
+  for (int i = 0; i < problem.contacts(); ++i) {
+    const Vector3d r = impulse.segment<3>(3 * i), u = shifted.segment<3>(3 * i);
+    from_cone += (r - project_on_cone(r, problem.friction(i))).squaredNorm();
+    from_dual += project_on_cone(-u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
+  }
+  const double quadratic = impulse.dot(problem.delassus * impulse);
+  const double linear = impulse.dot(problem.free_velocity);
+  ConeMeasures m;
+  m.natural_residual = over(natural_map(problem, law, impulse).norm(), size);
+  m.gap = over(std::abs(impulse.dot(shifted)), std::abs(quadratic) + std::abs(linear));
+  m.impulse_distance = over(std::sqrt(from_cone), impulse.norm());
+  m.velocity_distance = over(std::sqrt(from_dual), size);
+  m.objective = quadratic / 2 + linear;
+  return m;
+}
+
+EquilibratedCone equilibrate(const ConeProblem& problem) {
+  EquilibratedCone scaled{problem, VectorXd::Ones(3 * problem.contacts())};
+  const VectorXd diagonal = problem.delassus.diagonal();
+  for (int i = 0; i < problem.contacts(); ++i) {
+    const double mean = diagonal.segment<3>(3 * i).mean();
+    if (mean > 0) scaled.scale.segment<3>(3 * i).setConstant(1 / std::sqrt(mean));
+  }
+  scaled.problem.delassus = scaled.scale.asDiagonal() * problem.delassus * scaled.scale.asDiagonal();
+  scaled.problem.free_velocity = scaled.scale.cwiseProduct(problem.free_velocity);
+  return scaled;
+}
+
+void certify(const ConeProblem& problem, FrictionLaw law, double tolerance, ConeSolution& solution) {
+  solution.velocity = problem.velocity(solution.impulse);
+  solution.measures = measure_cone(problem, law, solution.impulse);
+  // u~ is from K* by the natural map at most; where it is not, impulses are so large that rounding hides u~.
+  const double residual = solution.measures.natural_residual, outside = solution.measures.velocity_distance;
+  const bool reached = residual <= tolerance && outside <= tolerance;  // NaN is not
+  solution.outcome = reached ? Outcome::ok : Outcome::not_converged;
+  if (reached) solution.reason.clear();
+  if (!reached && solution.reason.empty()) {
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(),
+                  "natural residual %.2g, velocity %.2g from the dual cone, asked for %.2g", residual,
+                  outside, tolerance);
+    solution.reason = text.data();
+  }
+}
+
+}  // namespace pbd::reference

@@ -1,0 +1,78 @@
+// One step's contact problem with friction, and how far impulses are from its solution.
+//
+//   u = W r + q,   K_i = {|r_T| <= mu_i r_N},   K_i* = {u_N >= mu_i |u_T|},   K the product over contacts
+//   cone      K contains r, perpendicular to u in K*                  (the minimum of 1/2 r.W r + q.r over K)
+//   coulomb   the same with u~ = u + mu |u_T| e_N in the place of u   (Signorini and Coulomb; de Saxce)
+// Contact i owns rows 3 i .. 3 i + 2: normal, tangent 1, tangent 2.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "judge.h"
+
+namespace pbd::reference {
+
+enum class FrictionLaw { cone, coulomb };
+inline constexpr std::array<std::string_view, 2> friction_law_names{"cone", "coulomb"};
+
+struct ConeProblem {
+  Eigen::SparseMatrix<double> delassus;  // W, 1/kg, symmetric positive semidefinite, all its blocks 3 x 3
+  Eigen::VectorXd free_velocity;         // q, m/s
+  Eigen::VectorXd friction;              // mu of each contact
+
+  int contacts() const { return static_cast<int>(friction.size()); }
+  Eigen::VectorXd velocity(const Eigen::VectorXd& impulse) const {
+    return delassus * impulse + free_velocity;
+  }
+};
+
+/// The point of {|t| <= mu n} nearest to (n, t).
+Eigen::Vector3d project_on_cone(const Eigen::Vector3d& point, double mu);
+/// Its derivative, or one of its limits where it jumps; symmetric, eigenvalues in [0, 1].
+Eigen::Matrix3d cone_projection_derivative(const Eigen::Vector3d& point, double mu);
+
+/// u for the law cone, u + mu |u_T| e_N for coulomb.
+Eigen::VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law,
+                                 const Eigen::VectorXd& velocity);
+
+/// r - P_K(r - u~): zero exactly at solutions. Impulses and velocities are added as numbers in kg m/s and
+/// m/s.
+Eigen::VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const Eigen::VectorXd& impulse);
+
+/// What impulses are worth, whoever found them.
+struct ConeMeasures {
+  double natural_residual = 0;   // |r - P_K(r - u~)| / |q|; not divided where q = 0
+  double gap = 0;                // |r.u~| / (|r.W r| + |r.q|): 0 for 0/0
+  double impulse_distance = 0;   // of r from K over |r|
+  double velocity_distance = 0;  // of u~ from K* over |q|
+  double objective = 0;          // 1/2 r.W r + q.r, J
+
+  double feasibility() const { return std::max(impulse_distance, velocity_distance); }
+};
+ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Eigen::VectorXd& impulse);
+
+/// The problem in r' = r / s, u' = s u with one s > 0 a contact that makes the mean diagonal of W's blocks 1.
+struct EquilibratedCone {
+  ConeProblem problem;
+  Eigen::VectorXd scale;  // s, one per row
+};
+EquilibratedCone equilibrate(const ConeProblem& problem);
+
+/// Impulses somebody found; `outcome` is ok exactly if natural_residual and velocity_distance are within the
+/// tolerance asked for. (The second follows from the first but for rounding.)
+struct ConeSolution {
+  Eigen::VectorXd impulse, velocity;  // r, N s; u = W r + q, m/s (not u~)
+  ConeMeasures measures;
+  Outcome outcome = Outcome::not_converged;
+  std::string reason;  // empty if ok
+  int iterations = 0;
+  double seconds = 0;
+};
+
+/// Completes a solution from its impulses: velocity, measures, outcome and reason.
+void certify(const ConeProblem& problem, FrictionLaw law, double tolerance, ConeSolution& solution);
+
+}  // namespace pbd::reference

@@ -42,9 +42,8 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const Roles& r
   thread_local Core axis;
   axis.place(segment, Vec3(1, 1, cylinder.length), cylinder.radius, roles.a);
   const MeshPair side{axis, b, roles, nullptr};
-  const MeshPair::Crossing through = side.edges();
+  side.edges();
   side.nodes_of_mesh();
-  side.write_through(through);
   const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + roles.margin);
   const Roles exchanged = roles.exchanged();
   double shallowest = -infinity;  // of the faces whose edges go through the cylinder
@@ -82,9 +81,8 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const Roles& r
 void core_mesh(const Core& a, const ClosedMesh& b, const Roles& roles) {
   const MeshPair pair{a, b, roles, nullptr};
   pair.nodes();
-  const MeshPair::Crossing through = pair.edges();
+  pair.edges();
   pair.nodes_of_mesh();
-  pair.write_through(through);
   pair.write_cut();
 }
 
@@ -92,13 +90,12 @@ void mesh_mesh(const Core& a, const ClosedMesh& mesh_a, const Core& b, const Clo
                const Roles& in_b, const Roles& in_a) {
   const MeshPair pair{a, mesh_b, in_b, &mesh_a};
   pair.nodes();
-  const MeshPair::Crossing through = pair.edges();
+  pair.edges();
   const MeshPair exchanged{b, mesh_a, in_a, &mesh_b};
   exchanged.nodes();
   if (in_b.least() < 0) return;
   pair.nodes_inside();  // overlapping by nodes that are not the lowest ones
   exchanged.nodes_inside();
-  pair.write_through(through);
   pair.write_cut();
   exchanged.write_cut();
 }

@@ -5,32 +5,56 @@ namespace pbd {
 
 using Index = std::size_t;
 
-void MeshPair::write_through(const Crossing& crossing) const {
-  if (crossing.gap > -infinity && !(roles.least() < -a.radius))
-    roles.write(crossing.contact, crossing.key, crossing.gap);
-}
-
 void MeshPair::write_cut() const {
   if (roles.least() < -a.radius) return;
+  thread_local std::vector<int> cut_nodes;
+  cut_nodes.clear();
   AxisBox box;
   for (const Vec3& x : a.x) box.extend(x);
   double shallowest = -infinity;
-  int cut = -1, node = -1;
+  int cut = -1, node = -1, face = -1;
   b.tree.find(box, [&](int triangle) {
     if (!cuts(triangle)) return;
+    for (const int i : b.surface.triangles[static_cast<Index>(triangle)]) cut_nodes.push_back(i);
     const Vec3& normal = b.solid.faces[static_cast<Index>(triangle)].normal;
-    const auto deepest = std::min_element(
-        a.x.begin(), a.x.end(), [&](const Vec3& x, const Vec3& y) { return normal.dot(x) < normal.dot(y); });
-    const double apart = normal.dot(*deepest - corner(triangle, 0));
+    const auto [deepest, apart] = lowest(normal, corner(triangle, 0));
     if (apart <= shallowest) return;
     shallowest = apart;
     cut = triangle;
-    node = static_cast<int>(deepest - a.x.begin());
+    node = deepest;
   });
-  if (cut < 0) return;
-  roles.write(
-      on_face(a.node(node), a.radius, corner(cut, 0), b.solid.faces[static_cast<Index>(cut)].normal, 0),
-      roles.key(Feature::node, node, Feature::face, cut), shallowest - a.radius);
+  for (int f = 0; f < a.face_count() && mesh_a == nullptr; ++f) {
+    int deepest = -1;
+    double apart = infinity;
+    for (const int i : cut_nodes) {
+      const double here = a.face_normal(f).dot(b.surface.x.col(i)) - a.offset[static_cast<Index>(f)];
+      if (here >= apart) continue;
+      apart = here;
+      deepest = i;
+    }
+    if (deepest < 0 || apart <= shallowest) continue;
+    shallowest = apart;
+    face = f;
+    node = deepest;
+  }
+  const Roles exchanged = roles.exchanged();
+  if (face >= 0)
+    exchanged.write(
+        on_face(b.surface.x.col(node), 0, a.node(a.corner(face, 0)), a.face_normal(face), a.radius),
+        exchanged.key(Feature::node, node, Feature::face, face), shallowest - a.radius);
+  else if (cut >= 0)
+    roles.write(
+        on_face(a.node(node), a.radius, corner(cut, 0), b.solid.faces[static_cast<Index>(cut)].normal, 0),
+        roles.key(Feature::node, node, Feature::face, cut), shallowest - a.radius);
+}
+
+MeshPair::Lowest MeshPair::lowest(const Vec3& normal, const Vec3& on_plane) const {
+  Lowest found;
+  for (int i = 0; i < static_cast<int>(a.x.size()); ++i) {
+    const double here = normal.dot(a.node(i) - on_plane);
+    if (here < found.apart) found = {i, here};
+  }
+  return found;
 }
 
 Vec3 MeshPair::corner(int triangle, Index k) const {

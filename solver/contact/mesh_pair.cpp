@@ -76,17 +76,19 @@ void MeshPair::nodes_inside() const {
   }
 }
 
-bool MeshPair::inside_a(const Vec3& x) const {
+double MeshPair::depth_in_a(const Vec3& x, double limit_) const {
   MeshPlace place{};
-  if (mesh_a != nullptr)
-    return nearest_of_mesh(*mesh_a, roles.a.rotation.transpose() * (x - roles.a.origin), limit, place) &&
-           place.distance <= 0;
+  if (mesh_a != nullptr) {
+    const Vec3 own = roles.a.rotation.transpose() * (x - roles.a.origin);
+    return nearest_of_mesh(*mesh_a, own, limit_, place) ? -place.distance : -infinity;
+  }
+  double depth = a.face_count() > 0 ? infinity : -infinity;
   for (int f = 0; f < a.face_count(); ++f)
-    if (a.face_normal(f).dot(x) > a.offset[static_cast<Index>(f)]) return false;
-  return a.face_count() > 0;
+    depth = std::min(depth, a.offset[static_cast<Index>(f)] - a.face_normal(f).dot(x));
+  return depth;
 }
 
-void MeshPair::crossing(int i, int j, Crossing& shallowest) const {
+void MeshPair::crossing(int i, int j) const {
   const auto &of_a = a.edge(i), &of_b = b.solid.edges[static_cast<Index>(j)];
   const Vec3 from_b = b.surface.x.col(of_b.node[0]), whole_b = b.surface.x.col(of_b.node[1]) - from_b;
   const double length_b = whole_b.norm();
@@ -107,12 +109,15 @@ void MeshPair::crossing(int i, int j, Crossing& shallowest) const {
   if (normal.dot(outward) < 0) normal = -normal;
   if (!minimum(of_b, along_b, normal, normal_b) || !minimum(of_a, along_a, -normal, normal_a)) return;
   const bool inside = normal.dot(at.apart) < 0;
-  bool below = true;
   if (inside) {
+    const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
+      return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
+    };
     MeshPlace place{};
-    const bool in_b = nearest_of_mesh(b, y_a, distance, place) && place.distance <= 0;
-    if (!in_b && !inside_a(y_b)) return;
-    below = in_b && place.normal.dot(normal) > 0;
+    if (!nearest_of_mesh(b, y_a, distance, place)) return;
+    if (-place.distance < below_faces(of_b, at.apart, normal_b) - tiny) return;
+    if (of_a.face[0] >= 0 && depth_in_a(y_b, distance) < below_faces(of_a, -at.apart, normal_a) - tiny)
+      return;
   }
   const auto key = roles.key(Feature::edge, i, Feature::edge, j);
   const double gap = (inside ? -distance : distance) - a.radius;
@@ -121,25 +126,19 @@ void MeshPair::crossing(int i, int j, Crossing& shallowest) const {
     contact = on_edges(y_a, along_a, a.radius, y_b, along_b, 0, normal);
   else if (a.radius > 0 && !inside)
     contact = on_line(y_a, a.radius, y_b, along_b, 0);
-  if (below)
-    roles.write(contact, key, gap);
-  else if (gap > shallowest.gap)
-    shallowest = {contact, key, gap};
+  roles.write(contact, key, gap);
 }
 
-MeshPair::Crossing MeshPair::edges() const {
-  Crossing shallowest;
+void MeshPair::edges() const {
   for (int i = 0; i < a.edge_count(); ++i) {
     AxisBox box;
     for (const int node : a.edge(i).node) box.extend(a.node(node));
     box.min().array() -= limit;
     box.max().array() += limit;
     b.tree.find(box, [&](int triangle) {
-      for (Index k = 0; k < 3; ++k)
-        crossing(i, b.solid.sides[3 * static_cast<Index>(triangle) + k], shallowest);
+      for (Index k = 0; k < 3; ++k) crossing(i, b.solid.sides[3 * static_cast<Index>(triangle) + k]);
     });
   }
-  return shallowest;
 }
 
 void MeshPair::nodes_of_mesh() const {
@@ -160,15 +159,15 @@ void MeshPair::nodes_of_mesh() const {
 
 void MeshPair::over_faces(const Vec3& y, int node, const Roles& exchanged) const {
   int best = -1;
-  double apart = -infinity, outside = -infinity;
+  double apart = -infinity;
   for (int f = 0; f < a.face_count(); ++f) {
     const double here = a.face_normal(f).dot(y) - a.offset[static_cast<Index>(f)];
-    outside = std::max(outside, here);
-    if (here <= apart || !lowest_about(b, node, a.face_normal(f), flat_slope)) continue;
+    if (here <= apart) continue;
     apart = here;
     best = f;
   }
-  if (best < 0 || (outside > 0 && (apart < outside || !a.above(best, y, tiny)))) return;
+  if (best < 0 || apart >= limit || (apart > 0 && !a.above(best, y, tiny))) return;
+  if (!lowest_about(b, node, a.face_normal(best), flat_slope)) return;
   exchanged.write(on_face(y, 0, a.node(a.corner(best, 0)), a.face_normal(best), a.radius),
                   exchanged.key(Feature::node, node, Feature::face, best), apart - a.radius);
 }

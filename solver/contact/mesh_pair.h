@@ -30,28 +30,27 @@ struct MeshPair {
   const ClosedMesh* mesh_a = nullptr;  // if a is one
   double limit = roles.margin + a.radius, tiny = rounding * a.size;
 
-  struct Crossing {
-    ContactPoint contact;
-    std::uint32_t key = 0;
-    double gap = -infinity;
-  };
-
   /// Of a mesh, those that are lowest about themselves.
   void nodes() const;
   void nodes_inside() const;
-  Crossing edges() const;
+  void edges() const;
   /// The mesh's nodes over a's faces or inside a, and beside a's only edge if that has no faces.
   void nodes_of_mesh() const;
-  /// An edge through a corner, where nothing else overlaps.
-  void write_through(const Crossing& crossing) const;
-  /// The mesh's face that is cut, and along whose normal a is the least deep, where nothing else overlaps.
+  /// Of the mesh's faces that are cut, and of a's, that along whose normal they overlap least, where nothing
+  /// else tells it.
   void write_cut() const;
 
  private:
-  bool inside_a(const Vec3& x) const;
-  /// Edges i and j where their distance has a minimum. Inside, a's edge must be below the surface that the
-  /// normal comes out of; of others that overlap, the `shallowest` is kept.
-  void crossing(int i, int j, Crossing& shallowest) const;
+  struct Lowest {
+    int node = -1;
+    double apart = infinity;  // m, from the plane
+  };
+  Lowest lowest(const Vec3& normal, const Vec3& on_plane) const;
+  /// Of x in a (m), if it has a volume: negative outside, and less than -limit where it is farther.
+  double depth_in_a(const Vec3& x, double limit_) const;
+  /// Edges i and j where their distance has a minimum. Inside, the edges' own faces must be the nearest ones
+  /// to where they cross.
+  void crossing(int i, int j) const;
   void over_faces(const Vec3& y, int node, const Roles& exchanged) const;
   /// The node against a's edge e.
   void beside(const Vec3& y, int node, int e, const Roles& exchanged) const;

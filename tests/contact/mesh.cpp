@@ -35,16 +35,16 @@ TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
   const auto kind = GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "mesh");
   const bool first = GENERATE(true, false);
   Random random(37);
-  double worst = 0;
-  int apart = 0, inside = 0, missed = 0, overlaps = 0, unseen = 0;
+  double worst = 0, deepest = 0;
+  int apart = 0, inside = 0, missed = 0, overlaps = 0, unseen = 0, deeper = 0;
   for (int number = 0; number < 10000; ++number) {
     const TriangleMesh octahedron = shaken_octahedron(random), other = shaken_octahedron(random);
     const Shape mesh = ClosedMesh(octahedron);
     const Shape a = kind == "mesh" ? Shape(ClosedMesh(other)) : random_shape(kind, random);
     const Frame at_mesh{random.vector(), random.rotation()};
     const Frame at{at_mesh.place(random.uniform(0, 1.8) * random.vector().normalized()), random.rotation()};
-    const double expected = signed_distance(kind == "mesh" ? convex(ConvexHull(other), at) : convex(a, at),
-                                            convex(ConvexHull(octahedron), at_mesh));
+    const Convex of_a = convex(a, at), of_mesh = convex(mesh, at_mesh);
+    const double expected = signed_distance(of_a, of_mesh);
     const double margin = random.uniform(0, 0.5);
     double least = infinity;
     const auto found =
@@ -65,10 +65,18 @@ TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
     } else if (expected > -0.05) {
       ++overlaps;
       if (!(least < 0)) ++unseen;
+      double by_faces = -infinity;
+      for (const Convex* of : {&of_a, &of_mesh})
+        for (const auto& t : of->triangles)
+          by_faces = std::max(by_faces, apart_along(of_a, of_mesh, of->normal(t)));
+      if (by_faces > 0 || kind == "capsule" || least >= by_faces - 1e-10) continue;
+      ++deeper;
+      deepest = std::max(deepest, least / by_faces);
     }
   }
-  INFO(kind << " apart " << apart << " inside " << inside << " overlaps " << overlaps << " unseen "
-            << unseen);
+  INFO(kind << " apart " << apart << " inside " << inside << " overlaps " << overlaps << " unseen " << unseen
+            << " deeper than along any face " << deeper << ", at most " << deepest << " times");
+  CHECK(100 * deeper <= overlaps);
   CHECK(unseen == 0);
   CHECK(apart > 500);
   CHECK(missed == 0);

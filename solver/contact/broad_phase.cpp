@@ -17,7 +17,8 @@ const std::vector<std::array<int, 2>>& BroadPhase::pairs(const std::vector<Movin
   }
   tree_.build(boxes_);
   const auto pair = [&](int i, int j) {
-    if (at(i).moves || at(j).moves) pairs_.push_back({std::min(i, j), std::max(i, j)});
+    if ((at(i).moves || at(j).moves) && at(i).group != at(j).group)
+      pairs_.push_back({std::min(i, j), std::max(i, j)});
   };
   for (const int i : finite_)
     tree_.find(at(i).box, [&](int k) {

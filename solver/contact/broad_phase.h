@@ -8,10 +8,12 @@
 
 namespace pbd {
 
-/// What collides: its box, and whether it may move. Things that cannot move do not pair with each other.
+/// What collides: its box, whether it may move, and its group. Things that cannot move do not pair with each
+/// other, nor do those of one group.
 struct MovingBox {
   AxisBox box;
   bool moves = true;
+  int group = 0;
 };
 
 /// Keeps its memory from step to step.

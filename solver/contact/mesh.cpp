@@ -69,7 +69,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const Roles& r
         cut = triangle;
       }
   });
-  if (roles.least() <= 0) return;
+  if (roles.least() <= rounding * a.size()) return;
   MeshPlace place{};
   if (cut >= 0)
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[static_cast<Index>(cut)][0]),

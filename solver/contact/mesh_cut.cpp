@@ -6,7 +6,7 @@ namespace pbd {
 using Index = std::size_t;
 
 void MeshPair::write_cut() const {
-  if (roles.least() < -a.radius) return;
+  if (roles.least() <= tiny - a.radius) return;
   thread_local std::vector<int> cut_nodes;
   cut_nodes.clear();
   AxisBox box;

@@ -28,9 +28,7 @@ void write_place(const Vec3& y, double radius, int i, const ClosedMesh& mesh, co
     const Vec3 along = (mesh.surface.x.col(node[1]) - mesh.surface.x.col(node[0])).normalized();
     return roles.write(on_line(y, radius, at.nearest, along, 0), key, gap);
   }
-  const Vec3 apart = y - at.nearest;
-  const Vec3 normal = at.distance != 0 ? Vec3(apart / at.distance) : Vec3(at.normal.normalized());
-  roles.write(on_face(y, radius, at.nearest, normal, 0), key, gap);
+  roles.write(on_face(y, radius, at.nearest, at.direction(y), 0), key, gap);
 }
 
 }  // namespace
@@ -52,8 +50,8 @@ bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double s
 void MeshPair::nodes() const {
   thread_local std::vector<MeshPlace> minima;
   const auto write = [&](int i, const MeshPlace& at) {
-    const Vec3 apart = at.distance != 0 ? Vec3((a.node(i) - at.nearest) / at.distance) : at.normal;
-    if (mesh_a == nullptr || lowest_about(*mesh_a, i, roles.a.rotation.transpose() * apart, tilted))
+    const Vec3 apart = roles.a.rotation.transpose() * at.direction(a.node(i));
+    if (mesh_a == nullptr || lowest_about(*mesh_a, i, apart, tilted))
       write_place(a.node(i), a.radius, i, b, at, roles);
   };
   for (int i = 0; i < static_cast<int>(a.x.size()); ++i) {
@@ -104,7 +102,7 @@ void MeshPair::crossing(int i, int j) const {
   const auto normal_b = [&](int f) -> const Vec3& { return b.solid.faces[static_cast<Index>(f)].normal; };
   const Vec3 outward = normal_b(of_b.face[0]) + normal_b(of_b.face[1]);
   const bool crossed = along_a.cross(along_b).norm() >= crossing_sine;
-  if (!crossed && !(distance > 0)) return;
+  if (!crossed && distance <= tiny) return;
   Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
   if (!minimum(of_b, along_b, normal, normal_b) || !minimum(of_a, along_a, -normal, normal_a)) return;
@@ -180,6 +178,7 @@ void MeshPair::beside(const Vec3& y, int node, int e, const Roles& exchanged) co
   if (!minimum(a.edge(e), along, apart, [&](int f) -> const Vec3& { return a.face_normal(f); })) return;
   MeshPlace nearest{};  // of the surface, the node must be nearest to the edge's point
   const double distance = apart.norm();
+  if (a.radius == 0 && distance <= tiny) return;
   if (!nearest_of_mesh(b, y_a, distance, nearest) || nearest.distance < distance - tiny) return;
   const auto key = exchanged.key(Feature::node, node, Feature::edge, e);
   if (a.radius > 0)

@@ -13,6 +13,12 @@ struct MeshPlace {
   Vec3 nearest;     // m
   Vec3 normal;      // of the feature: of a node weighted by the faces' angles
   double distance;  // signed (m): negative inside
+
+  /// From the nearest point to x, outward; the feature's normal where x is on it but for rounding.
+  Vec3 direction(const Vec3& x) const {
+    constexpr double on_it = 1e-9;  // m
+    return std::abs(distance) > on_it ? Vec3((x - nearest) / distance) : normal.normalized();
+  }
 };
 
 /// Of the triangle, what is nearest to x.

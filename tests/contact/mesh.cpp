@@ -1,35 +1,10 @@
 #include <catch2/catch.hpp>
-#include <map>
 
 #include "contact_shapes.h"
+#include "refined.h"
 
 using namespace pbd;
 using namespace pbd::test;
-
-namespace {
-
-/// Every triangle cut into four.
-TriangleMesh refined(const TriangleMesh& mesh) {
-  TriangleMesh fine{mesh.x, {}};
-  std::map<std::array<int, 2>, int> middle;
-  const auto between = [&](int i, int j) {
-    const auto [at, added] =
-        middle.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<int>(fine.x.cols()));
-    if (added) {
-      fine.x.conservativeResize(3, at->second + 1);
-      fine.x.col(at->second) = (mesh.x.col(i) + mesh.x.col(j)) / 2;
-    }
-    return at->second;
-  };
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const int ij = between(i, j), jk = between(j, k), ki = between(k, i);
-    for (const auto& triangle : {std::array{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}})
-      fine.triangles.push_back(triangle);
-  }
-  return fine;
-}
-
-}  // namespace
 
 TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
   const auto kind = GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "mesh");
@@ -138,6 +113,29 @@ TEST_CASE("edges within a flat side of a mesh are not felt") {
       }
       CHECK(least == Approx(gap).margin(1e-9));
       if (kind == "node" || kind == "sphere") CHECK(found.size() == 1);
+    }
+  }
+}
+
+TEST_CASE("what stands on a flat side of a mesh, touching or nearly so, is pushed along its normal") {
+  const Shape ground = ClosedMesh(refined(refined(box_surface({6, 6, 1}))));
+  const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder", "mesh");
+  const double gap = GENERATE(0.0, 1e-17, -1e-17, 1e-12, -1e-12, 1e-6, -1e-6);
+  Random random(53);
+  for (int number = 0; number < 50; ++number) {
+    Shape shape = random_shape(kind, random);
+    if (kind == "hull") shape = ConvexHull(box_surface({0.5, 0.75, 1}));
+    if (kind == "mesh") shape = ClosedMesh(box_surface({0.5, 0.75, 1}));
+    Frame at;
+    if (number > 0) at.origin << random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0;
+    if (number % 2 == 0) at.rotation = random.quarter_turns();
+    at.origin.z() = 0.5 + support(shape, at, -Vec3::UnitZ()) + gap;
+    const auto found = contacts(shape, at, ground, {}, 1e-3);
+    CHECK(!found.empty());
+    for (const auto& contact : found) {
+      const Touching t = touch(contact, at, {});
+      CHECK(std::abs(t.normal.z()) > 1 - 1e-12);
+      CHECK(t.gap == Approx(gap).margin(1e-14));
     }
   }
 }

@@ -37,6 +37,7 @@ const std::vector<Experiment>& experiments() {
       {"rotation", "What do the integrators and the gyroscopic torque make of rotating bodies?", rotation},
       {"joints", "How accurately do joints carry mechanisms, and what does a chain of bodies cost?", joints},
       {"redundant", "Does a mechanism move as before when joints hold what others hold already?", redundant},
+      {"cone_problems", "Are contact problems with friction solved whose answer was planted?", cone_problems},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},

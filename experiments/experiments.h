@@ -21,6 +21,7 @@ void energy(Context& context);
 void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);
+void cone_problems(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);

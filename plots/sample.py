@@ -8,6 +8,7 @@ import numpy as np
 from command import command
 from reading import InputError
 from sample_bodies import joints, redundant, rotation
+from sample_cones import cone_problems
 from sample_files import write, write_run
 from sample_motion import damping, direction
 from sample_time import energy, time_order
@@ -287,7 +288,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, work_precision,
+                       mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, cone_problems, work_precision,
                        rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "contact/friction.h"
 #include "error.h"
 #include "integrators.h"
 #include "names.h"
@@ -82,6 +83,9 @@ std::vector<std::string> outer_choices() {
 }
 std::vector<std::string> relaxation_choices() {
   return strings(pbd::relaxation_names());
+}
+std::vector<std::string> friction_choices() {
+  return strings(pbd::friction_names);
 }
 std::vector<std::string> rival_names() {
   return strings(pbd::names(pbd::rivals::rivals()));

@@ -28,6 +28,7 @@ std::vector<std::string> effect_names();
 std::vector<std::string> integrator_choices();
 std::vector<std::string> outer_choices();
 std::vector<std::string> relaxation_choices();
+std::vector<std::string> friction_choices();
 std::vector<std::string> rival_names();
 
 }  // namespace pbdcheck

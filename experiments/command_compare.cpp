@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "contact_sums.h"
 #include "contender.h"
+#include "error.h"
 #include "files.h"
 #include "interrupt.h"
 #include "judges.h"
@@ -23,11 +25,13 @@ namespace {
 
 /// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
 /// tolerance. Throws std::runtime_error if one diverged.
-pbd::State advanced(const SceneFile& file, int steps, int& missed) {
-  pbd::State state = file.scene.initial;
+pbd::State advanced(SceneFile& file, int steps, int& missed) {
+  const pbd::Scene stated = file.scene;
+  pbd::State state = stated.initial;
   pbd::Workspace workspace(file.scene, file.method);
   for (int i = 1; i <= steps; ++i) {
     throw_if_interrupted();
+    file.script.begin_step(stated, file.step_s, file.scene, state);
     const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace,
                                   [](const pbd::Iterate&) { throw_if_interrupted(); });
     if (report.status == pbd::Status::diverged)
@@ -35,6 +39,7 @@ pbd::State advanced(const SceneFile& file, int steps, int& missed) {
           fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
     if (report.status != pbd::Status::ok) ++missed;
   }
+  file.script.begin_step(stated, file.step_s, file.scene, state);
   return state;
 }
 
@@ -116,9 +121,13 @@ void draw(const std::filesystem::path& directory) {
 
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const SceneFile file = read_scene_file(options.scene, options.settings);
-  const auto contenders = parsed_contenders(options.methods, file);
+  SceneFile file = read_scene_file(options.scene, options.settings);
   const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
+  if (contact_of(file.scene) != nullptr)
+    throw pbd::SetupError("--reference " + name, "a scene with contact",
+                          "a scene without the table [contact]: this reference solves equations, and a gap "
+                          "is none");
+  const auto contenders = parsed_contenders(options.methods, file);
   require_writable(options.directory);
   Comparison comparison(options, file);
   PartialFile record(options.directory / "run.json");

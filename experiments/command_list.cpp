@@ -79,7 +79,7 @@ const std::vector<Kind>& kinds() {
       {"integrators", integrator_items},
       {"outers", [] { return named(outer_choices()); }},
       {"relaxations", [] { return named(relaxation_choices()); }},
-      {"frictions", [] { return std::vector<Item>(); }},
+      {"frictions", [] { return named(friction_choices()); }},
       {"references", reference_items},
       {"rivals", [] { return named(rival_names()); }},
       {"cases", case_items},

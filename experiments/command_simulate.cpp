@@ -113,12 +113,15 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
 }
 
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
-std::string advance(const SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
-  pbd::State state = file.scene.initial;
+std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
+  const pbd::Scene stated = file.scene;
+  pbd::State state = stated.initial;
+  file.script.begin_step(stated, file.step_s, file.scene, state);
   Progress progress("simulate", file.steps);
   std::string lost = output.add(0, state, nullptr);
   while (totals.steps < file.steps && lost.empty()) {
     throw_if_interrupted();
+    file.script.begin_step(stated, file.step_s, file.scene, state);
     const auto report = pbd::step(file.scene, file.method, file.step_s, state, workspace,
                                   [](const pbd::Iterate&) { throw_if_interrupted(); });
     totals.add(report);
@@ -137,7 +140,7 @@ std::string advance(const SceneFile& file, pbd::Workspace& workspace, Output& ou
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
-  const SceneFile file = read_scene_file(options.scene, options.settings);
+  SceneFile file = read_scene_file(options.scene, options.settings);
   pbd::Workspace workspace(file.scene, file.method);
   Output output(options, file);
   PartialFile record(options.directory / "run.json");

@@ -75,6 +75,29 @@ Scene held(double stiffness) {
   return scene;
 }
 
+/// Three rods of 1 m and 1 kg along x, the first on the ground: balls of this stiffness (N/m; inf: hard), or
+/// hard hinges about z whose axes are held with it (N m/rad).
+template <bool hinges>
+Scene rods(double stiffness) {
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  PointJoint balls;
+  AxisJoint axes;
+  const double compliance = 1 / stiffness;
+  for (int i = 0; i < 3; ++i) {
+    const int rod = add_body(scene, Vec3(i + 0.5, 0, 0), 1, Vec3(0.01, 1.0 / 12, 1.0 / 12));
+    balls.body.push_back({rod - 1, rod});
+    balls.point.push_back({Vec3(i == 0 ? 0 : 0.5, 0, 0), Vec3(-0.5, 0, 0)});
+    balls.compliance.push_back(hinges ? 0 : compliance);
+    axes.body.push_back({rod - 1, rod});
+    axes.axis.push_back({Vec3::UnitZ(), Vec3::UnitZ()});
+    axes.compliance.push_back(compliance);
+  }
+  scene.effects = {balls};
+  if (hinges) scene.effects.emplace_back(axes);
+  return scene;
+}
+
 std::vector<Body> bodies() {
   const Vec3 along = Vec3::UnitX(), across = Vec3::UnitZ();
   const std::vector<double> solid_young{1e5, 1e6, 1e7}, solid_loads{-500, 2000, 8000, 32000};
@@ -83,7 +106,9 @@ std::vector<Body> bodies() {
           {"triangle_strain", "", "Pa", {1e6, 1e7, 1e8}, {-2, 4, 20, 80}, sheet, along},
           {"tet_strain", "green", "Pa", solid_young, solid_loads, bar<Strain::green>, along},
           {"tet_strain", "corotational", "Pa", solid_young, solid_loads, bar<Strain::corotational>, along},
-          {"anchor", "", "N/m", {1e3, 1e4, 1e5}, {-50, 50, 250, 1000}, held, along}};
+          {"anchor", "", "N/m", {1e3, 1e4, 1e5}, {-50, 50, 250, 1000}, held, along},
+          {"point_joint", "", "N/m", {1e4, 1e5, infinity}, {-50, 50, 250, 1000}, rods<false>, along},
+          {"axis_joint", "", "N m/rad", {1e2, 1e3, 1e4}, {-50, 50, 250, 1000}, rods<true>, along}};
 }
 
 /// Adds `load` on the nodes farthest along x, shared equally, and a slow motion without any symmetry.
@@ -150,9 +175,14 @@ Found find(const Problem& problem) {
   Workspace workspace(problem.scene, method);
   State end = start;
   const Report report = step(problem.scene, method, problem.h, end, workspace);
-  return {reference::plain_contraction(problem.scene, exact.x, exact.multiplier, problem.h),
-          report.status == Status::ok ? report.contraction : std::nan(""),
-          workspace.costs().front().contraction, measured_rate(problem.scene, start, problem.h, exact)};
+  double bound = 0;  // of the effects, and of turns that are linearised: h |w| / 2
+  for (const auto& cost : workspace.costs()) bound += cost.contraction;
+  if (!problem.scene.bodies.empty()) bound += problem.h / 2 * exact.spin.colwise().norm().maxCoeff();
+  return {problem.scene.bodies.empty()
+              ? reference::plain_contraction(problem.scene, exact.x, exact.multiplier, problem.h)
+              : reference::plain_contraction_of_bodies(problem.scene, start, problem.h, exact),
+          report.status == Status::ok ? report.contraction : std::nan(""), bound,
+          measured_rate(problem.scene, start, problem.h, exact)};
 }
 
 void write_rates(Context& context, const std::vector<Problem>& all, const std::vector<Found>& found) {

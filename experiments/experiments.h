@@ -21,6 +21,14 @@ void energy(Context& context);
 void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);
+void incline(Context& context);
+void stopping(Context& context);
+void friction_isotropy(Context& context);
+void convex_gap(Context& context);
+void restitution(Context& context);
+void stack(Context& context);
+void simbenchmark(Context& context);
+void contact_hard_cases(Context& context);
 void cone_problems(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
@@ -33,6 +41,7 @@ std::vector<Case> stability_map_cases(bool full);
 std::vector<Case> contraction_cases(bool full);
 std::vector<Case> inner_convergence_cases(bool full);
 std::vector<Case> dual_vs_primal_cases(bool full);
+std::vector<Case> joints_cases(bool full);
 std::vector<Case> work_precision_cases(bool full);
 
 }  // namespace pbdcheck

@@ -225,6 +225,19 @@ void lengths(Context& context) {
 
 }  // namespace
 
+/// A step of each mechanism on its way, and of a top.
+std::vector<Case> joints_cases(bool) {
+  constexpr int lead_steps = 20;
+  std::vector<Case> all;
+  for (const auto& mechanism : mechanisms(false)) {
+    const double h = mechanism.duration / mechanism.coarsest_steps;
+    all.push_back({mechanism.name, mechanism.scene, h, h, lead_steps});
+  }
+  all.push_back({"heavy top", heavy_top(0.5, 100, 2), 1e-3, 1e-3, lead_steps});
+  all.push_back({"heavy top on a spring", heavy_top(0.5, 100, 2, 1e-4), 1e-3, 1e-3, lead_steps});
+  return all;
+}
+
 void joints(Context& context) {
   const auto all = mechanisms(context.full());
   context.begin(std::ssize(all) + 1);

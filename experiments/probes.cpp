@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "contact_sums.h"
 #include "effect_rows.h"
 #include "joint_force.h"
 #include "placed.h"
@@ -13,7 +15,16 @@
 namespace pbdcheck {
 namespace {
 
-/// Calls f(c, A) for every constraint of the effect; does nothing for a force.
+constexpr pbd::ForceBounds no_bounds{-pbd::infinity, pbd::infinity};
+
+template <class E>
+pbd::ForceBounds bounds_of(const E& effect, std::size_t i) {
+  if constexpr (requires { effect.bounds; })
+    if (!effect.bounds.empty()) return effect.bounds[i];
+  return no_bounds;
+}
+
+/// Calls f(c, A, bounds of the force) for every constraint of the effect; does nothing for a force.
 template <class E, class F>
 void for_each_constraint(const pbd::Scene& scene, const E& effect, const pbd::Configuration& at, F&& f) {
   if constexpr (pbd::RowEffect<E>) {
@@ -23,12 +34,12 @@ void for_each_constraint(const pbd::Scene& scene, const E& effect, const pbd::Co
     for (std::size_t i = 0; i < pbd::constraint_count(effect); ++i) {
       Constraint::evaluate(effect, i, pbd::local(effect, i, pbd::columns_of(scene, effect, i), at), value,
                            jacobian);
-      f(value, Constraint::compliance(effect, i));
+      f(value, Constraint::compliance(effect, i), bounds_of(effect, i));
     }
   }
 }
 
-/// Calls f(c, A) for every constraint of all effects chosen.
+/// Calls f(c, A, bounds of the force) for every constraint of all effects chosen.
 template <class Effects, class F>
 void for_each_constraint_of(const pbd::Scene& scene, const Effects& effects, const pbd::State& state, F&& f) {
   const Placed placed(scene, state);
@@ -39,6 +50,21 @@ void for_each_constraint_of(const pbd::Scene& scene, const Effects& effects, con
 /// An infinite stiffness is a compliance of zero; no effect has both kinds of rows in one constraint.
 bool is_hard(const auto& compliance) {
   return compliance.isZero(0);
+}
+
+/// c^T A^-1 c / 2; of a force with bounds what the spring holds until it yields, the largest of
+/// -gamma c - A gamma^2 / 2 within them.
+double energy_of(const auto& value, const auto& compliance, const pbd::ForceBounds& bounds) {
+  if (bounds == no_bounds) return value.dot(compliance.llt().solve(value)) / 2;
+  const double gamma = std::clamp(-value[0] / compliance(0, 0), bounds[0], bounds[1]);
+  return -gamma * value[0] - compliance(0, 0) * gamma * gamma / 2;
+}
+
+/// |c|, as far as an unlimited force must prevent it.
+double missed(const auto& value, const pbd::ForceBounds& bounds) {
+  if (bounds == no_bounds) return value.norm();
+  return value[0] > 0 ? (bounds[0] == -pbd::infinity ? value[0] : 0.0)
+                      : (bounds[1] == pbd::infinity ? -value[0] : 0.0);
 }
 
 template <class F>
@@ -129,6 +155,12 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
     per_axis("force_{}_n");
     per_axis("torque_{}_n_m");
   }
+  if (probe.kind == "contact_force") {
+    per_axis("contact_force_{}_n");
+    per_axis("friction_force_{}_n");
+  }
+  if (probe.kind == "contacts")
+    for (const auto* name : {"contacts", "least_gap_m"}) columns.push_back(begin + name);
   if (probe.kind == "energy")
     for (const auto* name : {"kinetic_energy_j", "gravity_energy_j", "elastic_energy_j"})
       columns.push_back(begin + name);
@@ -157,6 +189,26 @@ void append_joint_force(const SceneFile& file, const NamedJoint& joint, const pb
   append(row, wrench.torque);
 }
 
+/// Empty cells before the first step, and for the gap where nothing is near.
+void append_contact(const SceneFile& file, const Probe& probe, const pbd::Workspace* stepped,
+                    std::vector<Cell>& row) {
+  const bool force = probe.kind == "contact_force";
+  if (stepped == nullptr) {
+    row.insert(row.end(), force ? 6 : 2, "");
+    return;
+  }
+  const auto found = stepped->contacts();
+  if (force) {
+    const auto sum = contact_force(*contact_of(file.scene), found, probe.body, probe.other);
+    append(row, sum.force);
+    append(row, sum.friction);
+  } else {
+    row.emplace_back(pressing(found));
+    const auto gap = least_gap(found);
+    row.emplace_back(gap ? Cell(*gap) : Cell(""));
+  }
+}
+
 }  // namespace
 
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state) {
@@ -182,17 +234,18 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state) {
 
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state) {
   double energy = 0;
-  for_each_constraint_of(scene, scene.effects, state, [&](const auto& value, const auto& compliance) {
-    if (!is_hard(compliance)) energy += value.dot(compliance.llt().solve(value)) / 2;
-  });
+  for_each_constraint_of(scene, scene.effects, state,
+                         [&](const auto& value, const auto& compliance, const auto& bounds) {
+                           if (!is_hard(compliance)) energy += energy_of(value, compliance, bounds);
+                         });
   return energy;
 }
 
 double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state) {
   double largest = 0;
   for_each_constraint_of(scene, std::array{std::cref(effect)}, state,
-                         [&](const auto& value, const auto& compliance) {
-                           if (is_hard(compliance)) largest = std::max(largest, value.norm());
+                         [&](const auto& value, const auto& compliance, const auto& bounds) {
+                           if (is_hard(compliance)) largest = std::max(largest, missed(value, bounds));
                          });
   return largest;
 }
@@ -219,6 +272,7 @@ void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Wo
       for (const double part : {q.w(), q.x(), q.y(), q.z()}) row.emplace_back(part);
     }
     if (probe.kind == "joint_force") append_joint_force(file, file.joints[probe.joint], state, stepped, row);
+    if (probe.kind.starts_with("contact")) append_contact(file, probe, stepped, row);
     if (probe.kind == "energy")
       for (const auto energy : {kinetic_energy, gravity_energy, elastic_energy})
         row.emplace_back(energy(scene, state));

@@ -23,10 +23,12 @@ double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
 /// Minus the sum of m a . x over the nodes of finite mass, J; zero at the origin.
 double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 
-/// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J.
+/// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J; of one whose force has bounds, what
+/// they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
 /// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
+/// A limit counts where it is passed, a motor of limited force not at all.
 double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state);
 
 }  // namespace pbdcheck

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "body_shapes.h"
 #include "build_info.h"
 #include "experiment.h"
 #include "judge.h"
 #include "rivals/blas.h"
-#include "shapes.h"
 
 namespace pbdcheck {
 namespace {

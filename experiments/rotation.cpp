@@ -97,17 +97,17 @@ void watch(Context& context) {
                   "largest relative change", kept.value(), 1e-10);
 }
 
-/// Four times the first passage of w_2 through zero, by Hermite's cubic between steps: the body starts where
-/// w_3 is zero, a quarter before it. Later passages ask how near the body comes to its middle axis again,
-/// which errors of the square of the disturbance decide.
+/// Four times the time of the first passage of w_2 through zero, by Hermite's cubic between steps: the body
+/// starts where w_3 is zero, a quarter before it. Later passages ask how near the body comes to its middle
+/// axis again, which errors of the square of the disturbance decide.
 double measured_period(const Vec3& spin, const Rule& rule, double h, double duration, Simulation& run) {
-  std::vector<double> passages;
+  double passage = std::nan("");
   const auto rate = [](const Vec3& w) { return (moments[2] - moments[0]) * w[2] * w[0] / moments[1]; };
   const Scene scene = free_body(moments, spin);
   run = simulate_steps(scene, rule.method, h, static_cast<int>(duration / h),
                        [&](const State& before, const State& after) {
                          const Vec3 a = before.spin.col(0), b = after.spin.col(0);
-                         if (a[1] * b[1] < 0) {
+                         if (std::isnan(passage) && a[1] * b[1] < 0) {
                            double low = 0, high = 1;
                            const auto at = [&](double t) {
                              const double u = 1 - t;
@@ -118,11 +118,11 @@ double measured_period(const Vec3& spin, const Rule& rule, double h, double dura
                              const double middle = (low + high) / 2;
                              (at(middle) * a[1] > 0 ? low : high) = middle;
                            }
-                           passages.push_back(before.time + low * h);
+                           passage = before.time + low * h;
                          }
                          return "";
                        });
-  return passages.empty() ? std::nan("") : 4 * passages[0];
+  return 4 * passage;
 }
 
 /// Periods at two steps and what Richardson makes of them, against elliptic integrals. Roache's safety factor

@@ -13,6 +13,7 @@
 #include "judges.h"
 #include "measure.h"
 #include "measured_rate.h"
+#include "relaxation.h"
 #include "scenes/standard.h"
 
 namespace pbdcheck {
@@ -29,9 +30,12 @@ struct Map {
   Case (*make)(double value, double h);
 };
 
+/// Of 3/8 cells^3 tetrahedra.
+template <int cells, Strain strain>
 Case stiff_cantilever(double young, double h) {
-  return {fmt::format("cantilever corotational E={:g} Pa", young),
-          cantilever(8, {young, 0.3}, Strain::corotational), h};
+  return {
+      fmt::format("cantilever{} {} E={:g} Pa", cells, strain_names[static_cast<std::size_t>(strain)], young),
+      cantilever(cells, {young, 0.3}, strain), h};
 }
 
 Map chain_map(bool full) {
@@ -43,10 +47,26 @@ Map rods_map(bool full) {
           chain_steps(full), swinging_rods};
 }
 
+std::vector<double> stiffnesses() {
+  return {1e4, 1e5, 1e6, 1e7, 1e8, 1e9};  // Pa
+}
+
 Map cantilever_map(bool full) {
   std::vector<double> steps{1.0 / 30, 1.0 / 120, 1.0 / 480};
   if (full) steps = {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480};
-  return {"cantilever", "young_pa", {1e4, 1e5, 1e6, 1e7, 1e8, 1e9}, steps, stiff_cantilever};
+  return {"cantilever", "young_pa", stiffnesses(), steps, stiff_cantilever<8, Strain::corotational>};
+}
+
+/// Green and corotational, in two sizes.
+std::vector<Map> larger_maps() {
+  const std::vector<double> steps{1.0 / 30, 1.0 / 120, 1.0 / 480};
+  const auto map = [&](const char* scene, auto make) {
+    return Map{scene, "young_pa", stiffnesses(), steps, make};
+  };
+  return {map("cantilever192 corotational", stiff_cantilever<8, Strain::corotational>),
+          map("cantilever192 green", stiff_cantilever<8, Strain::green>),
+          map("cantilever1536 corotational", stiff_cantilever<16, Strain::corotational>),
+          map("cantilever1536 green", stiff_cantilever<16, Strain::green>)};
 }
 
 std::vector<Method> methods(bool full) {
@@ -67,6 +87,21 @@ std::vector<Method> methods(bool full) {
     all.push_back(method);
   }
   return all;
+}
+
+/// `auto`, and an iterative relaxation that may spend 1e5 sweeps on the step's rows.
+std::vector<Method> contenders() {
+  Method automatic;
+  automatic.relaxation = relaxation;
+  automatic.tolerance = 1e-12;
+  automatic.max_outer = 1000;
+  Method iterative;
+  iterative.outer = "proximal";
+  iterative.relaxation = NesterovJacobi::name;
+  iterative.tolerance = 1e-10;
+  iterative.max_outer = 100;
+  iterative.max_sweeps = 1000;
+  return {automatic, iterative};
 }
 
 struct Solve {
@@ -99,7 +134,7 @@ struct MapCell : SolvedStep {
   std::vector<Solve> solves{};
 };
 
-std::vector<MapCell> run_map(const Context& context, const Map& map) {
+std::vector<MapCell> run_map(const Context& context, const Map& map, const std::vector<Method>& all) {
   std::vector<MapCell> cells;
   for (const double value : map.values)
     for (const double h : map.steps)
@@ -108,22 +143,23 @@ std::vector<MapCell> run_map(const Context& context, const Map& map) {
     MapCell& cell = cells[static_cast<std::size_t>(index)];
     cell.start = start_of(cell.step);
     cell.exact = truth(cell.step.scene, cell.start, cell.step.h);
-    for (const auto& method : methods(context.full()))
-      cell.solves.push_back(solve(cell.step, cell.start, cell.exact.x, method));
+    for (const auto& method : all) cell.solves.push_back(solve(cell.step, cell.start, cell.exact.x, method));
   });
   return cells;
 }
 
-void write_map(Context& context, const Map& map, const std::vector<MapCell>& cells) {
-  Table table = context.table(map.scene, {"scene", "step_s", map.value_column, "integrator", "outer",
-                                          "relaxation", "memory", "predicted_contraction", "iterations",
-                                          "error_final", "outer_iterations", "sweeps", "status", "reason"});
+Table map_table(Context& context, const std::string& name, const std::string& value_column) {
+  return context.table(name, {"scene", "step_s", value_column, "integrator", "outer", "relaxation", "memory",
+                              "predicted_contraction", "iterations", "error_final", "outer_iterations",
+                              "sweeps", "status", "reason"});
+}
+
+void write_map(Table& table, const Map& map, const std::vector<MapCell>& cells) {
   for (const auto& cell : cells)
     for (const auto& [method, iterations, error, report, status, reason] : cell.solves)
       table.row({map.scene, cell.step.h, cell.value, method.integrator, method.outer, method.relaxation,
                  std::int64_t{method.memory}, report.contraction, iterations, error,
                  std::int64_t{report.outer_iterations}, report.sweeps, status, reason});
-  table.close();
 }
 
 const Solve& solve_by_auto(const MapCell& cell) {
@@ -136,6 +172,23 @@ void auto_verdict(Context& context, const std::vector<const MapCell*>& all) {
   for (const MapCell* cell : all) worst.add(solve_by_auto(*cell).error);
   context.verdict("stability.auto", "auto finds the step in every cell of all maps", "largest error",
                   worst.value(), 1e-10);
+}
+
+/// Solids of two sizes and strains, in the full tier.
+void cantilevers(Context& context) {
+  Table table = map_table(context, "cantilevers", "young_pa");
+  Worst worst;
+  for (const Map& map : larger_maps()) {
+    const auto cells = run_map(context, map, contenders());
+    write_map(table, map, cells);
+    for (const MapCell& cell : cells) worst.add(solve_by_auto(cell).error);
+    context.advance(map.scene);
+  }
+  table.close();
+  context.verdict(
+      "stability.auto_cantilevers",
+      "auto finds the step of every cantilever, green and corotational, of 192 and 1536 tetrahedra",
+      "largest error", worst.value(), 1e-10);
 }
 
 struct Prediction {
@@ -208,19 +261,24 @@ void joint_verdict(Context& context, const std::vector<MapCell>& cells) {
 
 std::vector<Case> stability_map_cases(bool full) {
   std::vector<Case> all;
-  for (const auto& map : {chain_map(full), rods_map(full), cantilever_map(full)})
+  std::vector<Map> maps{chain_map(full), rods_map(full), cantilever_map(full)};
+  if (full)
+    for (Map& map : larger_maps()) maps.push_back(std::move(map));
+  for (const auto& map : maps)
     for (const double value : map.values)
       for (const double h : map.steps) all.push_back(map.make(value, h));
   return all;
 }
 
 void stability_map(Context& context) {
-  context.begin(5);
+  context.begin(context.full() ? 5 + std::ssize(larger_maps()) : 5);
   std::vector<std::vector<MapCell>> found;
   for (const Map& map :
        {chain_map(context.full()), rods_map(context.full()), cantilever_map(context.full())}) {
-    found.push_back(run_map(context, map));
-    write_map(context, map, found.back());
+    found.push_back(run_map(context, map, methods(context.full())));
+    Table table = map_table(context, map.scene, map.value_column);
+    write_map(table, map, found.back());
+    table.close();
     context.advance(map.scene);
   }
   std::vector<const MapCell*> all;
@@ -233,6 +291,7 @@ void stability_map(Context& context) {
   context.advance("predictions");
   auto_cost(context, steps);
   context.advance("cost");
+  if (context.full()) cantilevers(context);
 }
 
 }  // namespace pbdcheck

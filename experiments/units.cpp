@@ -41,10 +41,12 @@ struct Units {
   void operator()(LineJoint& e) const { of_lengths(e); }
   void operator()(BodyDistance& e) const {
     of_lengths(e);
+    bounds(e, mass * length);
     for (auto& rest : e.rest_length) rest *= length;
   }
   void operator()(SlideJoint& e) const {
     of_lengths(e);
+    bounds(e, mass * length);
     for (auto& rest : e.rest_position) rest *= length;
     for (auto& rate : e.rate) rate *= length;
   }
@@ -55,9 +57,38 @@ struct Units {
   void operator()(AxisJoint& e) const { of_angles(e); }
   void operator()(PerpendicularJoint& e) const { of_angles(e); }
   void operator()(RotationJoint& e) const { of_angles(e); }
-  void operator()(AngleJoint& e) const { of_angles(e); }
+  void operator()(AngleJoint& e) const {
+    of_angles(e);
+    bounds(e, mass * length * length);
+  }
+  void operator()(Contact& e) const {
+    for (auto& collider : e.collider) {
+      collider.frame.origin *= length;
+      collider.shape =
+          std::visit([this](const auto& shape) -> Shape { return scaled(shape); }, collider.shape);
+    }
+    for (auto& radius : e.radius) radius *= length;
+    for (auto& law : e.law) law.compliance /= mass;
+    e.thickness *= length;
+    e.margin *= length;
+    e.recovery *= length;
+  }
 
  private:
+  template <class S>
+  S scaled(S shape) const {
+    if constexpr (requires { shape.radius; }) shape.radius *= length;
+    if constexpr (requires { shape.length; }) shape.length *= length;
+    if constexpr (requires { shape.size; }) shape.size *= length;
+    if constexpr (requires { shape.surface; })
+      return S(TriangleMesh{shape.surface.x * length, shape.surface.triangles});
+    return shape;
+  }
+  template <class Joint>
+  static void bounds(Joint& e, double unit) {
+    for (auto& pair : e.bounds)
+      for (auto& force : pair) force *= unit;
+  }
   template <class Joint>
   void of_lengths(Joint& e) const {
     for (auto& pair : e.point)

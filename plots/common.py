@@ -33,6 +33,7 @@ STYLES = {
     "symplectic_euler": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "generalised_alpha": (BLUE, "P", (0, (5, 1))),
     "newmark 0.5": (RED, "D", ":"), "newmark 0.52": ("#888888", "X", "-"), "newmark 0.55": (ORANGE, "*", "--"),
     "newmark 0.6": ("#8c564b", "h", "-."), "newmark 1": (BLACK, "o", ":"),
+    "coulomb": (BLUE, "o", "-"), "cone": (RED, "s", "--"), "box": (ORANGE, "D", "-."), "disc": (GREEN, "^", ":"),
     "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }
 FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),

@@ -12,6 +12,7 @@ import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
+import friction  # noqa: F401
 import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401
@@ -23,6 +24,7 @@ import point_hard_cases  # noqa: F401
 import redundant  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
+import simbenchmark  # noqa: F401
 import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import work_precision  # noqa: F401

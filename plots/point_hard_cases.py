@@ -17,6 +17,7 @@ def row_names(frame):
 
 
 @figure("point_hard_cases", "gates", table="gates")
+@figure("contact_hard_cases", "gates", table="gates")
 def gates(frame):
     """A matrix of cases and gates: measured values, green where the gate holds, red where not."""
     frame = frame.assign(row=row_names(frame))
@@ -49,6 +50,7 @@ def unsolved_mark(rows):
 
 
 @figure("point_hard_cases", "frontier", table="frontier")
+@figure("contact_hard_cases", "frontier", table="frontier")
 def frontier(frame):
     """Left the largest step, right the fewest sweeps at which all gates hold; crossed where none does."""
     frame = frame.assign(row=row_names(frame))
@@ -58,7 +60,8 @@ def frontier(frame):
     for relaxation, group in frame.groupby("relaxation", sort=False):
         color, marker = LOOK.get(relaxation) or (style(relaxation)["color"], style(relaxation)["marker"])
         points(axes[0], group, rows, "largest_step_s", color, marker, f"{relaxation}: gates hold")
-        points(axes[0], group, rows, "largest_solved_step_s", GREEN, "|", "and every step is solved")
+        if "largest_solved_step_s" in group:
+            points(axes[0], group, rows, "largest_solved_step_s", GREEN, "|", "and every step is solved")
         points(axes[1], group, rows, "fewest_sweeps", color, marker, f"{relaxation}: gates hold")
     axes[0].set(xscale="log", xlabel="largest step (s)")
     axes[1].set(xscale="symlog", xlabel="fewest sweeps an outer iteration", xlim=(-0.5, 2000))

@@ -8,7 +8,9 @@ import numpy as np
 from command import command
 from reading import InputError
 from sample_bodies import joints, redundant, rotation
+from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems
+from sample_contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
 from sample_files import write, write_run
 from sample_motion import damping, direction
 from sample_time import energy, time_order
@@ -60,11 +62,18 @@ def stability_map(directory):
     columns = ("integrator outer relaxation memory predicted_contraction iterations error_final outer_iterations sweeps "
                "status reason")
     steps = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480)
-    for table, value, values in (("chain20", "mass_ratio", (1, 10, 100, 1000)),
+    for table, value, values in (("chain20", "mass_ratio", (1, 10, 100, 1000)), ("rods10", "mass_ratio", (1, 30, 1000)),
                                  ("cantilever", "young_pa", (1e4, 1e6, 1e8))):
         write(directory, "stability_map", table, f"scene step_s {value} {columns}",
-              [(table, h, v, *map_row(outer, memory, (60 * h) ** 2 * (v / values[0]) ** 0.4, table == "chain20"))
+              [(table, h, v, *map_row(outer, memory, (60 * h) ** 2 * (v / values[0]) ** 0.4, value == "mass_ratio"))
                for v in values for h in steps for outer, memory in MAP_METHODS])
+    write(directory, "stability_map", "cantilevers", f"scene step_s young_pa {columns}",
+          [(scene, h, young, "implicit_euler", outer, relaxation, 20, 0.5, 9.0, *end)
+           for scene in ("cantilever192 green", "cantilever1536 green") for young in (1e4, 1e6, 1e8) for h in steps[::2]
+           for outer, relaxation, end in (("auto", "direct", (1e-13 * young ** 0.2, 9, 0, "ok", "")),
+                                          ("proximal", "nesterov_jacobi",
+                                           (1e-11, 20, 4000, "ok", "") if young < 1e8 else
+                                           (1e-5 * h, 100, 100000, "not_converged", "outer iterations spent")))])
     write(directory, "stability_map", "predictions",
           "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
           [("chain20", h, r, k, 1.01 * k, "converged" if k < 1 else "oscillating")
@@ -84,7 +93,8 @@ def stability_map(directory):
 
 def contraction(directory):
     kinds = (("distance", "", "N/m"), ("bending", "", "N m/rad"), ("triangle_strain", "", "Pa"),
-             ("tet_strain", "green", "Pa"), ("tet_strain", "corotational", "Pa"), ("anchor", "", "N/m"))
+             ("tet_strain", "green", "Pa"), ("tet_strain", "corotational", "Pa"), ("anchor", "", "N/m"),
+             ("point_joint", "", "N/m"), ("axis_joint", "", "N m/rad"))
     rows = []
     for effect, strain, unit in kinds:
         for load in (-50, 50, 500):
@@ -288,8 +298,10 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, cone_problems, work_precision,
-                       rival_newton, effects_cost, point_hard_cases, generated_scenes, judges):
+                       mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
+                       friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, cone_problems,
+                       work_precision, rival_newton,
+                       effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

@@ -4,12 +4,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import BLACK, BLUE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
 from outer_convergence import edges
 from reading import CONTRACTING, LARGEST, cost_ratios, failed, good, reasons_note, step_text, text_number
 
 MARKS = {"not_converged": "x", "diverged": "^", "skipped": "_", "ok": "o"}  # of a cell that is not solved, by status
 MEANING = {"ok": "ok, but farther than 1e-8"}
+STEP_LINES = ("-", "--", ":")
 AXES = {"mass_ratio": "mass ratio, tip to other nodes", "young_pa": "Young's modulus (Pa)"}
 
 
@@ -22,9 +23,33 @@ def chain(frame):
     return maps(frame, "mass_ratio")
 
 
+@figure("stability_map", "rods", table="rods10")
+def rods(frame):
+    return maps(frame, "mass_ratio")
+
+
 @figure("stability_map", "cantilever", table="cantilever")
 def cantilever(frame):
     return maps(frame, "young_pa")
+
+
+@figure("stability_map", "cantilevers", table="cantilevers")
+def cantilevers(frame):
+    """Errors over stiffness, a panel a solid, a line a method and step."""
+    groups = list(frame.groupby("scene", sort=False))
+    fig, axes = panels(len(groups), columns=2, height=2.1, sharex=True, sharey=True)
+    for ax, (scene, solid) in zip(axes, groups):
+        for (outer, relaxation, step), rows in solid.groupby(["outer", "relaxation", "step_s"], sort=False):
+            look = style(relaxation) | {"linestyle": STEP_LINES[sorted(solid["step_s"].unique()).index(step) % len(STEP_LINES)]}
+            curve(ax, rows, "young_pa", "error_final", f"{outer}, {relaxation}, {step_text(step)}", look)
+            draw_failed(ax, failed(rows, "error_final"), "young_pa", "error_final", look)
+        ax.axhline(1e-10, color=BLACK, linewidth=0.6, linestyle="--")
+        ax.set(xscale="log", yscale="log", title=scene)
+    fig.supxlabel(AXES["young_pa"], fontsize=8)
+    fig.supylabel("error against Newton", fontsize=8)
+    shared_legend(fig, axes, columns=2)
+    footnote(fig, "Crossed: not ok. " + reasons_note(failed(frame, "error_final")))
+    return fig
 
 
 def maps(frame, value):

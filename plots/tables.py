@@ -14,7 +14,9 @@ TABLES = {
     ("outer_convergence", "map"):
         "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason",
     ("stability_map", "chain20"): "scene step_s mass_ratio" + MAP,
+    ("stability_map", "rods10"): "scene step_s mass_ratio" + MAP,
     ("stability_map", "cantilever"): "scene step_s young_pa" + MAP,
+    ("stability_map", "cantilevers"): "scene step_s young_pa" + MAP,
     ("stability_map", "predictions"): "scene step_s mass_ratio predicted_rate predicted_contraction behaviour",
     ("stability_map", "cost"): "scene step_s parameter value measured_rate outer relaxation outer_iterations sweeps row_updates "
                                "wall_s error status reason",
@@ -61,6 +63,21 @@ TABLES = {
     ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
+    **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
+                                "sweeps steps missed_steps status reason"
+       for experiment in ("incline", "stopping", "restitution", "stack")},
+    ("friction_isotropy", "headings"): "relaxation friction step_s heading_deg deceleration_share expected_share share_error "
+                                       "heading_change_rad heading_error_rad status reason",
+    ("convex_gap", "gaps"): "relaxation friction step_s speed_m_per_s gap_m expected_m error sweeps missed_steps status reason",
+    ("restitution", "heights"): "relaxation step_s restitution bounce height_m expected_m allowed_m status reason",
+    ("stack", "thresholds"): "structure count share outer relaxation friction step_s duration_s moved outcome right sweeps "
+                             "missed_steps status reason",
+    ("simbenchmark", "accuracy"): "benchmark step_s integrator alpha outer relaxation friction error simulated_s "
+                                  "outer_iterations sweeps row_updates missed_steps wall_s status reason",
+    ("simbenchmark", "published"): "benchmark engine step_s error cpu_s",
+    ("contact_hard_cases", "gates"): "scene step_s integrator outer relaxation friction steps steps_ok sweeps gate measured "
+                                     "bound holds status reason",
+    ("contact_hard_cases", "frontier"): "scene outer relaxation friction largest_step_s fewest_sweeps status reason",
     ("cone_problems", "solves"): CONES,
     ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",
@@ -88,6 +105,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("damping", "rotation"): "scene integrator retardation_s",
     ("rotation", "series"): "torque integrator alpha",
     ("point_hard_cases", "gates"): "scene relaxation",
+    ("contact_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id statement quantity measured bound verdict"

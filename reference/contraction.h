@@ -14,11 +14,12 @@
 
 #include <Eigen/Core>
 
-#include "scene.h"
+#include "judge.h"
 
 namespace pbd::reference {
 
-/// Extreme eigenvalues of the error map; the iteration contracts if radius() < 1.
+/// Extreme eigenvalues of the error map; the iteration contracts if radius() < 1. Of complex ones their
+/// magnitude, with the sign of the real part.
 struct Contraction {
   double smallest = 0, largest = 0;
   double radius() const { return std::max(-smallest, largest); }
@@ -27,6 +28,15 @@ struct Contraction {
 /// At a solved step's positions x (3 x N) and force multipliers gamma of the hard rows (N for lengths, as in
 /// Judgement).
 Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::VectorXd& gamma, double h);
+
+/// The same of a scene with rigid bodies, at the step from `start` that a judge found. Rows are linearised by
+/// J(x) (v - v_k) with the turns of bodies as they stand, of which h w is the exponential and not the sum,
+/// and torques follow them:
+///   M/h e' - J^T g' = (M/h - K T) e,   h J e' + A g' = (h J - J T) e
+/// with K the tangent by increments (dx, d) = T dv (rigid_step.h). Throws SetupError with an implicit
+/// gyroscopic torque, which is not part of the rows.
+Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, double h,
+                                        const Judgement& solved);
 
 struct RelaxationRates {
   double jacobi = 0;        // spectral radius of block Jacobi with the given factor

@@ -78,6 +78,12 @@ struct Builder {
       if (unknown >= 0) model.force.segment<3>(unknown) += external.force[i];
     }
   }
+  void operator()(const Contact&) {
+    throw SetupError(
+        "effects[" + std::to_string(effect) + "] contact", "contact",
+        "none: this judge knows equations only; the judges of contact are cone_interior_point and "
+        "cone_ipopt");
+  }
   /// Effects of rigid bodies (rigid_model.h).
   template <class BodyEffect>
   void operator()(const BodyEffect&) {}

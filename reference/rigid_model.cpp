@@ -64,6 +64,10 @@ struct Builder {
   }
   template <class E>
   void operator()(const E& stated) {
+    if constexpr (requires { stated.bounds; })
+      if (!stated.bounds.empty())
+        throw SetupError(std::string(stated.name), "limits or motors of limited force",
+                         "equations: the judges know no bounds of forces");
     if constexpr (requires { stated.body; })
       for (std::size_t i = 0; i < stated.body.size(); ++i) model.joints.push_back(joint_of(stated, i));
   }

@@ -40,6 +40,7 @@ class Bodies {
   int nodes() const { return nodes_; }
   int columns() const { return nodes_ + count(); }
   Eigen::Index column(int body) const { return nodes_ + body; }
+  int node(int body) const { return node_[static_cast<std::size_t>(body)]; }
 
   /// Masses of the columns: nodes, then rotations; 1/kg, 0 for infinite mass.
   std::vector<double> inverse_masses(const Scene& scene) const;

@@ -107,6 +107,7 @@ void Direct::analyse(const Rows& rows) {
 }
 
 void Direct::begin(Rows& rows, const Points&, bool) {
+  if (rows.contacts) return newton_.begin();
   if (slot_.empty()) analyse(rows);
   factorise(rows);
 }
@@ -195,6 +196,7 @@ void Direct::correct(Rows& rows, const Points& v) {
 }
 
 double Direct::sweep(Rows& rows, Points& v, BlockSeconds) {
+  if (rows.contacts) return newton_.iterate(rows, v);
   if (find_held(rows, v)) factorise(rows);
   const double residual = right_hand_side(rows, v);
   constexpr double worthwhile = 0.5;

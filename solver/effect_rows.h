@@ -1,6 +1,8 @@
 // Reading an effect's constraints, by index.
 #pragma once
 
+#include <Eigen/Dense>
+
 #include "effects/effects.h"
 #include "rows.h"
 
@@ -67,6 +69,47 @@ void take_directions(const E& effect, const Configuration& at, std::size_t i, co
   typename Block::Value value;
   const std::size_t entry = block.entry(i);
   Constraint<E>::evaluate(effect, entry, local(effect, entry, block.node[i], at), value, jacobian);
+}
+
+/// Inverse of a symmetric positive semidefinite N; its pseudo-inverse, and `singular` set, if it is not
+/// definite.
+template <class Square>
+Square invert(const Square& n, bool& singular) {
+  singular = false;
+  if constexpr (Square::RowsAtCompileTime == 1) {
+    singular = !(n(0, 0) > 0);
+    return Square(singular ? 0.0 : 1 / n(0, 0));
+  } else {
+    const Eigen::LLT<Square> factor(n);
+    constexpr double definite = 1e-14;  // smallest pivot against the largest entry
+    if (factor.info() == Eigen::Success &&
+        factor.matrixLLT().diagonal().array().square().minCoeff() > definite * n.diagonal().maxCoeff())
+      return factor.solve(Square::Identity());
+    singular = true;
+    const Eigen::SelfAdjointEigenSolver<Square> eigen(n);
+    const double cut = definite * eigen.eigenvalues().cwiseAbs().maxCoeff();
+    const auto inverse = (eigen.eigenvalues().array() > cut).select(1 / eigen.eigenvalues().array(), 0.0);
+    return eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();
+  }
+}
+
+/// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.
+template <class Block>
+bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i) {
+  typename Block::Square n = block.compliance[i];
+  for (int a = 0; a < Block::nodes; ++a) {
+    const auto part = block.jacobian[i].template middleCols<3>(3 * a);
+    n.noalias() += inverse_mass[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] *
+                   (part * part.transpose());
+  }
+  bool singular = false;
+  if (block.frictional()) {
+    block.delassus[i] = n;
+    block.inverse_diagonal[i] = Block::rows / n.trace() * Block::Square::Identity();
+  } else {
+    block.inverse_diagonal[i] = invert(n, singular);
+  }
+  return singular;
 }
 
 /// True if the effect's forces have bounds.

@@ -54,12 +54,13 @@ StepCoefficients generalised_alpha(const StepStart& start) {
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> list{
-      {"implicit_euler", 1, "order 1", implicit_euler},
-      {"newmark", 1, "order 1, 2 with alpha = 0.5; alpha, or beta and gamma", newmark, Keeps::accelerations},
+      {"implicit_euler", 1, "order 1", implicit_euler, Keeps::nothing, false, true},
+      {"newmark", 1, "order 1, 2 with alpha = 0.5; alpha, or beta and gamma", newmark, Keeps::accelerations,
+       false, true},
       {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations},
       {"bdf2", 2, "order 2", bdf2, Keeps::states},
       {"midpoint", 2, "order 2, for compliant constraints", midpoint},
-      {"symplectic_euler", 1, "order 1, explicit", implicit_euler, Keeps::nothing, true}};
+      {"symplectic_euler", 1, "order 1, explicit", implicit_euler, Keeps::nothing, true, true}};
   return list;
 }
 

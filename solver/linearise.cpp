@@ -9,40 +9,6 @@
 namespace pbd {
 namespace {
 
-/// Inverse of a symmetric positive semidefinite N; its pseudo-inverse, and `singular` set, if it is not
-/// definite.
-template <class Square>
-Square invert(const Square& n, bool& singular) {
-  singular = false;
-  if constexpr (Square::RowsAtCompileTime == 1) {
-    singular = !(n(0, 0) > 0);
-    return Square(singular ? 0.0 : 1 / n(0, 0));
-  } else {
-    const Eigen::LLT<Square> factor(n);
-    constexpr double definite = 1e-14;  // smallest pivot against the largest entry
-    if (factor.info() == Eigen::Success &&
-        factor.matrixLLT().diagonal().array().square().minCoeff() > definite * n.diagonal().maxCoeff())
-      return factor.solve(Square::Identity());
-    singular = true;
-    const Eigen::SelfAdjointEigenSolver<Square> eigen(n);
-    const double cut = definite * eigen.eigenvalues().cwiseAbs().maxCoeff();
-    const auto inverse = (eigen.eigenvalues().array() > cut).select(1 / eigen.eigenvalues().array(), 0.0);
-    return eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();
-  }
-}
-
-template <class Block>
-typename Block::Square diagonal_block(const Block& block, const std::vector<double>& inverse_mass,
-                                      std::size_t i) {
-  typename Block::Square n = block.compliance[i];
-  for (int a = 0; a < Block::nodes; ++a) {
-    const auto part = block.jacobian[i].template middleCols<3>(3 * a);
-    n.noalias() += inverse_mass[static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(a)])] *
-                   (part * part.transpose());
-  }
-  return n;
-}
-
 /// Of a constraint's value, as part of its largest coordinate.
 constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
 
@@ -74,20 +40,15 @@ BlockResidual linearise_block(const E& effect, const StepMap& map, const Configu
     if (damped) value -= block.offset[i];
     block.bias[i] = value / map.d - block.jacobian[i] * block.gather(v, i);
     if (!damped) block.compliance[i] = Constraint<E>::compliance(effect, entry) / (map.s * map.d);
-    bool singular = false;
-    block.inverse_diagonal[i] = invert(diagonal_block(block, inverse_mass, i), singular);
+    const bool singular = invert_diagonal(block, inverse_mass, i);
     if constexpr (requires { effect.bounds; })
       if (block.bounded())
         block.bounds[i] = {effect.bounds[entry][0] * map.s, effect.bounds[entry][1] * map.s};
 
     const typename Block::Value r = value / map.d + block.compliance[i] * block.impulse[i];
-    if (singular)
-      sums.squared += unreachable_mass * r.squaredNorm();
-    else if (block.bounded())
-      sums.squared +=
-          block.squared_residual(i, r, block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r));
-    else
-      sums.squared += r.dot(block.inverse_diagonal[i] * r);
+    sums.squared += singular ? unreachable_mass * r.squaredNorm()
+                             : block.squared_residual(
+                                   i, r, block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r));
     const double size = roundoff * largest(own) / map.d;
     sums.rounding_squared +=
         size * size * block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
@@ -162,16 +123,14 @@ bool fills_space(const Effect& effect) {
   return std::visit(
       []<class E>(const E& stated) {
         if constexpr (RowEffect<E>) return Constraint<E>::fills_space || constraint_count(stated) == 0;
-        return true;
+        return !std::is_same_v<E, Contact>;
       },
       effect);
 }
 
 void refresh_inverse_diagonal(Rows& rows) {
   for_each_block(rows.blocks, [&](auto& block) {
-    bool singular = false;
-    for (std::size_t i = 0; i < block.size(); ++i)
-      block.inverse_diagonal[i] = invert(diagonal_block(block, rows.inverse_mass, i), singular);
+    for (std::size_t i = 0; i < block.size(); ++i) invert_diagonal(block, rows.inverse_mass, i);
   });
 }
 

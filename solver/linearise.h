@@ -37,17 +37,17 @@ double add_potential(const Effect& effect, const StepMap& map, const Points& x,
                      const std::vector<double>& inverse_mass, AnyBlock& block, Points& v);
 
 /// Of the effects, for the quasi-Newton metric: at rest, or as it is.
-enum class Shape { rest, current };
+enum class MetricShape { rest, current };
 
-/// Appends the effect's share of the quasi-Newton metric (metric.h), J at positions x or, with Shape::rest,
-/// at the effect's rest shape if it states one. Fills the block's `stiffness`.
-void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape shape, AnyBlock& block,
+/// Appends the effect's share of the quasi-Newton metric (metric.h), J at positions x or, with
+/// MetricShape::rest, at the effect's rest shape if it states one. Fills the block's `stiffness`.
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, MetricShape shape, AnyBlock& block,
                 std::vector<MetricEntry>& entries);
 
 /// Adds the volumes times the deformation gradients (m^3) of the elements about each node at positions x.
 void add_deformation(const Effect& effect, const Points& x, std::vector<Eigen::Matrix3d>& deformation);
 
-/// True if every row of the effect gives way: A is positive definite.
+/// True if every row of the effect gives way: A is positive definite. Contacts act at a step's end alone.
 bool all_compliant(const Effect& effect);
 
 /// True if the effect's constraints are those of rigid bodies: they have no potential by the columns.

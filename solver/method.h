@@ -6,11 +6,12 @@
 
 namespace pbd {
 
-/// Names are those of the lists in integrators.h, outer.h and relaxation.h.
+/// Names are those of the lists in integrators.h, outer.h, relaxation.h and contact/friction.h.
 struct Method {
   std::string integrator = "implicit_euler";
   std::string outer = "auto";
   std::string relaxation = "conjugate_gradients";
+  std::string friction = "coulomb";
   double tolerance = 1e-8;         // on the residuals, relative to `scale`
   int max_outer = 100;             // outer iterations a step
   int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration

@@ -26,7 +26,8 @@ void StepData::restore_momentum() {
 
 void StepData::find_free_components() {
   const std::size_t nodes = inverse_mass.size();
-  component.resize(nodes);
+  component.assign(nodes, -1);
+  if (contacts.listed()) return;  // whatever touches, another step connects otherwise
   std::iota(component.begin(), component.end(), 0);
   const auto root = [this](int node) {
     while (component[static_cast<std::size_t>(node)] != node) {

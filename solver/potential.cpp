@@ -43,14 +43,14 @@ std::int64_t StepData::project(double accuracy, int most) {
   return hard_rows.solve(rows, eliminated, quasi_newton.metric(), accuracy, most, v);
 }
 
-void StepData::factor_metric(const Scene& scene, Shape shape) {
+void StepData::factor_metric(const Scene& scene, MetricShape shape) {
   std::vector<MetricEntry> entries;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
     if (eliminated[b])
-      add_metric(scene.effects[effect_of_block[b]], map, shape == Shape::rest ? scene.initial.x : x, shape,
-                 rows.blocks[b], entries);
+      add_metric(scene.effects[effect_of_block[b]], map, shape == MetricShape::rest ? scene.initial.x : x,
+                 shape, rows.blocks[b], entries);
   deformation.assign(inverse_mass.size(), Eigen::Matrix3d::Zero());
-  if (shape == Shape::current)
+  if (shape == MetricShape::current)
     for (const auto& effect : scene.effects) add_deformation(effect, x, deformation);
   quasi_newton.metric().factor(map, inverse_mass, entries, deformation);
   quasi_newton.forget();
@@ -116,7 +116,7 @@ void StepData::descend(const Scene& scene, bool first) {
   }
   constexpr int most_iterations = 30;
   if (++since_factor > most_iterations) {
-    factor_metric(scene, Shape::current);
+    factor_metric(scene, MetricShape::current);
     find_direction();
   }
   const double before = potential;

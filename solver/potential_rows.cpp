@@ -56,7 +56,7 @@ double add_potential(const Effect& effect, const StepMap& map, const Points& x,
       effect);
 }
 
-void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape shape, AnyBlock& any,
+void add_metric(const Effect& effect, const StepMap& map, const Points& x, MetricShape shape, AnyBlock& any,
                 std::vector<MetricEntry>& entries) {
   std::visit(
       [&]<class E>(const E& stated) {
@@ -68,7 +68,7 @@ void add_metric(const Effect& effect, const StepMap& map, const Points& x, Shape
             typename BlockOf<E>::Jacobian jacobian;
             auto local = positions(block, x, i);
             if constexpr (requires { Constraint<E>::rest(stated, i); })
-              if (shape == Shape::rest) local = Constraint<E>::rest(stated, i);
+              if (shape == MetricShape::rest) local = Constraint<E>::rest(stated, i);
             Constraint<E>::evaluate(stated, i, local, value, jacobian);
             if (block.offset.empty())
               block.stiffness[i] = (Constraint<E>::compliance(stated, i) / (map.s * map.d)).inverse();

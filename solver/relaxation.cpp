@@ -37,8 +37,10 @@ double GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      const typename Block::Value change = block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r);
+      typename Block::Value change = block.allowed(i, block.impulse[i], -block.inverse_diagonal[i] * r);
       squared += block.squared_residual(i, r, change);
+      if constexpr (Block::rows == 3)
+        if (block.frictional()) change = block.solved(i, r) - block.impulse[i];
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
     }
@@ -79,7 +81,8 @@ double SpectralBound::power_step(const Rows& rows) {
 double SpectralBound::update(const Rows& rows, const Points& like) {
   sweeps_ = 0;
   int most_steps = 1;
-  if (vector_.empty()) {
+  if (vector_.empty() || generation_ != rows.generation) {
+    generation_ = rows.generation;
     most_steps = 60;
     velocity_ = like;
     std::vector<int> constraints(rows.inverse_mass.size(), 0);
@@ -134,9 +137,11 @@ double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
 void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
   omega_ = 1 / bound_.update(rows, v);
   previous_v_ = v;
-  if (fresh) {
+  const auto count = static_cast<std::size_t>(row_count(rows));
+  if (fresh || previous_.size() != count) {  // contacts may have joined within the step
+    fresh = true;
     restart();
-    previous_.resize(static_cast<std::size_t>(row_count(rows)));
+    previous_.resize(count);
   }
   // The velocities of the previous impulses along the new directions; a fresh start has no previous impulses.
   std::size_t first_row = 0;
@@ -206,26 +211,55 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
 void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
   direction_.assign(static_cast<std::size_t>(row_count(rows)), 0.0);
   last_.assign(direction_.size(), 0.0);
-  held_.assign(direction_.size(), false);
+  free_.assign(direction_.size(), Free::all);
   velocity_.setZero(3, v.cols());
   last_product_ = 0;
 }
 
+/// Takes impulses that their law would move along the surface of what it allows there, or to nothing, and
+/// tells which parts of the impulses remain free. True if another set of them is.
+bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
+  bool changed = false;
+  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+    if (!block.bounded()) return;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+      const typename Block::Value full = -block.inverse_diagonal[i] * r;
+      typename Block::Value change = block.allowed(i, block.impulse[i], full);
+      Free free = Free::all;
+      if (!block.frictional()) {
+        if (change.isZero(0) && !full.isZero(0)) free = Free::none;
+        change.setZero();
+      } else if (const typename Block::Value to = block.impulse[i] + full; block.cut(i, to) == to) {
+        change.setZero();  // it sticks
+      } else {
+        if constexpr (Block::rows == 3) change = block.solved(i, r) - block.impulse[i];
+        const bool slides = block.impulse[i][0] + change[0] > 0 && block.law != Friction::cone;
+        free = slides ? Free::first : Free::none;
+      }
+      changed |= free != free_[first_row + i];
+      free_[first_row + i] = free;
+      if (change.isZero(0)) continue;
+      squared += block.squared_residual(i, r, change);
+      block.impulse[i] += change;
+      block.apply(rows.inverse_mass, i, change, v);
+    }
+  });
+  return changed;
+}
+
 double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  double moved = 0;  // squared residual of what the laws have moved
+  const bool set_changed = find_free(rows, v, moved);
   push_.setZero(3, v.cols());
   double product = 0, kept_product = 0;  // of r with the new and the last D^-1 r
   double slope = 0;                      // of r along the old direction
-  bool set_changed = false;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       typename Block::Value next = block.inverse_diagonal[i] * r;
-      if (block.bounded()) {
-        const bool held = block.allowed(i, block.impulse[i], -next).isZero(0) && !next.isZero(0);
-        set_changed |= held != held_[first_row + i];
-        held_[first_row + i] = held;
-        if (held) next.setZero();
-      }
+      if (block.bounded() && free_[first_row + i] == Free::none) next.setZero();
+      if (block.bounded() && free_[first_row + i] == Free::first) next.tail(Block::rows - 1).setZero();
       auto last = entries(last_, block, first_row, i);
       product += r.dot(next);
       kept_product += r.dot(last);
@@ -255,7 +289,7 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       1e-10;  // s that changes next to no velocity: what rows contradict each other by
   if (!(curvature > redundant * square_)) {
     last_product_ = 0;
-    return beta > 0 ? std::sqrt(product) : 0.0;  // begin anew; nothing left to gain
+    return std::sqrt(moved + (beta > 0 ? product : 0.0));  // begin anew; nothing left to gain
   }
   const double length = -slope / curvature;
   visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
@@ -265,14 +299,14 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   v += length * velocity_;
   visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
-      const typename Block::Value back = block.allowed(i, block.impulse[i], Block::Value::Zero());
+      const typename Block::Value back = block.cut(i, block.impulse[i]) - block.impulse[i];
       if (back.isZero(0)) continue;
       block.impulse[i] += back;
       block.apply(rows.inverse_mass, i, back, v);
       last_product_ = 0;
     }
   });
-  return std::sqrt(product);
+  return std::sqrt(moved + product);
 }
 
 std::int64_t relax(Relaxation& any, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rows.h"
+#include "semismooth.h"
 
 namespace pbd {
 
@@ -43,6 +44,7 @@ class SpectralBound {
   double power_step(const Rows& rows);
   std::vector<double> vector_;  // one entry a row
   Points velocity_;
+  int generation_ = 0;  // of the rows
   double constraints_at_a_node_ = 0;
   double least_ = 1;
   std::int64_t sweeps_ = 0;
@@ -95,7 +97,8 @@ class NesterovJacobi {
 /// together, s^T N s = |u|_M^2 + s^T Sigma s needs no further pass: a sweep costs as much as Jacobi's. The
 /// residual is taken anew each sweep. Impulses with bounds: those that a step of block Jacobi would leave at
 /// a bound take no part; where their set changes, or the step along s is cut at a bound, the next direction
-/// begins anew (active sets, as in Polyak 1969).
+/// begins anew (active sets, as in Polyak 1969). Of a sliding contact the normal impulse alone takes part;
+/// the others, and an opening one's, are first moved as its law asks.
 class ConjugateGradients {
  public:
   static constexpr std::string_view name = "conjugate_gradients";
@@ -103,11 +106,14 @@ class ConjugateGradients {
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
 
  private:
+  bool find_free(Rows& rows, Points& v, double& squared);
+
   std::vector<double> direction_, last_;  // s, and the last D^-1 r; one entry a row
   Points velocity_, push_;                // u, and W J^T of the new part of s
   double last_product_ = 0;               // r^T D^-1 r of the last sweep
   double square_ = 0;                     // s^T D s
-  std::vector<bool> held_;                // of each row: at a bound
+  enum class Free : std::uint8_t { none, first, all };
+  std::vector<Free> free_;  // rows of each constraint with bounds that take part, at its first row's place
 };
 
 /// Sparse factorisation, exact up to rounding; each sweep is one step of iterative refinement. Compliant
@@ -118,7 +124,8 @@ class ConjugateGradients {
 /// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
 /// rows solvable and is removed by the refinement. Rows whose impulse has bounds are kept; those that a step
 /// of block Jacobi would leave at a bound are held there, and each sweep with another set of them begins with
-/// another factorisation (the primal-dual active sets of Hintermueller, Ito, Kunisch 2003).
+/// another factorisation (the primal-dual active sets of Hintermueller, Ito, Kunisch 2003). Where there are
+/// contacts, a sweep is an iteration of a semismooth Newton method instead.
 class Direct {
  public:
   static constexpr std::string_view name = "direct";
@@ -143,6 +150,7 @@ class Direct {
   Eigen::VectorXd right_, solution_;
   Points changed_;
   double last_residual_ = 0;
+  SemismoothNewton newton_;              // in the place of all this where there are contacts
   std::vector<std::vector<bool>> held_;  // at a bound, per block with bounds and constraint
 };
 

@@ -1,13 +1,14 @@
 // Rows: all that a relaxation sees of a scene. Find impulses p and velocities v with
 //   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node);
-// where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do.
+// where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do. Rows of
+// three with friction are a contact's, normal first, and obey its law instead (contact/friction.h).
 // Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
 // contiguous, one entry a constraint; a rigid body counts as
 // two nodes (bodies.h). Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
 // second.
 //
 // `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
-// singular.
+// singular; with friction one number for the three rows, 3/trace(N_ii), so that projections remain Euclidean.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "contact/friction.h"
 #include "effects/constraint.h"
 
 namespace pbd {
@@ -35,12 +37,26 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
   std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
   std::vector<typename Shape::Value> begin_value;  // where there is none
-  std::vector<std::array<double, 2>> bounds;       // of the impulse, for R = 1; empty where there are none
+  std::vector<std::array<double, 2>> bounds;       // of the impulse, for R = 1, or of the normal one; empty
+                                                   // where there are none
+  std::vector<double> friction;                    // mu, for R = 3; empty where there is none
+  std::vector<typename Shape::Square> delassus;    // N_ii, kept where there is friction
+  Friction law = Friction::coulomb;
 
   std::size_t size() const { return node.size(); }
 
   /// Index in the effect of constraint i.
   std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
+
+  /// Contacts: impulses with bounds, and with friction for R = 3.
+  void resize_contacts(std::size_t count) {
+    resize(count);
+    bounds.assign(count, {0.0, infinity});
+    if constexpr (R == 3) {
+      friction.resize(count);
+      delassus.resize(count);
+    }
+  }
 
   void resize(std::size_t count) {
     node.resize(count);
@@ -81,36 +97,55 @@ struct RowBlock : ConstraintShape<R, K> {
     }
   }
 
-  bool bounded() const {
-    if constexpr (R == 1) return !bounds.empty();
-    return false;
-  }
+  bool bounded() const { return !bounds.empty(); }
+  bool frictional() const { return !friction.empty(); }
 
   /// True if constraint i is a limit whose bias, c/d at rest, lies on its open side.
   bool opens(std::size_t i) const {
     if constexpr (R == 1)
       if (!bounds.empty())
         return (bias[i][0] > 0 && bounds[i][0] == 0) || (bias[i][0] < 0 && bounds[i][1] == 0);
+    if constexpr (R == 3)
+      if (!bounds.empty()) return bias[i][0] > 0;
     return false;
   }
 
   /// The part of a change of constraint i's impulse from p that its bounds allow.
   typename Shape::Value allowed(std::size_t i, const typename Shape::Value& p,
                                 const typename Shape::Value& change) const {
+    if (bounds.empty()) return change;
     if constexpr (R == 1)
-      if (!bounds.empty())
-        return typename Shape::Value(std::clamp(p[0] + change[0], bounds[i][0], bounds[i][1]) - p[0]);
+      return typename Shape::Value(std::clamp(p[0] + change[0], bounds[i][0], bounds[i][1]) - p[0]);
+    if constexpr (R == 3) {
+      if (bounds[i][0] < 0) return change;
+      if (!(bounds[i][1] > 0)) return -p;
+      return project(law, friction[i], p, change) - p;
+    }
     return change;
+  }
+
+  /// The impulse p of constraint i, cut to what its bounds and its normal part allow.
+  typename Shape::Value cut(std::size_t i, const typename Shape::Value& p) const {
+    if constexpr (R == 3)
+      if (frictional() && bounds[i][0] == 0 && bounds[i][1] > 0)
+        return project(law == Friction::box ? law : Friction::disc, friction[i], p, Shape::Value::Zero());
+    return p + allowed(i, p, Shape::Value::Zero());
+  }
+
+  /// The impulse of constraint i alone that its law asks for where its row misses r.
+  typename Shape::Value solved(std::size_t i, const typename Shape::Value& r) const {
+    static_assert(R == 3);
+    if (bounds[i][0] < 0) return impulse[i] - delassus[i].inverse() * r;
+    if (!(bounds[i][1] > 0)) return Shape::Value::Zero();
+    return solve_contact(law, friction[i], delassus[i], r - delassus[i] * impulse[i], impulse[i]);
   }
 
   /// Squared residual of constraint i (J) whose row misses r, and whose impulse N_ii^-1 and the bounds let
   /// change by `change`: r^T N_ii^-1 r, or what is left of it by the bounds.
   double squared_residual(std::size_t i, const typename Shape::Value& r,
                           const typename Shape::Value& change) const {
-    if constexpr (R == 1)
-      if (!bounds.empty())
-        return inverse_diagonal[i](0, 0) > 0 ? change[0] * change[0] / inverse_diagonal[i](0, 0) : 0.0;
-    return -r.dot(change);
+    if (bounds.empty()) return -r.dot(change);
+    return inverse_diagonal[i](0, 0) > 0 ? change.squaredNorm() / inverse_diagonal[i](0, 0) : 0.0;
   }
 
   /// J_i v + b_i + Sigma_i p
@@ -120,11 +155,13 @@ struct RowBlock : ConstraintShape<R, K> {
 };
 
 using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
-                              RowBlock<2, 4>, RowBlock<3, 4>>;
+                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>>;
 
 struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass
-  std::vector<AnyBlock> blocks;      // in the scene's order, without empty ones
+  std::vector<AnyBlock> blocks;      // in the scene's order, without empty ones; contacts behind them
+  bool contacts = false;             // the last blocks are those of contacts
+  int generation = 0;                // raised with each other set of contacts
 };
 
 /// f(block) for every block, in order.

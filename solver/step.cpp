@@ -42,6 +42,10 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
   return flat;
 }
 
+std::vector<ContactForce> Workspace::contacts() const {
+  return data_->contacts.forces({data_->x, data_->poses, data_->x_time}, data_->map, data_->v, data_->rows);
+}
+
 std::vector<double> Workspace::forces(std::size_t index) const {
   std::vector<double> flat;
   for (std::size_t b = 0; b < data_->rows.blocks.size(); ++b)
@@ -178,7 +182,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
   Report report;
   const double free_change = w.distance(w.map.v_free, w.start_v);
   const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
-  double first_residual = 0;
+  double first_residual = 0, last_residual = std::numeric_limits<double>::infinity();
   double lowest = std::numeric_limits<double>::infinity();
   int without_fall = 0;  // iterations since the primal residual was `lowest`
   StepIteration iteration(scene, method, w, report);
@@ -196,10 +200,18 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     if (observer)
       observer({report.outer_iterations, report.sweeps, report.row_updates, report.primal, report.dual,
                 report.scale, w.x, w.v});
+    w.keep_if_best(report.outer_iterations, std::max(report.primal, report.dual));
     w.last_change = w.change;
     w.change = w.distance(w.v, w.previous);
-    const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v);
-    if (finished(method, velocity_rounding, rounding, first_residual, report)) break;
+    const double now = std::max(report.primal, report.dual);
+    constexpr double falling = 0.5;  // the impulses may go on where v has arrived
+    const bool stalled = report.outer_iterations > 0 && w.change <= rounding_unit * w.norm(w.v) &&
+                         !(now < falling * last_residual);
+    last_residual = now;
+    if (finished(method, velocity_rounding, rounding, first_residual, report)) {
+      if (report.status != Status::ok || !w.widen_contacts(scene, h)) break;
+      continue;
+    }
     if (w.on_potential && report.outer_iterations > 0) {
       constexpr int patience = 5;
       constexpr double near = 10;  // times the tolerance
@@ -222,6 +234,8 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     w.previous = w.v;
     w.outer.iterate(iteration);
   }
+  if (report.status == Status::not_converged && w.return_to_best(std::max(report.primal, report.dual)))
+    measure(w.refresh(scene));
   if (!w.x.allFinite() || !w.v.allFinite() || !std::isfinite(state.time + h)) {
     report.status = Status::diverged;
     report.reason = not_finite;

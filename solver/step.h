@@ -41,6 +41,16 @@ struct EffectCost {
   double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step
 };
 
+/// What a contact does at the end of a step, in the world: `force` acts on a, its opposite on b.
+struct ContactForce {
+  std::array<int, 2> collider;  // a and b: colliders, then the effect's nodes, then (surfaces) the scene's
+  Vec3 point;                   // m
+  Vec3 normal;                  // from b to a
+  Vec3 force;                   // N
+  Vec3 slip;                    // m/s, of a against b across the normal
+  double gap;                   // m
+};
+
 /// What a step reached. Residuals are absolute, in sqrt(J).
 struct Report {
   Status status = Status::ok;
@@ -89,6 +99,9 @@ class Workspace {
   /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
   /// ones under explicit forces). J^T times them are the forces.
   std::vector<double> forces(std::size_t index) const;
+
+  /// All contacts of the last step, open ones included.
+  std::vector<ContactForce> contacts() const;
 
  private:
   struct Data;

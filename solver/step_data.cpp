@@ -15,6 +15,7 @@ StepData::StepData(const Scene& scene, const Method& method)
       outer(find_named(outers(), "outer", method.outer)),
       relaxation(make_relaxation(method.relaxation)),
       rows(allocate_rows(scene, effect_of_block, integrator.explicit_forces)),
+      contacts(scene, friction_by_name(method.friction), rows, effect_of_block),
       bodies(scene),
       inverse_mass(rows.inverse_mass),
       zero(Points::Zero(3, bodies.columns())),
@@ -45,7 +46,8 @@ StepData::StepData(const Scene& scene, const Method& method)
                      "direction_blend 1 and an implicit integrator, or another outer iteration");
   for (const std::size_t index : effect_of_block)
     eliminated.push_back(outer.potential != OnPotential::never && all_compliant(scene.effects[index]) &&
-                         !of_bodies(scene.effects[index]));
+                         !of_bodies(scene.effects[index]) &&
+                         !std::holds_alternative<Contact>(scene.effects[index]));
   on_potential = !eliminated.empty() && gradient_at_x && bodies.count() == 0 &&
                  std::all_of(eliminated.begin(), eliminated.end(), [](bool own) { return own; });
   for (const std::size_t index : effect_of_block)
@@ -58,11 +60,25 @@ StepData::StepData(const Scene& scene, const Method& method)
         throw SetupError("outer", std::string(outer.name) + " with limits or motors of limited force",
                          "another outer iteration");
     });
+  if (!contacts.listed()) return;
+  if (in_metric)
+    throw SetupError("outer", std::string(outer.name) + " with contact", "another outer iteration");
+  if (!integrator.contact)
+    throw SetupError("integrator", std::string(integrator.name) + " with contact",
+                     "implicit_euler, newmark by alpha or symplectic_euler");
+  if (method.beta && method.gamma)
+    throw SetupError("beta", "Newmark's own family with contact", "newmark by alpha");
 }
 
 void StepData::begin(const Scene& scene, const Method& method, double h, const State& state) {
   make_map(scene, method, h, state);
   begin_damping(scene, state.time);
+  if (contacts.listed()) {
+    contacts.find(scene, bodies, {start_x, start_poses, state.time}, start_v, map, h, method.warm_start,
+                  inverse_mass, rows);
+    for (std::size_t b = 0; b < rows.blocks.size(); ++b)
+      if (contacts.owns(b)) costs[b].rows = row_count(rows.blocks[b]);
+  }
   if (!method.warm_start) forget_impulses();
   v = start_v;
   previous = v;
@@ -75,12 +91,38 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   quasi_newton.forget();
   evaluated = false;
   slow_changes = 0;
+  best_residual = infinity;
   since_factor = 0;
   heavier = false;
   if (on_potential || in_metric) {
-    if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, Shape::rest);
+    if (!quasi_newton.metric().factored_for(map)) factor_metric(scene, MetricShape::rest);
     turn_metric(scene, map.x0 + map.d * v);
   }
+}
+
+void StepData::keep_if_best(int outer_iteration, double residual) {
+  constexpr int first_kept = 10;  // a step that is easy ends before
+  if (outer_iteration < first_kept || !(residual < best_residual)) return;
+  best_residual = residual;
+  best_v = v;
+  keep_impulses_and_biases(rows, best_rows);
+}
+
+bool StepData::return_to_best(double residual) {
+  if (!(best_residual < residual)) return false;
+  v = best_v;
+  restore_impulses_and_biases(best_rows, rows);
+  evaluated = false;
+  return true;
+}
+
+bool StepData::widen_contacts(const Scene& scene, double h) {
+  if (!contacts.listed()) return false;
+  if (!contacts.widen(scene, bodies, {start_x, start_poses, x_time}, x, map, h, rows)) return false;
+  anderson.forget();
+  accelerated = false;
+  best_residual = infinity;
+  return true;
 }
 
 double StepData::distance(const Points& a, const Points& b) const {
@@ -108,8 +150,10 @@ BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   BlockResidual sums;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const auto start = std::chrono::steady_clock::now();
-    const BlockResidual share = linearise(scene.effects[effect_of_block[b]], map, here, at, rows.inverse_mass,
-                                          finite_mass, rows.blocks[b], where);
+    const BlockResidual share = contacts.owns(b)
+                                    ? contacts.linearise(here, where, map, at, rows.inverse_mass, b, rows)
+                                    : linearise(scene.effects[effect_of_block[b]], map, here, at,
+                                                rows.inverse_mass, finite_mass, rows.blocks[b], where);
     sums += share;
     costs[b].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -125,8 +169,11 @@ double StepData::bound_contraction(const Scene& scene, int sign) {
   const Configuration here{x, poses, x_time};
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     const double before = bound;
-    add_geometric_inertia(scene.effects[effect_of_block[b]], map, here, sign * direction_blend,
-                          rows.blocks[b], inertia);
+    if (contacts.owns(b))
+      contacts.add_geometric_inertia(map, here, sign * direction_blend, rows, b, inertia);
+    else
+      add_geometric_inertia(scene.effects[effect_of_block[b]], map, here, sign * direction_blend,
+                            rows.blocks[b], inertia);
     bound = 0;
     for (std::size_t node = 0; node < inertia.size(); ++node)
       bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
@@ -172,8 +219,11 @@ std::int64_t StepData::apply_plain(const Scene& scene, Points& error) {
   push = map.v_free;
   keep_impulses_and_biases(rows, kept);
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-    perturb(scene.effects[effect_of_block[b]], map, turned_here, v, scale, error, inverse_mass,
-            rows.blocks[b], push, where);
+    if (contacts.owns(b))
+      contacts.perturb(map, turned_here, v, scale, error, inverse_mass, b, rows, push);
+    else
+      perturb(scene.effects[effect_of_block[b]], map, turned_here, v, scale, error, inverse_mass,
+              rows.blocks[b], push, where);
   add_gyroscopic(push);
   error = (push - rebuilt) / scale;
   constexpr InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};

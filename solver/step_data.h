@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acceleration.h"
+#include "contact_rows.h"
 #include "hard_rows.h"
 #include "linearise.h"
 #include "outer.h"
@@ -33,6 +34,7 @@ struct StepData {
   Relaxation relaxation;
   std::vector<std::size_t> effect_of_block;
   Rows rows;
+  ContactRows contacts;
   Bodies bodies;
   bool implicit_gyroscopic = false;
   std::vector<Pose> start_poses, poses, other_poses;  // at start_x, x and where else a constraint is taken
@@ -78,11 +80,22 @@ struct StepData {
   bool mode_known = false;
   Points turned_x, push;
   std::vector<double> kept;
+  double best_residual = infinity;  // sqrt(J)
+  Points best_v;
+  std::vector<double> best_rows;
 
   StepData(const Scene& scene, const Method& method);
 
   /// Gets ready for a step of h seconds from `state`.
   void begin(const Scene& scene, const Method& method, double h, const State& state);
+
+  /// Keeps the iterate if its residual is the smallest of this step, from the `first_kept` iteration on.
+  void keep_if_best(int outer_iteration, double residual);
+  /// Takes the kept iterate if it is better; true if so.
+  bool return_to_best(double residual);
+
+  /// True if the iterates' motion has brought contacts that were not thought of.
+  bool widen_contacts(const Scene& scene, double h);
 
   /// Carries the solved map on to the step's end.
   void end(double h, State& state);
@@ -155,7 +168,7 @@ struct StepData {
   Configuration placed(const Points& at, std::vector<Pose>& storage, double time);
   void add_gyroscopic(Points& velocity) const;
   void find_free_components();
-  void factor_metric(const Scene& scene, Shape shape);
+  void factor_metric(const Scene& scene, MetricShape shape);
   bool start_low(const Scene& scene);
   void turn_metric(const Scene& scene, const Points& at);
   BlockResidual evaluate_potential(const Scene& scene);

@@ -31,6 +31,11 @@ void StepData::make_map(const Scene& scene, const Method& method, double h, cons
     history.q = acceleration;
     if (goes_on) {
       history.q += (v - map.v_free) / map.s;
+      if (contacts.listed()) {  // they act as the step ends alone
+        push.setZero();
+        contacts.apply(rows, inverse_mass, push);
+        history.q -= push / map.s;
+      }
       if (coefficients.a_v > 0) history.a = (v - history.v - coefficients.a_a * history.a) / coefficients.a_v;
       // a_l is the acceleration at an instant apart from t_l, in proportion to the step.
       if (h != history.h) history.a = history.q + h / history.h * (history.a - history.q);

@@ -119,6 +119,7 @@ Potential::Potential(const Scene& scene, const std::vector<int>& block) : block_
     throw SetupError("newton", std::to_string(scene.bodies.size()) + " rigid bodies", "nodes only");
   for (const Effect& effect : scene.effects) {
     if (damped(effect)) throw SetupError("newton", "an effect with damping", "elastic effects");
+    if (std::holds_alternative<Contact>(effect)) throw SetupError("newton", "contact", "elastic effects");
     std::visit(Builder<decltype(groups_)>{groups_}, effect);
   }
 }

@@ -11,6 +11,18 @@
 namespace pbdcheck {
 namespace {
 
+const std::vector<std::string>& ways_to_choose() {
+  static const std::vector<std::string> ways{"node", "nodes", "near_m", "box_m", "corners"};
+  return ways;
+}
+
+std::vector<std::string> given_ways(Keys& keys) {
+  std::vector<std::string> given;
+  for (const auto& way : ways_to_choose())
+    if (keys.has(way)) given.push_back(way);
+  return given;
+}
+
 int nearest_node(const pbd::Scene& scene, const NodeRange& range, const pbd::Vec3& point) {
   Eigen::Index nearest = 0;
   (scene.initial.x.middleCols(range.first, range.count).colwise() - point)
@@ -117,12 +129,13 @@ NodeRange numbered_nodes(const pbd::Scene& scene) {
   return {0, scene.bodies.empty() ? scene.nodes() : scene.bodies[0].node};
 }
 
+bool chooses_nodes(Keys& keys) {
+  return !given_ways(keys).empty();
+}
+
 std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range) {
-  static const std::vector<std::string> ways{"node", "nodes", "near_m", "box_m", "corners"};
-  std::vector<std::string> given;
-  for (const auto& way : ways)
-    if (keys.has(way)) given.push_back(way);
-  const auto allowed = "exactly one of " + joined(ways);
+  const auto given = given_ways(keys);
+  const auto allowed = "exactly one of " + joined(ways_to_choose());
   if (given.empty()) {
     keys.refuse_unknown();  // a misspelt key explains more than a missing one
     throw pbd::SetupError(keys.where(), "no choice of nodes", allowed);
@@ -164,12 +177,26 @@ double read_compliance(Keys& keys, std::string_view compliance, std::string_view
   return inverse;
 }
 
-std::string read_name(Keys& keys) {
-  const std::string name = keys.text("name");
+std::optional<Course> read_course(Keys& keys) {
+  if (!keys.has("over_time")) return std::nullopt;
+  Course course;
+  for (const auto& [time, value] : keys.pairs("over_time")) {
+    if (!course.time.empty() && !(time > course.time.back()))
+      keys.refuse("over_time", fmt::format("the time {} after {}", time, course.time.back()),
+                  "times that grow");
+    course.time.push_back(time);
+    course.value.push_back(value);
+  }
+  if (course.time.empty()) keys.refuse("over_time", "an empty list", "at least one [time_s, factor]");
+  return course;
+}
+
+std::string read_name(Keys& keys, std::string_view key) {
+  const std::string name = keys.text(key);
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::islower(c) || std::isdigit(c) || c == '_';
   });
-  if (name.empty() || !plain) keys.refuse("name", "`" + name + "`", "lower case letters, digits and _");
+  if (name.empty() || !plain) keys.refuse(key, "`" + name + "`", "lower case letters, digits and _");
   return name;
 }
 

@@ -10,6 +10,7 @@
 #include "keys.h"
 #include "named.h"
 #include "scene.h"
+#include "script.h"
 
 namespace pbdcheck {
 
@@ -36,6 +37,17 @@ auto located(const std::string& where, Make make) {
   }
 }
 
+/// What the tables of bodies and nodes say of contact, until [contact] is read.
+struct ContactParts {
+  struct Body {
+    int body, material;
+  };
+  std::vector<Body> bodies;
+  pbd::Contact effect;                     // its nodes and triangles
+  std::vector<std::string> materials{""};  // the first is that of all that name none
+  std::string mentioned;                   // where, if a table speaks of contact
+};
+
 struct Builder {
   pbd::Scene scene;
   struct Placed {
@@ -47,6 +59,9 @@ struct Builder {
   double elements = 0;
   std::vector<NamedBody> bodies;   // one a body of the scene
   std::vector<NamedJoint> joints;  // their parts' effects by kind, until the scene is finished
+  ContactParts contact;
+
+  Script script;
 
   void add(int line, pbd::Effect effect) { placed.push_back({line, std::move(effect)}); }
 
@@ -64,6 +79,9 @@ struct Builder {
 
   bool moves(int body) const;
 
+  /// The index of the material that `material` names, 0 if the key is absent.
+  int material(Keys& keys);
+
   /// Moves the effects into the scene, in the file's order.
   pbd::Scene finish();
 };
@@ -75,6 +93,9 @@ struct Builder {
 /// out of range or twice, and a box without nodes. To be called after the table's other keys were read.
 std::vector<int> select_nodes(Keys& keys, const pbd::Scene& scene, const NodeRange& range);
 
+/// True if one of these keys is there.
+bool chooses_nodes(Keys& keys);
+
 /// A compliance or its inverse, the stiffness, whichever of the two keys stands there; 0 if neither does.
 double read_compliance(Keys& keys, std::string_view compliance = "compliance_m_per_n",
                        std::string_view stiffness = "stiffness_n_per_m");
@@ -82,8 +103,11 @@ double read_compliance(Keys& keys, std::string_view compliance = "compliance_m_p
 /// `damping_s`, a constraint's retardation time; 0, no damping, if absent.
 double read_damping(Keys& keys);
 
-/// `name`: lower case letters, digits and _.
-std::string read_name(Keys& keys);
+/// `over_time`, pairs of a time (s) and a factor; nothing if absent.
+std::optional<Course> read_course(Keys& keys);
+
+/// Lower case letters, digits and _.
+std::string read_name(Keys& keys, std::string_view key = "name");
 
 /// The file that `file` names, found relative to the scene file's folder.
 std::filesystem::path mesh_path(Keys& keys);
@@ -103,6 +127,11 @@ void set_damping(Effect& effect, std::size_t first, double time) {
   effect.damping.resize(effect.compliance.size(), time);
 }
 
+/// The sub-table `contact` of a table of nodes: those of `range` it chooses touch rigid bodies, all if it
+/// chooses none, or those of the surface if there is one, whose triangles may touch other surfaces.
+void read_node_contact(Keys& owner, Builder& builder, const NodeRange& range,
+                       const std::vector<std::array<int, 3>>& surface = {});
+
 // One function per kind of table; each reads all tables of its kind below the root.
 void read_particles(Keys& root, Builder& builder);
 void read_chains(Keys& root, Builder& builder);
@@ -118,5 +147,6 @@ void read_distances(Keys& root, Builder& builder);
 void read_bendings(Keys& root, Builder& builder);
 void read_joints(Keys& root, Builder& builder);
 void read_attachments(Keys& root, Builder& builder);
+void read_contact(Keys& root, Builder& builder);
 
 }  // namespace pbdcheck

@@ -6,8 +6,8 @@ extern "C" {
 }
 #undef infinity  // a macro of Qhull's
 
+#include "body_shapes.h"
 #include "error.h"
-#include "shapes.h"
 
 namespace pbdcheck {
 namespace {

@@ -210,6 +210,19 @@ std::vector<double> Keys::numbers_or_one(std::string_view key, std::size_t size,
   return std::vector<double>(size, checked_number(node, key, range));
 }
 
+std::vector<std::array<double, 2>> Keys::pairs(std::string_view key) {
+  constexpr std::string_view allowed = "a list of lists of two numbers";
+  std::vector<std::array<double, 2>> found;
+  for (const auto& node : need_array(key, allowed)) {
+    const toml::array* pair = node.as_array();
+    if (pair == nullptr || pair->size() != 2)
+      throw pbd::SetupError(where_of(&node, key), shown(node), allowed);
+    found.push_back(
+        {checked_number((*pair)[0], key, Range::finite), checked_number((*pair)[1], key, Range::finite)});
+  }
+  return found;
+}
+
 std::vector<int> Keys::integers(std::string_view key, int smallest) {
   std::vector<int> found;
   for (const auto& node : need_array(key, "a list of integers"))

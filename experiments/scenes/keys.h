@@ -54,6 +54,9 @@ class Keys {
   /// The same, or one number repeated `size` times.
   std::vector<double> numbers_or_one(std::string_view key, std::size_t size, Range range);
 
+  /// A list of lists of two numbers.
+  std::vector<std::array<double, 2>> pairs(std::string_view key);
+
   std::vector<int> integers(std::string_view key, int smallest);
 
   /// Lists of `width` integers: one list, or a list of such lists.

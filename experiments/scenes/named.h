@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shapes.h"
+#include "body_shapes.h"
 
 namespace pbdcheck {
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 
+#include "boundary.h"
 #include "builder.h"
 #include "mesh_file.h"
 
@@ -162,6 +163,7 @@ void read_cloths(Keys& root, Builder& builder) {
     set_velocity(keys, builder.scene, range);
     add_cloth_effects(keys, mesh, first, builder);
     hold(keys, builder, range);
+    read_node_contact(keys, builder, range, mesh.triangles);
     keys.refuse_unknown();
   }
 }
@@ -186,6 +188,7 @@ void read_solids(Keys& root, Builder& builder) {
     require_masses(keys, builder.scene, range);
     set_velocity(keys, builder.scene, range);
     hold(keys, builder, range);
+    if (keys.has("contact")) read_node_contact(keys, builder, range, pbd::boundary(mesh));
     keys.refuse_unknown();
   }
 }

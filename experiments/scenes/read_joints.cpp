@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <tuple>
 
 #include "builder.h"
@@ -108,10 +109,39 @@ class JointReader {
     return effect;
   }
 
+  /// Bounds of the last constraint's force; an effect without any stays without.
+  template <class Effect>
+  static void set_bounds(Effect& effect, const pbd::ForceBounds& bounds) {
+    constexpr pbd::ForceBounds none{-pbd::infinity, pbd::infinity};
+    if (bounds == none && effect.bounds.empty()) return;
+    effect.bounds.resize(effect.body.size(), none);
+    effect.bounds.back() = bounds;
+  }
+
   void read_point() {
     const Vec3 place = keys_.vector("point_m");
     point_ = {own_point(0, place), own_point(1, place)};
     joint_.point = point_[1];
+  }
+
+  /// A constraint of rest value `rest`() whose force is at most `strength`, or, if `min_` or `max_` of the
+  /// `quantity` stand there, one a limit, whose force acts from one side; `add`(value, bounds) makes one.
+  template <class Rest, class Add>
+  void add_limited(const std::string& quantity, std::string_view strength, Range range,
+                   std::initializer_list<std::string_view> of_rest, Rest rest, Add add) {
+    const std::string lowest = "min_" + quantity, highest = "max_" + quantity;
+    const bool below = keys_.has(lowest), above = keys_.has(highest);
+    if (!below && !above) {
+      const double most = keys_.number_or(strength, pbd::infinity, Range::positive_or_infinite);
+      return add(rest(), {-most, most});
+    }
+    for (const auto key : of_rest)
+      if (keys_.has(key))
+        keys_.refuse(key, fmt::format("{} and limits", key), "limits alone; a joint of its own for the rest");
+    if (below) add(keys_.number(lowest, range), {0, pbd::infinity});
+    if (above) add(keys_.number(highest, range), {-pbd::infinity, 0});
+    if (below && above && !(keys_.number(lowest, range) < keys_.number(highest, range)))
+      keys_.refuse(highest, "a number above " + lowest);
   }
 
   /// The distance vector of the two places.
@@ -138,35 +168,68 @@ class JointReader {
     effect.axis.push_back({own(0, a), own(1, b)});
   }
 
+  /// A motor's rate, and its factor over time.
+  std::optional<Course> read_rate(std::string_view key, std::vector<double>& rates) {
+    rates.push_back(keys_.number_or(key, 0, Range::finite));
+    auto course = read_course(keys_);
+    if (course && !keys_.has(key))
+      keys_.refuse("over_time", "a course without a rate", fmt::format("{}, which it multiplies", key));
+    return course;
+  }
+
   void add_distance() {
     const double initial = read_points().norm(), compliance = positions();
-    const double rest = keys_.number_or("rest_length_m", initial, Range::not_negative);
-    if (rest == 0 && compliance == 0)
-      throw pbd::SetupError(keys_.where(), "a hard distance of rest length 0",
-                            "a rest length or compliance "
-                            "> 0, or a ball");
-    auto& effect = add<pbd::BodyDistance>(compliance);
-    effect.point.push_back(point_);
-    effect.rest_length.push_back(rest);
+    const auto rest = [&] {
+      const double length = keys_.number_or("rest_length_m", initial, Range::not_negative);
+      if (length == 0 && compliance == 0)
+        throw pbd::SetupError(keys_.where(), "a hard distance of rest length 0",
+                              "a rest length or compliance > 0, or a ball");
+      return length;
+    };
+    add_limited("length_m", "max_force_n", Range::positive, {"rest_length_m", "max_force_n"}, rest,
+                [&](double length, const pbd::ForceBounds& bounds) {
+                  auto& effect = add<pbd::BodyDistance>(compliance);
+                  effect.point.push_back(point_);
+                  effect.rest_length.push_back(length);
+                  set_bounds(effect, bounds);
+                });
   }
 
   void add_slide() {
     const Vec3 gap = read_points(), axis = read_axis(keys_, "axis");
-    auto& effect = add<pbd::SlideJoint>(positions());
-    effect.point.push_back(point_);
-    effect.axis.push_back(own(0, axis));
-    effect.rest_position.push_back(keys_.number_or("rest_position_m", axis.dot(gap), Range::finite));
-    effect.rate.push_back(keys_.number_or("rate_m_s", 0, Range::finite));
+    const auto rest = [&] { return keys_.number_or("rest_position_m", axis.dot(gap), Range::finite); };
+    add_limited("position_m", "max_force_n", Range::finite,
+                {"rest_position_m", "rate_m_s", "over_time", "max_force_n"}, rest,
+                [&](double position, const pbd::ForceBounds& bounds) {
+                  auto& effect = add<pbd::SlideJoint>(positions());
+                  effect.point.push_back(point_);
+                  effect.axis.push_back(own(0, axis));
+                  effect.rest_position.push_back(position);
+                  if (const auto course = read_rate("rate_m_s", effect.rate))
+                    builder_.script.slide(effect.rate.size() - 1, *course);
+                  set_bounds(effect, bounds);
+                });
   }
 
-  /// The angle is zero at the start.
+  /// The angle is zero at the start. A limit knows it modulo 2 pi, within half a turn of itself.
   void add_angle() {
     const Vec3 axis = read_axis(keys_, "axis"), reference = axis.unitOrthogonal();
-    auto& effect = add<pbd::AngleJoint>(rotations());
-    effect.axis.push_back(own(0, axis));
-    effect.reference.push_back({own(0, reference), own(1, reference)});
-    effect.rest_angle.push_back(keys_.number_or("rest_angle_rad", 0, Range::finite));
-    effect.rate.push_back(keys_.number_or("rate_rad_s", 0, Range::finite));
+    const auto rest = [&] { return keys_.number_or("rest_angle_rad", 0, Range::finite); };
+    add_limited("angle_rad", "max_torque_n_m", Range::finite,
+                {"rest_angle_rad", "rate_rad_s", "over_time", "max_torque_n_m"}, rest,
+                [&](double angle, const pbd::ForceBounds& bounds) {
+                  auto& effect = add<pbd::AngleJoint>(rotations());
+                  effect.axis.push_back(own(0, axis));
+                  effect.reference.push_back({own(0, reference), own(1, reference)});
+                  effect.rest_angle.push_back(angle);
+                  if (const auto course = read_rate("rate_rad_s", effect.rate))
+                    builder_.script.angle(effect.rate.size() - 1, *course);
+                  set_bounds(effect, bounds);
+                });
+    if (keys_.has("min_angle_rad") && keys_.has("max_angle_rad") &&
+        keys_.number("max_angle_rad", Range::finite) - keys_.number("min_angle_rad", Range::finite) >=
+            std::numbers::pi)
+      keys_.refuse("max_angle_rad", "an angle less than half a turn, pi, above min_angle_rad");
   }
 
   Keys& keys_;

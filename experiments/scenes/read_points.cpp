@@ -34,7 +34,9 @@ void read_particle_arrays(Keys& keys, Builder& builder) {
       moving ? keys.vectors("velocity_m_s") : std::vector<pbd::Vec3>(x.size(), pbd::Vec3::Zero().eval());
   if (v.size() != x.size())
     keys.refuse("velocity_m_s", fmt::format("{} velocities", v.size()), fmt::format("{}", x.size()));
+  const NodeRange range{builder.scene.nodes(), static_cast<int>(x.size())};
   for (std::size_t i = 0; i < x.size(); ++i) pbd::add_node(builder.scene, x[i], mass[i], v[i]);
+  read_node_contact(keys, builder, range);
   keys.refuse_unknown();
 }
 
@@ -65,7 +67,6 @@ Chain read_chain(Keys& keys, Builder& builder) {
   chain.compliance = read_compliance(keys);
   chain.damping = read_damping(keys);
   chain.hold = keys.choice_or("start", "anchored", {"anchored", "fixed", "free"});
-  keys.refuse_unknown();
   return chain;
 }
 
@@ -98,16 +99,23 @@ void add_chain(const Keys& keys, const Chain& chain, Builder& builder) {
 
 void read_particles(Keys& root, Builder& builder) {
   for (auto& keys : root.tables("particle")) {
-    pbd::add_node(builder.scene, keys.vector("position_m"),
-                  keys.number("mass_kg", Range::positive_or_infinite),
-                  keys.vector_or("velocity_m_s", pbd::Vec3::Zero()));
+    const int node = pbd::add_node(builder.scene, keys.vector("position_m"),
+                                   keys.number("mass_kg", Range::positive_or_infinite),
+                                   keys.vector_or("velocity_m_s", pbd::Vec3::Zero()));
+    read_node_contact(keys, builder, {node, 1});
     keys.refuse_unknown();
   }
   for (auto& keys : root.tables("particles")) read_particle_arrays(keys, builder);
 }
 
 void read_chains(Keys& root, Builder& builder) {
-  for (auto& keys : root.tables("chain")) add_chain(keys, read_chain(keys, builder), builder);
+  for (auto& keys : root.tables("chain")) {
+    const Chain chain = read_chain(keys, builder);
+    const NodeRange range{builder.scene.nodes(), chain.links + 1};
+    add_chain(keys, chain, builder);
+    read_node_contact(keys, builder, range);
+    keys.refuse_unknown();
+  }
 }
 
 void read_gravity(Keys& root, Builder& builder) {
@@ -125,7 +133,9 @@ void read_forces(Keys& root, Builder& builder) {
     const pbd::Vec3 force = keys.vector("force_n");
     const auto nodes = keys.has("body") ? std::vector<int>{body_node(keys, builder)}
                                         : select_nodes(keys, builder.scene, numbered_nodes(builder.scene));
+    const auto course = read_course(keys);
     for (const int node : nodes) {
+      if (course) builder.script.force(effect.node.size(), *course);
       effect.node.push_back(node);
       effect.force.push_back(force);
     }

@@ -6,6 +6,7 @@
 
 #include "builder.h"
 #include "choices.h"
+#include "contact_sums.h"
 #include "integrators.h"
 #include "names.h"
 #include "read_probes.h"
@@ -13,13 +14,30 @@
 namespace pbdcheck {
 namespace {
 
-int named_body(Keys& keys, const SceneFile& file) {
+int named_body(Keys& keys, const SceneFile& file, std::string_view key = "body") {
   std::vector<std::string> names;
   for (const auto& body : file.bodies) names.push_back(body.name);
-  const auto name = keys.text("body");
-  if (names.empty()) keys.refuse("body", "`" + name + "`", "a [[rigid_body]], of which the scene has none");
-  return static_cast<int>(std::find(names.begin(), names.end(), keys.choice_or("body", "", names)) -
+  const auto name = keys.text(key);
+  if (names.empty()) keys.refuse(key, "`" + name + "`", "a [[rigid_body]], of which the scene has none");
+  return static_cast<int>(std::find(names.begin(), names.end(), keys.choice_or(key, "", names)) -
                           names.begin());
+}
+
+int touching_body(Keys& keys, const SceneFile& file, std::string_view key) {
+  const int body = named_body(keys, file, key);
+  for (const auto& collider : contact_of(file.scene)->collider)
+    if (collider.body == body) return body;
+  keys.refuse(key, "`" + keys.text(key) + "`, which touches nothing", "a body that takes part in contact");
+}
+
+/// The bodies of `body` and `other`, if the latter is there; returns the name of them.
+std::string read_touching(Keys& keys, const SceneFile& file, Probe& probe) {
+  probe.body = touching_body(keys, file, "body");
+  const auto name = file.bodies[static_cast<std::size_t>(probe.body)].name;
+  if (!keys.has("other")) return name;
+  probe.other = touching_body(keys, file, "other");
+  if (probe.other == probe.body) keys.refuse("other", "`" + name + "` twice", "another body");
+  return name + "_" + file.bodies[static_cast<std::size_t>(probe.other)].name;
 }
 
 /// The joint that `joint` names.
@@ -63,6 +81,8 @@ Probe read_probe(Keys& keys, const SceneFile& file) {
   Probe probe;
   probe.kind = keys.choice_or("kind", "", kinds);
   const bool named = keys.has("name");
+  if (probe.kind.starts_with("contact") && contact_of(file.scene) == nullptr)
+    keys.refuse("kind", "`" + probe.kind + "`", "another kind: the scene has no table [contact]");
   if (probe.kind == "position" || probe.kind == "velocity") {
     probe.name = read_place(keys, file, probe);
   } else if (probe.kind == "orientation" || probe.kind == "angular_velocity") {
@@ -71,6 +91,8 @@ Probe read_probe(Keys& keys, const SceneFile& file) {
   } else if (probe.kind == "joint_force") {
     probe.joint = named_joint(keys, file);
     probe.name = file.joints[probe.joint].name;
+  } else if (probe.kind == "contact_force") {
+    probe.name = read_touching(keys, file, probe);
   }
   if (named) probe.name = read_name(keys);
   keys.refuse_unknown();

@@ -28,21 +28,24 @@ pbd::TriangleMesh scaled(Keys& keys, pbd::TriangleMesh mesh) {
 
 Shape read_shape(Keys& keys, Builder& builder) {
   if (!keys.has("shape")) return {};
-  const auto kind = keys.choice_or("shape", "", {"sphere", "box", "cylinder", "capsule", "mesh", "hull"});
+  const auto kind =
+      keys.choice_or("shape", "", {"sphere", "box", "cylinder", "capsule", "mesh", "hull", "half_space"});
+  if (kind == "half_space") return HalfSpace{};
   if (kind == "box") {
     const auto size = keys.numbers("size_m", 3, Range::positive);
     return Box{{size[0], size[1], size[2]}};
   }
   if (kind == "mesh" || kind == "hull") {
     const auto path = mesh_path(keys);
-    if (kind == "mesh") {
-      ClosedMesh mesh{scaled(keys, read_triangle_mesh(path))};
-      builder.reserve(keys, "file", static_cast<double>(mesh.surface.triangles.size()));
-      return mesh;
-    }
-    Hull hull{located(mesh_name(keys), [&] { return convex_hull(read_mesh_nodes(path)); })};
-    hull.surface = scaled(keys, std::move(hull.surface));
-    return hull;
+    auto surface = kind == "mesh"
+                       ? read_triangle_mesh(path)
+                       : located(mesh_name(keys), [&] { return convex_hull(read_mesh_nodes(path)); });
+    surface = scaled(keys, std::move(surface));
+    if (kind == "mesh") builder.reserve(keys, "file", static_cast<double>(surface.triangles.size()));
+    return located(mesh_name(keys), [&]() -> Shape {
+      if (kind == "hull") return ConvexHull(std::move(surface));
+      return ClosedMesh(std::move(surface));
+    });
   }
   const double radius = keys.number("radius_m", Range::positive);
   if (kind == "sphere") return Sphere{radius};
@@ -77,6 +80,13 @@ Inertia read_shape_inertia(Keys& keys, const Shape& shape, bool held) {
   return inertia;
 }
 
+/// A half space is fixed, and needs none.
+Inertia read_no_inertia(Keys& keys) {
+  for (const auto* key : {"density_kg_m3", "mass_kg", "inertia_kg_m2"})
+    if (keys.has(key)) keys.refuse(key, "a mass of a half space", "none: it is fixed");
+  return {1};
+}
+
 Inertia read_given_inertia(Keys& keys, bool held) {
   if (keys.has("density_kg_m3"))
     keys.refuse("density_kg_m3", "a density without a shape", "mass_kg and inertia_kg_m2, or a shape");
@@ -108,14 +118,34 @@ Motion read_motion(Keys& keys, const std::string& hold) {
           keys.vector_or("angular_velocity_rad_s", pbd::Vec3::Zero())};
 }
 
+/// What touches others is the shape; `contact = false` keeps it out.
+void read_body_contact(Keys& keys, Builder& builder, bool shaped) {
+  for (const auto* key : {"material", "contact"})
+    if (!shaped && keys.has(key)) keys.refuse(key, "contact without a shape", "a body with a shape");
+  const int material = builder.material(keys);
+  if (keys.has("contact")) builder.contact.mentioned = keys.where();
+  if (shaped && keys.flag_or("contact", true))
+    builder.contact.bodies.push_back({static_cast<int>(builder.bodies.size()), material});
+}
+
 void read_rigid_body(Keys& keys, Builder& builder) {
   const auto name = read_body_name(keys, builder);
-  const auto hold = keys.choice_or("held", "free", {"free", "fixed", "moving"});
-  const bool held = hold != "free";
   Shape shape = read_shape(keys, builder);
-  const bool shaped = shape.index() != 0;
-  Inertia inertia = shaped ? read_shape_inertia(keys, shape, held) : read_given_inertia(keys, held);
+  const bool shaped = shape.index() != 0, endless = std::holds_alternative<HalfSpace>(shape);
+  const auto hold = keys.choice_or("held", endless ? "fixed" : "free", {"free", "fixed", "moving"});
+  const bool held = hold != "free";
+  if (endless && hold != "fixed") keys.refuse("held", "a half space that moves", "held = \"fixed\"");
+  Inertia inertia = endless  ? read_no_inertia(keys)
+                    : shaped ? read_shape_inertia(keys, shape, held)
+                             : read_given_inertia(keys, held);
+  read_body_contact(keys, builder, shaped);
   const Motion motion = read_motion(keys, hold);
+  if (const auto course = read_course(keys)) {
+    if (hold != "moving")
+      keys.refuse("over_time", fmt::format("a course of a body with held = \"{}\"", hold),
+                  "held = \"moving\", or a [[force]] or a [[joint]] with over_time");
+    builder.script.body(builder.bodies.size(), *course);
+  }
 
   Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();  // shape's frame to world
   placed.linear() = read_rotation(keys);
@@ -159,6 +189,7 @@ void read_torques(Keys& root, Builder& builder) {
   pbd::ExternalTorque effect;
   for (auto& keys : tables) {
     effect.body.push_back(builder.body(keys, "body"));
+    if (const auto course = read_course(keys)) builder.script.torque(effect.body.size() - 1, *course);
     effect.torque.push_back(keys.vector("torque_n_m"));
     keys.refuse_unknown();
   }

@@ -38,6 +38,7 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.integrator = keys.choice_or("integrator", method.integrator, integrator_choices());
   method.outer = keys.choice_or("outer", method.outer, outer_choices());
   method.relaxation = keys.choice_or("relaxation", method.relaxation, relaxation_choices());
+  method.friction = keys.choice_or("friction", method.friction, friction_choices());
   method.tolerance = keys.number_or("tolerance", method.tolerance, Range::not_negative);
   method.max_outer = keys.integer_or("max_outer", method.max_outer, 1);
   method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);
@@ -62,7 +63,7 @@ void read_scene(Keys& root, SceneFile& found) {
   Builder builder;
   for (const auto read : {read_particles, read_chains, read_cloths, read_solids, read_rigid_bodies,
                           read_gravity, read_gyroscopic, read_forces, read_torques, read_anchors,
-                          read_distances, read_bendings, read_joints, read_attachments})
+                          read_distances, read_bendings, read_joints, read_attachments, read_contact})
     read(root, builder);
   if (builder.scene.nodes() == 0) {
     root.refuse_unknown();
@@ -74,6 +75,7 @@ void read_scene(Keys& root, SceneFile& found) {
     throw pbd::SetupError(root.file(), "a scene in which every node has infinite mass",
                           "a node that can move");
   found.scene = builder.finish();
+  found.script = std::move(builder.script);
   found.bodies = std::move(builder.bodies);
   found.joints = std::move(builder.joints);
 }
@@ -110,10 +112,11 @@ pbd::Method parse_method(const std::string& settings, pbd::Method base, const st
 std::string method_text(const pbd::Method& m) {
   const std::string own_family = m.beta ? fmt::format(" beta={} gamma={}", *m.beta, *m.gamma) : "";
   return fmt::format(
-      "integrator={} outer={} relaxation={} tolerance={} max_outer={} max_sweeps={} inner_tolerance={} "
-      "warm_start={} memory={} alpha={}{} rho={} direction_blend={} stabilisation={}",
-      m.integrator, m.outer, m.relaxation, m.tolerance, m.max_outer, m.max_sweeps, m.inner_tolerance,
-      m.warm_start, m.memory, m.alpha, own_family, m.rho, m.direction_blend, m.stabilisation);
+      "integrator={} outer={} relaxation={} friction={} tolerance={} max_outer={} max_sweeps={} "
+      "inner_tolerance={} warm_start={} memory={} alpha={}{} rho={} direction_blend={} stabilisation={}",
+      m.integrator, m.outer, m.relaxation, m.friction, m.tolerance, m.max_outer, m.max_sweeps,
+      m.inner_tolerance, m.warm_start, m.memory, m.alpha, own_family, m.rho, m.direction_blend,
+      m.stabilisation);
 }
 
 }  // namespace pbdcheck

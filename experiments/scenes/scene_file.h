@@ -11,6 +11,7 @@
 
 #include "named.h"
 #include "scene.h"
+#include "script.h"
 #include "step.h"
 
 namespace pbdcheck {
@@ -21,16 +22,18 @@ struct Probe {
   std::string name;  // begins the names of its columns
   int node = 0;
   int body = -1;                        // none
+  int other = -1;                       // of contact with this body alone
   pbd::Vec3 point = pbd::Vec3::Zero();  // in the body's frame
   std::size_t joint = 0;
 };
-inline constexpr std::array<std::string_view, 8> probe_kinds{
-    "position", "velocity",    "orientation", "angular_velocity",
-    "energy",   "joint_force", "momentum",    "constraint_error"};
+inline constexpr std::array<std::string_view, 10> probe_kinds{
+    "position",    "velocity", "orientation",      "angular_velocity", "energy",
+    "joint_force", "momentum", "constraint_error", "contact_force",    "contacts"};
 
 struct SceneFile {
   std::string description;  // one line, shown by `pbdcheck list scenes`
   pbd::Scene scene;
+  Script script;                  // what of the scene changes with time
   std::vector<NamedBody> bodies;  // one a rigid body of the scene
   std::vector<NamedJoint> joints;
   double step_s = 0;

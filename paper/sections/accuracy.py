@@ -9,7 +9,7 @@ def judges(results):
         "Do the judges agree?",
         "Two references solve the same step: Newton's method with sparse factorisations, and an interior point method. "
         "They share the statement of masses, energies and constraints, and nothing of the solver under test. How far apart "
-        "are their solutions?",
+        "are their solutions? Where rigid bodies are joined, the solver's own step stands beside them.",
         figures=[Figure("judges_agreement", "Relative difference of the positions found by the references, and the residual "
                         "each claims, by family of scenes. The table has every step.")])
     frame = results.table("judges", "agreement")

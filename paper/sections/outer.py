@@ -76,19 +76,24 @@ def rescued_text(errors):
 def stability_map(results):
     section = Section(
         "Where does each outer iteration find the step?",
-        "A swinging chain over step and mass ratio, a cantilever released from rest over step and stiffness; every linear "
+        "A swinging chain of links and one of rods with ball joints over step and mass ratio, a cantilever released from rest over step and stiffness; every linear "
         "problem is solved directly, so that the outer iteration alone is seen. Where does it find the step, in how many "
         "iterations, and does the solver's own prediction tell where `plain` converges?",
         figures=[
             Figure("stability_map_chain", "Outer iterations until the error against Newton is 1e-8, chain of 20 links. Marks "
                    "stand where that is not reached. Dashed: where the solver predicts a contraction of 1 for `plain`."),
+            Figure("stability_map_rods", "The same for the chain of 10 rods."),
             Figure("stability_map_cantilever", "The same for the cantilever, over Young's modulus."),
+            Figure("stability_map_cantilevers", "Cantilevers of 192 and 1536 tetrahedra (full tier): the error against Newton of "
+                   "`auto`, and of an iterative relaxation after at most 1e5 sweeps. Dashed: 1e-10."),
             Figure("stability_map_predictions", "The solver's prediction of the contraction of `plain`, made at the end of the "
                    "step by `auto`, against the dense spectral radius. Where its bound is at most 0.7 it is not refined."),
             Figure("stability_map_cost", "What `auto` costs where `plain` contracts, in row updates of the chain and wall time of "
                    "the cantilever, where `auto` takes `quasi_newton`; the prediction that both make at the step's end included.")])
     section.tell(results.table("stability_map", "chain20"), partial(solved_text, cell=["mass_ratio", "step_s"]))
+    section.tell(results.table("stability_map", "rods10"), partial(solved_text, cell=["mass_ratio", "step_s"]))
     section.tell(results.table("stability_map", "cantilever"), partial(solved_text, cell=["young_pa", "step_s"]))
+    section.tell(results.table("stability_map", "cantilevers"), cantilevers_text)
     section.tell(results.table("stability_map", "predictions"), predictions_text)
     return section.tell(results.table("stability_map", "cost"), cost_text)
 
@@ -105,6 +110,14 @@ def solved_text(frame, cell):
     cells = counted(len(frame[cell].drop_duplicates()), "cell")
     text = f"Of {cells} of `{frame['scene'].iloc[0]}` these find the step: {'; '.join(parts)}."
     return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
+
+
+def cantilevers_text(frame):
+    """The errors of each method on each solid, and how many of its steps are not ok."""
+    parts = [f"`{scene}` by `{outer}` with `{relaxation}` {span(rows['error_final'])}"
+             f" ({counted(len(failed(rows, 'error_final')), 'cell')} of {len(rows)} not ok)"
+             for (scene, outer, relaxation), rows in frame.groupby(["scene", "outer", "relaxation"], sort=False)]
+    return f"Errors at the end of the step: {'; '.join(parts)}."
 
 
 def predictions_text(frame):
@@ -132,9 +145,10 @@ def cost_text(frame):
 def contraction(results):
     section = Section(
         "Is each effect's contraction the predicted one?",
-        "Small bodies of one effect each, loaded so that their geometric stiffness matters. The rate of `plain`, measured "
-        "beside the solution, is compared with the dense spectral radius, with the solver's own prediction, and with its bound "
-        "for the effect.",
+        "Small bodies of one effect each, loaded so that their geometric stiffness matters; of joints, three rods on balls "
+        "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain`, measured beside the solution, is "
+        "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect, to which "
+        "of rods half the angle that they turn in the step is added.",
         figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "

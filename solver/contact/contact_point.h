@@ -16,15 +16,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "geometry.h"
+
 namespace pbd {
-
-/// Takes a body's (or a shape's) frame to the world's (or the body's): x = origin + rotation x'.
-struct Frame {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // m
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-
-  Eigen::Vector3d place(const Eigen::Vector3d& point) const { return origin + rotation * point; }
-};
 
 struct ContactPoint {
   enum class Kind : std::uint8_t { face, point, line, edges };

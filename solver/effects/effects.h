@@ -1,5 +1,5 @@
-// The list of effects the solver can compute. Every alternative of `Effect` must be one of the two kinds; a
-// new one that states neither Constraint<> nor Force<> does not compile.
+// The list of effects the solver can compute. Every alternative of `Effect` but contact (contact_rows.h) must
+// be one of the two kinds; a new one that states neither Constraint<> nor Force<> does not compile.
 #pragma once
 
 #include "effects/anchor.h"
@@ -16,11 +16,13 @@
 
 namespace pbd {
 
+template <class Effect>
+inline constexpr bool is_stated =
+    (RowEffect<Effect> != ForceEffect<Effect>) || std::is_same_v<Effect, Contact>;
 template <class Variant>
 inline constexpr bool every_effect_is_stated = false;
 template <class... Effects>
-inline constexpr bool every_effect_is_stated<std::variant<Effects...>> = ((RowEffect<Effects> !=
-                                                                           ForceEffect<Effects>)&&...);
+inline constexpr bool every_effect_is_stated<std::variant<Effects...>> = (is_stated<Effects> && ...);
 static_assert(every_effect_is_stated<Effect>, "an effect needs either Constraint<> or Force<>");
 
 }  // namespace pbd

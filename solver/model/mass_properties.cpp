@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "error.h"
@@ -14,22 +13,6 @@ constexpr double pi = std::numbers::pi;
 
 MassProperties diagonal(double mass, const Vec3& moments) {
   return {mass, Vec3::Zero(), moments.asDiagonal()};
-}
-
-/// Every edge is passed once in each direction.
-void require_closed(const TriangleMesh& surface) {
-  std::map<std::array<int, 2>, int> balance;
-  for (const auto& triangle : surface.triangles)
-    for (std::size_t a = 0; a < 3; ++a) {
-      const int from = triangle[a], to = triangle[(a + 1) % 3];
-      balance[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : 1000;
-    }
-  for (const auto& [edge, passed] : balance)
-    if (passed != 1001)
-      throw SetupError("surface",
-                       "edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]) + " of " +
-                           std::to_string(passed % 1000 + passed / 1000) + " triangles",
-                       "a closed surface: two triangles an edge, passing it in opposite directions");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //   inertia = integral of density (|x|^2 1 - x x^T) about the centre of mass
 #pragma once
 
-#include "mesh.h"
+#include "polyhedron.h"
 
 namespace pbd {
 

@@ -142,7 +142,7 @@ int add_solid(Scene& scene, const TetMesh& mesh, double density, const Material&
   const int first = scene.nodes();
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
     const auto rest = columns(mesh.x, mesh.tets[i]);
-    require_proper(rest, "tetrahedron " + std::to_string(i));
+    require_proper(rest, "tetrahedron ", i);
     const double volume = tet_volume(rest);
     for (const int node : mesh.tets[i]) mass[static_cast<std::size_t>(node)] += density * volume / 4;
     effect.node.push_back(shifted(mesh.tets[i], first));
@@ -157,7 +157,7 @@ int add_sheet_nodes(Scene& scene, const TriangleMesh& mesh, double area_density)
   std::vector<double> mass(static_cast<std::size_t>(mesh.x.cols()), 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Eigen::Matrix3d rest = columns(mesh.x, mesh.triangles[i]);
-    require_proper(rest, "triangle " + std::to_string(i));
+    require_proper(rest, "triangle ", i);
     const double area = triangle_area(rest);
     for (const int node : mesh.triangles[i]) mass[static_cast<std::size_t>(node)] += area_density * area / 3;
   }

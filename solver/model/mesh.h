@@ -13,12 +13,6 @@ struct TetMesh {
   std::vector<std::array<int, 4>> tets;
 };
 
-/// Triangles, anticlockwise seen from the side of the normal. Positions in m.
-struct TriangleMesh {
-  Points x;
-  std::vector<std::array<int, 3>> triangles;
-};
-
 /// Box of `size` (m) with a corner at `origin`, cut into cells[0] x cells[1] x cells[2] bricks of six
 /// tetrahedra each around the diagonal (0,0,0)-(1,1,1) (Kuhn's subdivision). Node (i,j,k) has index i +
 /// (cells[0]+1) * (j + (cells[1]+1) * k).

@@ -12,18 +12,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "geometry.h"
+#include "shapes.h"
+
 namespace pbd {
-
-using Vec3 = Eigen::Vector3d;
-using Points = Eigen::Matrix3Xd;  // one column a node
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Positions x (m) and velocities v (m/s) of all nodes, 3 x N each, at `time` (s). Of each rigid body the
 /// orientation, which takes its frame to the world's, and the angular velocity in its own frame (3 x B,
@@ -250,9 +247,57 @@ struct Attachment {
   std::vector<double> damping{};
 };
 
-using Effect = std::variant<Gravity, ExternalForce, Anchor, Distance, Bending, TriangleStrain, TetStrain,
-                            ExternalTorque, Gyroscopic, PointJoint, AxisJoint, PerpendicularJoint,
-                            RotationJoint, LineJoint, BodyDistance, AngleJoint, SlideJoint, Attachment>;
+/// What two materials do where they touch: Coulomb's coefficient of friction; the share of the approaching
+/// speed that comes back where they collide; compliance (m/N) and retardation time (s) of the gap.
+struct ContactLaw {
+  double friction = 0.5;
+  double restitution = 0;
+  double compliance = 0;
+  double damping = 0;
+};
+
+/// A shape that may touch others, in a frame of its rigid body.
+struct Collider {
+  Shape shape;
+  int body = 0;
+  Frame frame{};
+  int material = 0;
+};
+
+/// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
+/// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`.
+/// Two colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch.
+/// `law` has an entry for each pair of materials, row by row of a symmetric table. Gaps g >= 0 at the end of
+/// each step; where one begins with overlap, the shapes part by at most `recovery` (m/s). Pairs take part
+/// that are nearer than their motions go, and `margin` (m).
+struct Contact {
+  static constexpr std::string_view name = "contact";
+  std::vector<Collider> collider;
+  std::vector<int> node{};
+  std::vector<double> radius{};
+  std::vector<int> node_material{};
+  std::vector<std::array<int, 3>> triangle{};  // of nodes
+  double thickness = 1e-3;                     // m
+  int surface_material = 0;
+  int materials = 1;
+  std::vector<ContactLaw> law{ContactLaw{}};
+  std::vector<std::array<int, 2>> apart{};
+  double margin = 0;
+  double recovery = infinity;
+
+  /// Of the material of collider or node k, nodes behind the colliders.
+  int material(std::size_t k) const {
+    return k < collider.size() ? collider[k].material : node_material[k - collider.size()];
+  }
+  const ContactLaw& between(std::size_t first, std::size_t second) const {
+    return law[static_cast<std::size_t>(material(first) * materials + material(second))];
+  }
+};
+
+using Effect =
+    std::variant<Gravity, ExternalForce, Anchor, Distance, Bending, TriangleStrain, TetStrain, ExternalTorque,
+                 Gyroscopic, PointJoint, AxisJoint, PerpendicularJoint, RotationJoint, LineJoint,
+                 BodyDistance, AngleJoint, SlideJoint, Attachment, Contact>;
 
 /// `mass` in kg, one per node; infinite mass keeps the node's velocity as it is.
 /// The order of `effects` is the order of Gauss-Seidel.

@@ -32,8 +32,20 @@ std::string text(const Vec3& value) {
   return "(" + text(value.x()) + ", " + text(value.y()) + ", " + text(value.z()) + ")";
 }
 
-void require(bool holds, const std::string& where, const std::string& value, std::string_view allowed) {
-  if (!holds) throw SetupError(where, value, allowed);
+/// Throws the SetupError of these arguments unless it holds. A macro, so that the texts of errors are made
+/// where one occurs and nowhere else: every workspace validates its scene.
+#define REQUIRE(holds, ...)                      \
+  do {                                           \
+    if (!(holds)) throw SetupError(__VA_ARGS__); \
+  } while (false)
+
+bool is_unit(const Eigen::Quaterniond& q) {
+  constexpr double slack = 1e-9;
+  return std::abs(q.norm() - 1) <= slack;
+}
+
+std::string norm_of(const Eigen::Quaterniond& q) {
+  return "a quaternion of norm " + text(q.norm());
 }
 
 /// Checks of one effect; `name` is its position and kind in the scene, as in "effects[2] distance".
@@ -47,12 +59,12 @@ struct EffectCheck {
 
   template <class Entries>
   void same_size(std::size_t expected, const Entries& entries, std::string_view field) const {
-    require(entries.size() == expected, name + " " + std::string(field), text(entries.size()) + " entries",
+    REQUIRE(entries.size() == expected, name + " " + std::string(field), text(entries.size()) + " entries",
             "one entry per constraint, " + text(expected));
   }
 
-  void node_index(int node, const std::string& where) const {
-    require(node >= 0 && node < scene.nodes(), where, text(node),
+  void node_index(int node, std::size_t i) const {
+    REQUIRE(node >= 0 && node < scene.nodes(), at(i, "node"), text(node),
             "a node index from 0 to " + text(scene.nodes() - 1));
   }
 
@@ -60,36 +72,36 @@ struct EffectCheck {
   void node_indices(const std::vector<std::array<int, K>>& node) const {
     for (std::size_t i = 0; i < node.size(); ++i)
       for (std::size_t a = 0; a < K; ++a) {
-        node_index(node[i][a], at(i, "node"));
+        node_index(node[i][a], i);
         for (std::size_t b = 0; b < a; ++b)
-          require(node[i][a] != node[i][b], at(i, "node"), text(node[i][a]) + " twice", "different nodes");
+          REQUIRE(node[i][a] != node[i][b], at(i, "node"), text(node[i][a]) + " twice", "different nodes");
       }
   }
 
   void node_indices(const std::vector<int>& node) const {
-    for (std::size_t i = 0; i < node.size(); ++i) node_index(node[i], at(i, "node"));
+    for (std::size_t i = 0; i < node.size(); ++i) node_index(node[i], i);
   }
 
   void not_negative(const std::vector<double>& values, std::string_view field) const {
     for (std::size_t i = 0; i < values.size(); ++i)
-      require(values[i] >= 0 && std::isfinite(values[i]), at(i, field), text(values[i]),
+      REQUIRE(values[i] >= 0 && std::isfinite(values[i]), at(i, field), text(values[i]),
               "a finite number >= 0");
   }
 
   void finite(const std::vector<double>& values, std::string_view field) const {
     for (std::size_t i = 0; i < values.size(); ++i)
-      require(std::isfinite(values[i]), at(i, field), text(values[i]), "a finite number");
+      REQUIRE(std::isfinite(values[i]), at(i, field), text(values[i]), "a finite number");
   }
 
   void finite(const std::vector<Vec3>& values, std::string_view field) const {
     for (std::size_t i = 0; i < values.size(); ++i)
-      require(values[i].allFinite(), at(i, field), text(values[i]), "finite numbers");
+      REQUIRE(values[i].allFinite(), at(i, field), text(values[i]), "finite numbers");
   }
 
   void material(const Material& m, bool may_be_rigid) const {
-    require(m.young > 0 && (may_be_rigid || std::isfinite(m.young)), name + " young", text(m.young),
+    REQUIRE(m.young > 0 && (may_be_rigid || std::isfinite(m.young)), name + " young", text(m.young),
             may_be_rigid ? "a number > 0, Pa (inf for a rigid one)" : "a finite number > 0, Pa");
-    require(m.poisson > -1 && m.poisson < 0.5, name + " poisson", text(m.poisson), "-1 < poisson < 0.5");
+    REQUIRE(m.poisson > -1 && m.poisson < 0.5, name + " poisson", text(m.poisson), "-1 < poisson < 0.5");
   }
 
   void retardation_times(std::size_t constraints, const std::vector<double>& damping) const {
@@ -101,13 +113,13 @@ struct EffectCheck {
   void viscosity(const std::optional<Material>& damping, const Material& elastic) const {
     if (!damping) return;
     EffectCheck{scene, name + " damping"}.material(*damping, false);
-    require(std::isfinite(elastic.young), name + " damping", "moduli of a rigid material",
+    REQUIRE(std::isfinite(elastic.young), name + " damping", "moduli of a rigid material",
             "damping of a finite young");
   }
 
-  void body_index(int body, const std::string& where) const {
+  void body_index(int body, std::size_t i) const {
     const auto count = static_cast<int>(scene.bodies.size());
-    require(body >= 0 && body<count, where, text(body), count> 0
+    REQUIRE(body >= 0 && body<count, at(i, "body"), text(body), count> 0
                 ? "a rigid body's index from 0 to " + text(count - 1)
                 : "no body: the scene has none");
   }
@@ -117,8 +129,8 @@ struct EffectCheck {
   void joint(const Joint& effect) const {
     const std::size_t count = effect.body.size();
     for (std::size_t i = 0; i < count; ++i) {
-      for (const int body : effect.body[i]) body_index(body, at(i, "body"));
-      require(effect.body[i][0] != effect.body[i][1], at(i, "body"), text(effect.body[i][0]) + " twice",
+      for (const int body : effect.body[i]) body_index(body, i);
+      REQUIRE(effect.body[i][0] != effect.body[i][1], at(i, "body"), text(effect.body[i][0]) + " twice",
               "two different bodies");
     }
     same_size(count, effect.compliance, "compliance");
@@ -129,7 +141,7 @@ struct EffectCheck {
         same_size(count, effect.bounds, "bounds");
         for (std::size_t i = 0; i < count; ++i) {
           const auto [lower, upper] = effect.bounds[i];
-          require(lower <= 0 && upper >= 0 && lower < upper, at(i, "bounds"),
+          REQUIRE(lower <= 0 && upper >= 0 && lower < upper, at(i, "bounds"),
                   "(" + text(lower) + ", " + text(upper) + ")", "a lower one <= 0 and an upper one >= 0");
         }
       }
@@ -137,32 +149,32 @@ struct EffectCheck {
       same_size(count, effect.point, "point");
       for (std::size_t i = 0; i < count; ++i)
         for (const Vec3& point : effect.point[i])
-          require(point.allFinite(), at(i, "point"), text(point), "finite numbers");
+          REQUIRE(point.allFinite(), at(i, "point"), text(point), "finite numbers");
     }
     if constexpr (requires { effect.axis; }) {
       same_size(count, effect.axis, "axis");
-      for (std::size_t i = 0; i < count; ++i) unit(effect.axis[i], at(i, "axis"));
+      for (std::size_t i = 0; i < count; ++i) unit(effect.axis[i], i, "axis");
     }
   }
 
-  void unit(const Vec3& vector, const std::string& where) const {
+  void unit(const Vec3& vector, std::size_t i, std::string_view field) const {
     constexpr double slack = 1e-9;
-    require(std::abs(vector.norm() - 1) <= slack, where, text(vector), "a vector of length 1");
+    REQUIRE(std::abs(vector.norm() - 1) <= slack, at(i, field), text(vector), "a vector of length 1");
   }
-  void unit(const std::array<Vec3, 2>& pair, const std::string& where) const {
-    for (const Vec3& vector : pair) unit(vector, where);
+  void unit(const std::array<Vec3, 2>& pair, std::size_t i, std::string_view field) const {
+    for (const Vec3& vector : pair) unit(vector, i, field);
   }
 
   void operator()(const ExternalTorque& effect) const {
     same_size(effect.body.size(), effect.torque, "torque");
-    for (std::size_t i = 0; i < effect.body.size(); ++i) body_index(effect.body[i], at(i, "body"));
+    for (std::size_t i = 0; i < effect.body.size(); ++i) body_index(effect.body[i], i);
     finite(effect.torque, "torque");
   }
 
   void operator()(const Gyroscopic&) const {
     int count = 0;
     for (const Effect& effect : scene.effects) count += std::holds_alternative<Gyroscopic>(effect);
-    require(count == 1, name, text(count) + " of them", "one in a scene");
+    REQUIRE(count == 1, name, text(count) + " of them", "one in a scene");
   }
 
   void operator()(const PointJoint& effect) const { joint(effect); }
@@ -173,7 +185,8 @@ struct EffectCheck {
   void operator()(const RotationJoint& effect) const {
     joint(effect);
     same_size(effect.body.size(), effect.rest, "rest");
-    for (std::size_t i = 0; i < effect.rest.size(); ++i) quaternion(effect.rest[i], at(i, "rest"));
+    for (std::size_t i = 0; i < effect.rest.size(); ++i)
+      REQUIRE(is_unit(effect.rest[i]), at(i, "rest"), norm_of(effect.rest[i]), "norm 1");
   }
 
   void operator()(const BodyDistance& effect) const {
@@ -181,7 +194,7 @@ struct EffectCheck {
     same_size(effect.body.size(), effect.rest_length, "rest_length");
     not_negative(effect.rest_length, "rest_length");
     for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
-      require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
+      REQUIRE(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
               "0 and compliance 0", "a rest length > 0 for a link without compliance, or a point_joint");
   }
 
@@ -193,9 +206,9 @@ struct EffectCheck {
     finite(effect.rest_angle, "rest_angle");
     finite(effect.rate, "rate");
     for (std::size_t i = 0; i < effect.reference.size(); ++i) {
-      unit(effect.reference[i], at(i, "reference"));
+      unit(effect.reference[i], i, "reference");
       constexpr double slack = 1e-9;
-      require(std::abs(effect.reference[i][0].dot(effect.axis[i])) <= slack, at(i, "reference"),
+      REQUIRE(std::abs(effect.reference[i][0].dot(effect.axis[i])) <= slack, at(i, "reference"),
               text(effect.reference[i][0]), "a direction at right angles to the axis");
     }
   }
@@ -215,8 +228,8 @@ struct EffectCheck {
     same_size(count, effect.compliance, "compliance");
     node_indices(effect.node);
     for (std::size_t i = 0; i < count; ++i) {
-      body_index(effect.body[i], at(i, "body"));
-      require(effect.node[i] != scene.bodies[static_cast<std::size_t>(effect.body[i])].node, at(i, "node"),
+      body_index(effect.body[i], i);
+      REQUIRE(effect.node[i] != scene.bodies[static_cast<std::size_t>(effect.body[i])].node, at(i, "node"),
               text(effect.node[i]) + ", the body's own", "another node than the body's centre of mass");
     }
     finite(effect.point, "point");
@@ -224,13 +237,49 @@ struct EffectCheck {
     retardation_times(count, effect.damping);
   }
 
-  static void quaternion(const Eigen::Quaterniond& q, const std::string& where) {
-    constexpr double slack = 1e-9;
-    require(std::abs(q.norm() - 1) <= slack, where, "a quaternion of norm " + text(q.norm()), "norm 1");
+  void operator()(const Contact& effect) const {
+    int count = 0;
+    for (const Effect& other : scene.effects) count += std::holds_alternative<Contact>(other);
+    REQUIRE(count == 1, name, text(count) + " of them", "one in a scene");
+    const auto material_index = [&](int material, std::size_t i, std::string_view field) {
+      REQUIRE(material >= 0 && material < effect.materials, at(i, field), text(material),
+              "a material from 0 to " + text(effect.materials - 1));
+    };
+    for (std::size_t i = 0; i < effect.collider.size(); ++i) {
+      body_index(effect.collider[i].body, i);
+      material_index(effect.collider[i].material, i, "collider material");
+    }
+    same_size(effect.node.size(), effect.radius, "radius");
+    same_size(effect.node.size(), effect.node_material, "node_material");
+    node_indices(effect.node);
+    not_negative(effect.radius, "radius");
+    for (std::size_t i = 0; i < effect.node.size(); ++i)
+      material_index(effect.node_material[i], i, "node_material");
+    node_indices(effect.triangle);
+    REQUIRE(effect.thickness >= 0 && std::isfinite(effect.thickness), name + " thickness",
+            text(effect.thickness), "a finite number >= 0, m");
+    material_index(effect.surface_material, 0, "surface_material");
+    REQUIRE(effect.materials > 0, name + " materials", text(effect.materials), "at least one");
+    const auto materials = static_cast<std::size_t>(effect.materials);
+    REQUIRE(effect.law.size() == materials * materials, name + " law", text(effect.law.size()) + " entries",
+            "one per pair of materials, " + text(materials * materials));
+    for (std::size_t i = 0; i < effect.law.size(); ++i) {
+      const ContactLaw& law = effect.law[i];
+      REQUIRE(law.friction >= 0 && std::isfinite(law.friction), at(i, "friction"), text(law.friction),
+              "a finite number >= 0");
+      REQUIRE(law.restitution >= 0 && law.restitution <= 1, at(i, "restitution"), text(law.restitution),
+              "0 to 1");
+      not_negative({law.compliance}, "compliance");
+      not_negative({law.damping}, "damping");
+    }
+    for (std::size_t i = 0; i < effect.apart.size(); ++i)
+      for (const int body : effect.apart[i]) body_index(body, i);
+    not_negative({effect.margin}, "margin");
+    REQUIRE(effect.recovery >= 0, name + " recovery", text(effect.recovery), "a number >= 0, m/s");
   }
 
   void operator()(const Gravity& effect) const {
-    require(effect.acceleration.allFinite(), name + " acceleration", text(effect.acceleration),
+    REQUIRE(effect.acceleration.allFinite(), name + " acceleration", text(effect.acceleration),
             "finite numbers");
   }
 
@@ -245,7 +294,7 @@ struct EffectCheck {
     same_size(effect.node.size(), effect.compliance, "compliance");
     node_indices(effect.node);
     for (std::size_t i = 0; i < effect.node.size(); ++i)
-      require(std::isfinite(scene.mass[static_cast<std::size_t>(effect.node[i])]), at(i, "node"),
+      REQUIRE(std::isfinite(scene.mass[static_cast<std::size_t>(effect.node[i])]), at(i, "node"),
               text(effect.node[i]) + ", of infinite mass", "a node of finite mass, which an anchor can hold");
     finite(effect.target, "target");
     not_negative(effect.compliance, "compliance");
@@ -260,7 +309,7 @@ struct EffectCheck {
     not_negative(effect.compliance, "compliance");
     retardation_times(effect.node.size(), effect.damping);
     for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
-      require(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
+      REQUIRE(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
               "0 and compliance 0", "a rest length > 0 for a link without compliance");
   }
 
@@ -278,10 +327,10 @@ struct EffectCheck {
     node_indices(effect.node);
     material(effect.material, true);
     viscosity(effect.damping, effect.material);
-    require(effect.thickness > 0 && std::isfinite(effect.thickness), name + " thickness",
+    REQUIRE(effect.thickness > 0 && std::isfinite(effect.thickness), name + " thickness",
             text(effect.thickness), "a finite number > 0, m");
-    for (std::size_t i = 0; i < effect.rest.size(); ++i)
-      require_proper(effect.rest[i], name + " triangle " + text(i));
+    const std::string triangle = name + " triangle ";
+    for (std::size_t i = 0; i < effect.rest.size(); ++i) require_proper(effect.rest[i], triangle, i);
   }
 
   void operator()(const TetStrain& effect) const {
@@ -289,65 +338,66 @@ struct EffectCheck {
     node_indices(effect.node);
     material(effect.material, false);
     viscosity(effect.damping, effect.material);
-    for (std::size_t i = 0; i < effect.rest.size(); ++i)
-      require_proper(effect.rest[i], name + " tetrahedron " + text(i));
+    const std::string tetrahedron = name + " tetrahedron ";
+    for (std::size_t i = 0; i < effect.rest.size(); ++i) require_proper(effect.rest[i], tetrahedron, i);
   }
 };
 
 }  // namespace
 
-void require_proper(const Eigen::Matrix<double, 3, 4>& rest, const std::string& where) {
+void require_proper(const Eigen::Matrix<double, 3, 4>& rest, std::string_view what, std::size_t index) {
   const double volume = tet_volume(rest);
-  require(volume > degenerate_ratio * std::pow(longest_edge(rest), 3), where,
+  REQUIRE(volume > degenerate_ratio * std::pow(longest_edge(rest), 3), std::string(what) + text(index),
           "volume " + text(volume) + " m^3",
           "a positive volume: nodes ordered so that ((x1-x0) x (x2-x0)) . (x3-x0) > 0, and not flat");
 }
 
-void require_proper(const Eigen::Matrix3d& rest, const std::string& where) {
+void require_proper(const Eigen::Matrix3d& rest, std::string_view what, std::size_t index) {
   const double area = triangle_area(rest);
-  require(area > degenerate_ratio * std::pow(longest_edge<3>(rest), 2), where, "area " + text(area) + " m^2",
-          "a positive area");
+  REQUIRE(area > degenerate_ratio * std::pow(longest_edge<3>(rest), 2), std::string(what) + text(index),
+          "area " + text(area) + " m^2", "a positive area");
 }
 
 /// The bodies, before any effect refers to them.
 static void validate_bodies(const Scene& scene) {
   const std::size_t count = scene.bodies.size();
-  require(scene.initial.orientation.size() == count, "initial orientation",
+  REQUIRE(scene.initial.orientation.size() == count, "initial orientation",
           text(scene.initial.orientation.size()) + " entries", "one per rigid body, " + text(count));
-  require(scene.initial.spin.cols() == static_cast<Eigen::Index>(count), "initial spin",
+  REQUIRE(scene.initial.spin.cols() == static_cast<Eigen::Index>(count), "initial spin",
           text(scene.initial.spin.cols()) + " columns", "one per rigid body, " + text(count));
   std::vector<bool> taken(scene.mass.size(), false);
   for (std::size_t b = 0; b < count; ++b) {
     const auto& [node, inertia] = scene.bodies[b];
     const auto where = [&](const char* field) { return "bodies[" + text(b) + "] " + field; };
-    require(node >= 0 && node < scene.nodes() && !taken[static_cast<std::size_t>(node)], where("node"),
+    REQUIRE(node >= 0 && node < scene.nodes() && !taken[static_cast<std::size_t>(node)], where("node"),
             text(node), "a node's index, a different one for each body");
     taken[static_cast<std::size_t>(node)] = true;
     const bool turns = inertia.allFinite() && inertia.minCoeff() > 0;
     const bool kept = inertia.minCoeff() == infinity;
-    require(turns || kept, where("inertia"), text(inertia),
+    REQUIRE(turns || kept, where("inertia"), text(inertia),
             "three principal moments > 0, kg m^2 (all inf for a body that keeps its angular velocity)");
     constexpr double slack = 1e-9;  // of the largest
-    require(kept || 2 * inertia.maxCoeff() <= (1 + slack) * inertia.sum(), where("inertia"), text(inertia),
+    REQUIRE(kept || 2 * inertia.maxCoeff() <= (1 + slack) * inertia.sum(), where("inertia"), text(inertia),
             "no moment larger than the sum of the other two: no mass has such");
-    EffectCheck::quaternion(scene.initial.orientation[b], where("orientation"));
+    const auto& orientation = scene.initial.orientation[b];
+    REQUIRE(is_unit(orientation), where("orientation"), norm_of(orientation), "norm 1");
     const Vec3 spin = scene.initial.spin.col(static_cast<Eigen::Index>(b));
-    require(spin.allFinite(), where("spin"), text(spin), "finite numbers");
+    REQUIRE(spin.allFinite(), where("spin"), text(spin), "finite numbers");
   }
 }
 
 void validate(const Scene& scene) {
   const auto size_of = [](const Points& points) { return text(points.cols()) + " columns"; };
   const auto one_per_node = "one column per node, " + text(scene.nodes());
-  require(scene.initial.x.cols() == scene.nodes(), "initial x", size_of(scene.initial.x), one_per_node);
-  require(scene.initial.v.cols() == scene.nodes(), "initial v", size_of(scene.initial.v), one_per_node);
+  REQUIRE(scene.initial.x.cols() == scene.nodes(), "initial x", size_of(scene.initial.x), one_per_node);
+  REQUIRE(scene.initial.v.cols() == scene.nodes(), "initial v", size_of(scene.initial.v), one_per_node);
   for (int node = 0; node < scene.nodes(); ++node) {
     const double mass = scene.mass[static_cast<std::size_t>(node)];
     const auto where = [&](const char* field) { return std::string(field) + "[" + text(node) + "]"; };
-    require(mass > 0, where("mass"), text(mass), "a number > 0, kg (inf for a node that keeps its velocity)");
-    require(scene.initial.x.col(node).allFinite(), where("position"), text(Vec3(scene.initial.x.col(node))),
+    REQUIRE(mass > 0, where("mass"), text(mass), "a number > 0, kg (inf for a node that keeps its velocity)");
+    REQUIRE(scene.initial.x.col(node).allFinite(), where("position"), text(Vec3(scene.initial.x.col(node))),
             "finite numbers");
-    require(scene.initial.v.col(node).allFinite(), where("velocity"), text(Vec3(scene.initial.v.col(node))),
+    REQUIRE(scene.initial.v.col(node).allFinite(), where("velocity"), text(Vec3(scene.initial.v.col(node))),
             "finite numbers");
   }
   validate_bodies(scene);

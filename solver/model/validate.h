@@ -1,7 +1,7 @@
 // Checks a scene before anything is computed.
 #pragma once
 
-#include <string>
+#include <string_view>
 
 #include "scene.h"
 
@@ -10,13 +10,13 @@ namespace pbd {
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
 /// out of range or repeated, masses <= 0 or NaN, compliances and damping times < 0, non-finite numbers,
 /// degenerate or inverted rest elements, elastic constants out of range, principal moments of inertia that no
-/// body has, axes that are not of length 1, links of rest length 0 without
-/// compliance (their direction is undefined), anchors on nodes of infinite mass (nothing moves these).
+/// body has, axes that are not of length 1, links of rest length 0 without compliance (their direction is
+/// undefined), anchors on nodes of infinite mass (nothing moves these).
 void validate(const Scene& scene);
 
-/// Throws SetupError, beginning with `where`, unless a rest tetrahedron has a positive volume (or a rest
-/// triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
-void require_proper(const Eigen::Matrix<double, 3, 4>& rest, const std::string& where);
-void require_proper(const Eigen::Matrix3d& rest, const std::string& where);
+/// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume
+/// (or a rest triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
+void require_proper(const Eigen::Matrix<double, 3, 4>& rest, std::string_view what, std::size_t index);
+void require_proper(const Eigen::Matrix3d& rest, std::string_view what, std::size_t index);
 
 }  // namespace pbd

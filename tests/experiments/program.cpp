@@ -39,7 +39,7 @@ TEST_CASE("every scene that comes with the program is read, and says what it sho
     CHECK_FALSE(read_scene_file(entry.path()).description.empty());
     ++count;
   }
-  CHECK(count >= 9);
+  CHECK(count >= 12);
 }
 
 TEST_CASE("simulate writes a row of probes a step and a record of the run") {
@@ -317,6 +317,12 @@ TEST_CASE("what the command line does not allow is refused with option, value an
        "--reference: got ``; allowed: one of primal_newton, ipopt"},
       {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1"},
        "effects[1] damping: got damping; allowed: none: this judge knows elastic forces only"},
+      {{"compare", scenes / "incline.toml", "--method", "outer=plain"},
+       "--reference primal_newton: got a scene with contact; allowed: a scene without the table [contact]: "
+       "this "
+       "reference solves equations"},
+      {{"compare", scenes / "incline.toml", "--method", "rival=newton", "--reference", "ipopt"},
+       "--reference ipopt: got a scene with contact"},
       {{"simulate", chain, "--export", ""}, "--export: got ``; allowed: only vtk"},
       {{"list", "--json=abc"}, "--json: got `abc`; allowed: only true"}};
   const std::vector<std::pair<std::string, std::string>> refused_methods{

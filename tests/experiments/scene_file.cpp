@@ -267,6 +267,7 @@ node = 3
 TEST_CASE("a method survives being written as text and read again") {
   pbd::Method method;
   method.outer = "frozen";
+  method.friction = "disc";
   method.tolerance = 0.1 + 0.2;
   method.warm_start = false;
   method.memory = 7;
@@ -280,6 +281,7 @@ TEST_CASE("a method survives being written as text and read again") {
   CHECK(method_text(again) == method_text(method));
   CHECK(again.tolerance == method.tolerance);
   CHECK(again.memory == 7);
+  CHECK(again.friction == "disc");
   CHECK(again.integrator == "newmark");
   CHECK(again.alpha == pbd::Method{}.alpha);
   CHECK(again.beta == method.beta);
@@ -310,5 +312,5 @@ TEST_CASE("every example of the format's description is read") {
     CHECK_NOTHROW(read_scene_file(folder.write("scene.toml", whole)));
     ++count;
   }
-  CHECK(count >= 18);
+  CHECK(count >= 20);
 }

@@ -154,3 +154,44 @@ TEST_CASE("a spring across the motion slows the error by its material stiffness"
   held.compliance.push_back(1e-3);
   CHECK(plain_contraction(scene, scene.initial.x, {}, h).smallest == Approx(along).epsilon(1e-12));
 }
+
+// A rod of mass m and length l hangs from a ball at its end: turns about it have the inertia I = m l^2/3 and
+// the stiffness m g l/2, and nothing else is left.
+TEST_CASE("a hanging rod contracts by its weight over its inertia about the joint") {
+  const double m = 2, l = 0.6, g = 9.81, h = 1.0 / 30;
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3(0, 0, -l / 2), m, Vec3(m * l * l / 12, m * l * l / 12, 1e-3));
+  scene.effects = {Gravity{Vec3(0, 0, -g)}, PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(0, 0, l / 2)}}, {0}}};
+  const auto hanging = primal_newton(scene, scene.initial, h);
+  REQUIRE(hanging.outcome == Outcome::ok);
+  const Contraction found = plain_contraction_of_bodies(scene, scene.initial, h, hanging);
+  CHECK(found.smallest == Approx(-h * h * (m * g * l / 2) / (m * l * l / 3)).epsilon(1e-10));
+  CHECK(std::abs(found.largest) < 1e-10);
+  // By a stiff ball likewise, but for what it gives way.
+  std::get<PointJoint>(scene.effects[1]).compliance = {1e-9};
+  const auto soft = primal_newton(scene, scene.initial, h);
+  CHECK(plain_contraction_of_bodies(scene, scene.initial, h, soft).smallest ==
+        Approx(found.smallest).epsilon(1e-6));
+  scene.effects.emplace_back(Gyroscopic{});
+  CHECK_THROWS_AS(plain_contraction_of_bodies(scene, scene.initial, h, hanging), SetupError);
+}
+
+// A hard joint turns a body by t = h w. Its rows are linear in the turns as the body stands, which change by
+// J_r(t) of what h w does: the error map is 1 - J_r(t).
+TEST_CASE("a hard motor's turn is missed by half a step's angle at most") {
+  const double h = 0.1, w = 4;
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3::Zero(), 1, Vec3(1, 1, 1), Eigen::Quaterniond::Identity(), Vec3::Zero(),
+           Vec3(0, 0, w));
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(w * h, Vec3::UnitZ()));
+  scene.effects = {RotationJoint{{{0, 1}}, {turned}, {0}}};
+  const auto solved = primal_newton(scene, scene.initial, h);
+  REQUIRE(solved.outcome == Outcome::ok);
+  // J_r(t) = 1 - (1 - cos t)/t [u]x + (1 - sin t/t) [u]x^2, across the axis 1 - sin t/t +- i (1 - cos t)/t.
+  const double t = w * h, across = std::hypot(1 - std::sin(t) / t, (1 - std::cos(t)) / t);
+  CHECK(plain_contraction_of_bodies(scene, scene.initial, h, solved).radius() ==
+        Approx(across).epsilon(1e-10));
+  CHECK(across < t / 2);
+}

@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "body_shapes.h"
 
 #include <numbers>
 
@@ -52,29 +52,11 @@ Profile rounded(double radius, double length) {
   return profile;
 }
 
-pbd::TriangleMesh box(const pbd::Vec3& size) {
-  pbd::TriangleMesh mesh{pbd::Points(3, 8),
-                         {{0, 2, 1},
-                          {1, 2, 3},
-                          {4, 5, 6},
-                          {5, 7, 6},
-                          {0, 1, 4},
-                          {1, 5, 4},
-                          {2, 6, 3},
-                          {3, 6, 7},
-                          {0, 4, 2},
-                          {2, 4, 6},
-                          {1, 3, 5},
-                          {3, 7, 5}}};
-  for (int corner = 0; corner < 8; ++corner)
-    mesh.x.col(corner) = size.cwiseProduct(pbd::Vec3(corner & 1, corner >> 1 & 1, corner >> 2)) - size / 2;
-  return mesh;
-}
-
 struct Properties {
   double density;
 
   pbd::MassProperties operator()(std::monostate) const { return {}; }
+  pbd::MassProperties operator()(HalfSpace) const { return {}; }
   pbd::MassProperties operator()(const Sphere& s) const { return pbd::sphere_properties(s.radius, density); }
   pbd::MassProperties operator()(const Box& s) const { return pbd::box_properties(s.size, density); }
   pbd::MassProperties operator()(const Cylinder& s) const {
@@ -91,8 +73,9 @@ struct Properties {
 
 struct SurfaceOf {
   pbd::TriangleMesh operator()(std::monostate) const { return {pbd::Points(3, 0), {}}; }
+  pbd::TriangleMesh operator()(HalfSpace) const { return {pbd::Points(3, 0), {}}; }
   pbd::TriangleMesh operator()(const Sphere& s) const { return revolved(rounded(s.radius, 0)); }
-  pbd::TriangleMesh operator()(const Box& s) const { return box(s.size); }
+  pbd::TriangleMesh operator()(const Box& s) const { return pbd::box_surface(s.size); }
   pbd::TriangleMesh operator()(const Cylinder& s) const {
     const double z = s.length / 2;
     return revolved({{0, -z}, {s.radius, -z}, {s.radius, z}, {0, z}});

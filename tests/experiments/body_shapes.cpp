@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "body_shapes.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

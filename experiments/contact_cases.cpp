@@ -1,0 +1,221 @@
+#include "contact_cases.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "scenes/contacts.h"
+#include "scenes/mechanisms.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+constexpr double gravity = 9.81, pi = std::numbers::pi;
+constexpr double frame = 1.0 / 60;  // s
+
+Eigen::Quaterniond about_y(double angle) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+}
+
+double weight(const Scene& scene) {
+  double mass = 0;
+  for (const double own : scene.mass)
+    if (std::isfinite(own)) mass += own;
+  return mass * gravity;
+}
+
+ContactCase at_rest(std::string name, Scene scene, double h, double duration, double size) {
+  const double carried = weight(scene);
+  return {std::move(name), std::move(scene), h, duration, size, true, true, -1, carried};
+}
+
+/// A cube of 1 m and 1e4 kg/m^3 on one of 0.1 m and 1e3 kg/m^3 (Li and others 2020, figure 12, as rigid
+/// bodies).
+ContactCase heavy_cube() {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  build.box(Vec3::Constant(0.1), 1, {Vec3(0, 0, 0.05)});
+  build.box(Vec3::Constant(1), 1e4, {Vec3(0, 0, 0.6)});
+  return at_rest("heavy cube on a small one, 1e4:1", build.finish(), 0.025, 1, 0.1);
+}
+
+/// Box2D's HighMassRatio1: a pyramid whose top box is `ratio` times as dense.
+ContactCase heavy_top(int base, double ratio) {
+  Scene scene = pyramid(base);
+  const auto top = static_cast<std::size_t>(scene.bodies.back().node);
+  scene.mass[top] *= ratio;
+  scene.bodies.back().inertia *= ratio;
+  return at_rest(fmt::format("pyramid of base {} with a top {}:1", base, ratio), std::move(scene), frame, 1,
+                 0.2);
+}
+
+/// Box2D's HighMassRatio2: 400:1 dropped on two small boxes.
+ContactCase dropped_box() {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  for (const double x : {-9.0, 9.0}) build.box(Vec3::Constant(1), 1, {Vec3(x, 0, 0.5)});
+  build.box(Vec3(20, 4, 20), 400, {Vec3(0, 0, 11 + 15)});
+  return {"box of 400:1 dropped on two small ones", build.finish(), frame, 4, 1};
+}
+
+ContactCase heavy_cylinder() {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  build.box(Vec3::Constant(0.5), 1, {Vec3(0, 0, 0.25)});
+  build.cylinder(0.5, 1, 60, {Vec3(0, 0, 1)});
+  return at_rest("cylinder of 60 kg on a cube of 1 kg", build.finish(), frame, 1, 0.5);
+}
+
+/// A-frames of two cards each, `levels` high, floors between them (65 degrees, friction 0.5).
+ContactCase card_house(int levels) {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  constexpr double length = 1, thickness = 0.02, width = 0.5, mass = 0.1;
+  const double lean = pi / 2 - 65 * pi / 180;
+  // A leaning card's box, its lower outer corner on the floor and its upper inner corner at the middle.
+  const double half_height = (length * std::cos(lean) + thickness * std::sin(lean)) / 2;
+  const double half_width = (length * std::sin(lean) + thickness * std::cos(lean)) / 2;
+  double floor = 0;
+  for (int level = levels; level >= 1; --level) {
+    for (int k = 0; k < level; ++k) {
+      const double middle = (2 * k - (level - 1)) * 2 * half_width;
+      for (const double side : {-1.0, 1.0})
+        build.box(Vec3(thickness, width, length), mass,
+                  {Vec3(middle + side * half_width, 0, floor + half_height), about_y(-side * lean)});
+    }
+    floor += 2 * half_height;
+    for (int k = 0; k + 1 < level; ++k)
+      build.box(Vec3(4 * half_width, width, thickness), mass,
+                {Vec3((2 * k - (level - 2)) * 2 * half_width, 0, floor + thickness / 2)});
+    floor += thickness;
+  }
+  return at_rest(fmt::format("house of cards, {} levels", levels), build.finish(), 0.01, 2, 1);
+}
+
+/// A slab on a grid of fixed cubes: `side` x `side` places where it touches.
+ContactCase slab(int side) {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) build.fixed(Box{Vec3::Constant(0.05)}, {Vec3(i * 0.1, j * 0.1, 0.025)});
+  build.box(Vec3(0.1 * side, 0.1 * side, 0.1), 10, {Vec3(0.05 * (side - 1), 0.05 * (side - 1), 0.1)});
+  ContactCase made = at_rest(fmt::format("slab on {} cubes", side * side), build.finish(), frame, 1, 0.1);
+  made.reaction = -1;  // the cubes carry it
+  return made;
+}
+
+/// `friction` with downhill gravity just below and above the angle (Li and others 2020).
+ContactCase on_incline(double friction, bool holds) {
+  ContactCase made{fmt::format("box on 26.565 degrees, mu = {}", friction),
+                   sliding_box(26.5650512 * pi / 180, friction, 0), 0.025, 2, 0.1};
+  made.settles = made.stays = holds;
+  return made;
+}
+
+/// A cube that slides in and must not jump, whatever the friction.
+ContactCase rough_cube(double friction) {
+  ContactCase made{fmt::format("cube sliding in at 6 m/s, mu = {:g}", friction),
+                   sliding_box(0, friction, 6, 0, Vec3::Constant(0.1)), 0.005, 2, 0.1};
+  made.settles = friction >= 0.5;
+  if (friction <= 0.5) made.lift = 1e-9;  // above, the cube may well tumble
+  return made;
+}
+
+/// A ball of `ratio` kg at the end of a chain of `links` links swings into a column of cubes.
+ContactCase wrecking_ball(int links, double ratio) {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  for (int k = 0; k < 5; ++k) build.box(Vec3::Constant(0.5), 1, {Vec3(0, 0, 0.25 + 0.5 * k)});
+  PointJoint joints;
+  const double top = 1.25 + links * 0.5, length = 0.5;
+  const int world = build.fixed(Sphere{0.01}, {Vec3(-0.6, 0, top)});
+  int last = world;
+  for (int k = 0; k < links; ++k) {
+    const double x = -0.6 - (k + 0.5) * length;
+    const bool ball = k + 1 == links;
+    const int link = ball ? build.ball(0.3, ratio, {Vec3(x, 0, top)})
+                          : build.box(Vec3(0.45, 0.05, 0.05), 1, {Vec3(x, 0, top)});
+    joints.body.push_back({last, link});
+    joints.point.push_back({last == world ? Vec3(0, 0, 0) : Vec3(-length / 2, 0, 0), Vec3(length / 2, 0, 0)});
+    joints.compliance.push_back(0);
+    last = link;
+  }
+  Scene scene = build.finish();
+  scene.effects.emplace_back(std::move(joints));
+  ContactCase made{fmt::format("wrecking ball of {:g}:1 on {} links", ratio, links), std::move(scene), frame,
+                   3, 0.05};
+  made.settles = false;
+  return made;
+}
+
+ContactCase balls(int side) {
+  BodyScene build({.friction = 0});
+  build.ground();
+  std::mt19937_64 engine(42);
+  std::uniform_real_distribution<double> disturbed(0, 1e-3);
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      for (int k = 0; k < side; ++k) {
+        const double x = disturbed(engine), y = disturbed(engine), z = disturbed(engine);
+        build.ball(0.1, 10, {Vec3(0.21 * i + x, 0.21 * j + y, 0.101 + 0.21 * k + z)});
+      }
+  ContactCase made{fmt::format("{0} x {0} x {0} balls", side), build.finish(), 0.01, 2, 0.1};
+  made.settles = false;  // without friction they roll away for ever
+  return made;
+}
+
+/// A coin that rolls on its rim in ever lower circles (Euler's disc).
+ContactCase coin() {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  constexpr double radius = 0.1, thickness = 0.01, tilt = 0.3;
+  const double height = radius * std::sin(tilt) + thickness / 2 * std::cos(tilt);
+  build.cylinder(
+      radius, thickness, 0.5,
+      {Vec3(0, 0, height), about_y(tilt), Vec3::Zero(), Vec3(-4 * std::sin(tilt), 0, 4 * std::cos(tilt))});
+  ContactCase made{"coin on its rim", build.finish(), 0.002, 3, radius};
+  made.settles = false;
+  return made;
+}
+
+/// A box on a disc that turns at 2 rad/s, 0.5 m from its axis: it stays on it if mu > 0.204.
+ContactCase turntable(double friction) {
+  BodyScene build({.friction = friction});
+  const Placing turning{Vec3(0, 0, -0.05), Eigen::Quaterniond::Identity(), Vec3::Zero(), Vec3(0, 0, 2)};
+  build.fixed(Cylinder{2, 0.1}, turning);
+  build.box(Vec3(0.2, 0.2, 0.1), 1,
+            {Vec3(0.5, 0, 0.05), Eigen::Quaterniond::Identity(), Vec3(0, 1, 0), Vec3(0, 0, 2)});
+  ContactCase made{fmt::format("box on a turntable, mu = {:g}", friction), build.finish(), 0.005, 2, 0.1};
+  made.settles = false;
+  return made;
+}
+
+}  // namespace
+
+std::vector<ContactCase> contact_cases(bool full) {
+  std::vector<ContactCase> all;
+  all.push_back(heavy_cube());
+  for (const double ratio : {100.0, 200.0, 300.0})
+    if (full || ratio == 300) all.push_back(heavy_top(full ? 10 : 5, ratio));
+  all.push_back(dropped_box());
+  all.push_back(heavy_cylinder());
+  all.push_back(at_rest("cubes, each twice as heavy", column(10, 2), frame, 1, 0.2));
+  if (full) all.push_back(card_house(3));
+  for (const int side : {2, 4, 10})
+    if (full || side < 4) all.push_back(slab(side));
+  all.push_back(on_incline(0.5, true));
+  all.push_back(on_incline(0.49, false));
+  for (const double friction : {0.0, 1e-6, 0.5, 1.0, 5.0, 10.0, 1e6}) all.push_back(rough_cube(friction));
+  for (const int links : {3, 5, 10})
+    if (full) all.push_back(wrecking_ball(links, 100));
+  all.push_back(balls(full ? 6 : 3));
+  if (full) all.push_back(coin());
+  for (const double friction : {0.1, 0.5}) all.push_back(turntable(friction));
+  return all;
+}
+
+}  // namespace pbdcheck

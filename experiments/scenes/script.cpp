@@ -1,0 +1,60 @@
+#include "script.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace pbdcheck {
+namespace {
+
+/// The effect of this kind: a scene file makes one.
+template <class E>
+auto& only(auto& scene) {
+  return std::get<E>(*std::find_if(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {
+    return std::holds_alternative<E>(effect);
+  }));
+}
+
+/// The straight line through the motor's places where the step begins and ends.
+template <class E>
+void set_motor(const pbd::Scene& stated, std::size_t i, const Course& course, double begin, double end,
+               std::vector<double> E::*rest, pbd::Scene& scene) {
+  const E& from = only<E>(stated);
+  E& to = only<E>(scene);
+  to.rate[i] = from.rate[i] * course.mean(begin, end);
+  (to.*rest)[i] = (from.*rest)[i] + from.rate[i] * course.integral(begin) - to.rate[i] * begin;
+}
+
+}  // namespace
+
+double Course::integral(double end) const {
+  double sum = value.front() * std::min(end, time.front());
+  for (std::size_t k = 1; k < time.size() && time[k - 1] < end; ++k) {
+    const double until = std::min(end, time[k]), from = time[k - 1];
+    const double slope = (value[k] - value[k - 1]) / (time[k] - from);
+    sum += (until - from) * (value[k - 1] + slope * (until - from) / 2);
+  }
+  return sum + value.back() * std::max(end - time.back(), 0.0);
+}
+
+void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const {
+  const double begin = state.time, end = begin + h;
+  for (const auto& [i, course] : forces_)
+    only<pbd::ExternalForce>(scene).force[i] =
+        course.mean(begin, end) * only<pbd::ExternalForce>(stated).force[i];
+  for (const auto& [i, course] : torques_)
+    only<pbd::ExternalTorque>(scene).torque[i] =
+        course.mean(begin, end) * only<pbd::ExternalTorque>(stated).torque[i];
+  for (const auto& [i, course] : angles_)
+    set_motor(stated, i, course, begin, end, &pbd::AngleJoint::rest_angle, scene);
+  for (const auto& [i, course] : slides_)
+    set_motor(stated, i, course, begin, end, &pbd::SlideJoint::rest_position, scene);
+  for (const auto& [i, course] : bodies_) {
+    const double factor = course.mean(begin, end);
+    const auto body = static_cast<Eigen::Index>(i);
+    const int node = stated.bodies[i].node;
+    state.v.col(node) = factor * stated.initial.v.col(node);
+    state.spin.col(body) = factor * stated.initial.spin.col(body);
+  }
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,44 @@
+// What a scene file says of time: factors of forces, torques, motors' rates and the velocities of moving
+// bodies. A step takes their means over it, so that momentum, angles and places are those of the integral at
+// the end of every step, whatever the integrator.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene.h"
+
+namespace pbdcheck {
+
+/// A factor over time: straight lines between (time in s, value), constant before the first and after the
+/// last.
+struct Course {
+  std::vector<double> time, value;
+
+  /// From time 0 on, s.
+  double integral(double end) const;
+  double mean(double begin, double end) const { return (integral(end) - integral(begin)) / (end - begin); }
+};
+
+class Script {
+ public:
+  /// Of entry `index` of the scene's forces, torques, angles or slides, and of a moving body.
+  void force(std::size_t index, Course course) { forces_.push_back({index, std::move(course)}); }
+  void torque(std::size_t index, Course course) { torques_.push_back({index, std::move(course)}); }
+  void angle(std::size_t index, Course course) { angles_.push_back({index, std::move(course)}); }
+  void slide(std::size_t index, Course course) { slides_.push_back({index, std::move(course)}); }
+  void body(std::size_t index, Course course) { bodies_.push_back({index, std::move(course)}); }
+
+  /// `scene` as `stated` but for the step of h seconds from `state`, whose moving bodies get their
+  /// velocities.
+  void begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const;
+
+ private:
+  struct Entry {
+    std::size_t index;
+    Course course;
+  };
+  std::vector<Entry> forces_, torques_, angles_, slides_, bodies_;
+};
+
+}  // namespace pbdcheck

@@ -1,0 +1,65 @@
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "contraction.h"
+#include "error.h"
+#include "rigid_step.h"
+
+namespace pbd::reference {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+/// Multipliers of all rows: the judge's of hard ones, -A^-1 c of compliant ones.
+Vector all_multipliers(const RigidModel& model, const RigidSystem& system, const Vector& of_hard) {
+  Matrix compliance = system.compliance;
+  Vector right = -system.value;
+  for (int i = 0, next = 0; i < model.rows(); ++i)
+    if (model.hard[static_cast<std::size_t>(i)]) {
+      compliance(i, i) = 1;
+      right(i) = of_hard(next++);
+    }
+  return compliance.partialPivLu().solve(right);
+}
+
+/// Increments (dx, d) by changes of the velocities.
+Matrix increments(const RigidStep& step, const Vector& velocity) {
+  const auto n = velocity.size();
+  Matrix inverse(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) inverse.col(i) = velocity_change(step, velocity, Vector::Unit(n, i));
+  return inverse.inverse();
+}
+
+}  // namespace
+
+Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, double h,
+                                        const Judgement& solved) {
+  const RigidStep step{make_rigid_model(scene), start, h};
+  if (step.model.gyroscopic == GyroscopicTorque::implicit)
+    throw SetupError("plain_contraction_of_bodies", "an implicit gyroscopic torque",
+                     "a scene without one, or with an explicit one");
+  RigidStep at_end = step;
+  at_end.start.v = solved.v;
+  at_end.start.spin = solved.spin;
+  const Vector velocity = at_end.start_velocity();
+  const RigidSystem without = system_at(step, velocity, Vector::Zero(step.model.rows()));
+  const RigidSystem system =
+      system_at(step, velocity, all_multipliers(step.model, without, solved.multiplier));
+
+  const Matrix turn = increments(step, velocity), jacobian = system.jacobian;
+  const Matrix inertia = Vector(step.model.inertia / h).asDiagonal();
+  const auto n = inertia.rows(), rows = jacobian.rows();
+  Matrix left(n + rows, n + rows), right(n + rows, n);
+  left << inertia, -jacobian.transpose(), h * jacobian, Matrix(system.compliance);
+  right << inertia - Matrix(system.tangent) * turn, h * jacobian - jacobian * turn;
+  const Matrix map = left.partialPivLu().solve(right).topRows(n);
+  Contraction found;
+  const Eigen::EigenSolver<Matrix> solver(map, false);
+  for (const auto& value : solver.eigenvalues()) {
+    found.smallest = std::min(found.smallest, std::copysign(std::abs(value), value.real()));
+    found.largest = std::max(found.largest, std::copysign(std::abs(value), value.real()));
+  }
+  return found;
+}
+
+}  // namespace pbd::reference

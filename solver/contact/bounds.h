@@ -1,0 +1,17 @@
+// How far shapes reach.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "shapes.h"
+
+namespace pbd {
+
+/// Smallest distance from the frame's origin that no point of the shape exceeds (m); infinite for a half
+/// space.
+double bounding_radius(const Shape& shape);
+
+/// A box along the world's axes that holds the shape; infinite for a half space.
+Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at);
+
+}  // namespace pbd

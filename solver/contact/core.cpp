@@ -1,0 +1,80 @@
+#include "contact/core.h"
+
+#include <Eigen/Geometry>
+
+namespace pbd {
+namespace {
+
+Polyhedron edge_alone(const Points& x) {
+  Polyhedron solid;
+  solid.x = x;
+  solid.edges.push_back({{0, static_cast<int>(x.cols()) - 1}, {-1, -1}});
+  return solid;
+}
+
+const Polyhedron point = edge_alone(Points::Zero(3, 1));
+const Polyhedron segment = edge_alone((Points(3, 2) << 0, 0, 0, 0, -0.5, 0.5).finished());
+const Polyhedron cube = plane_faces(box_surface(Vec3::Ones()));
+
+struct Rounded {
+  const Polyhedron* solid;
+  Vec3 scale;
+  double radius;
+};
+
+struct RoundedFrom {
+  Rounded operator()(const Sphere& s) const { return {&point, Vec3::Ones(), s.radius}; }
+  Rounded operator()(const Capsule& s) const { return {&segment, Vec3(1, 1, s.length), s.radius}; }
+  Rounded operator()(const Box& s) const { return {&cube, s.size, 0}; }
+  Rounded operator()(const ConvexHull& s) const { return {&s.solid, Vec3::Ones(), 0}; }
+  template <class Other>
+  Rounded operator()(const Other&) const {
+    return {nullptr, Vec3::Ones(), 0};
+  }
+};
+
+}  // namespace
+
+bool Core::place(const Shape& shape, const Frame& at) {
+  const Rounded rounded = std::visit(RoundedFrom{}, shape);
+  solid = rounded.solid;
+  if (solid == nullptr) return false;
+  frame = at;
+  radius = rounded.radius;
+  own.clear();
+  x.clear();
+  normal.clear();
+  offset.clear();
+  along.clear();
+  length.clear();
+  Vec3 low = Vec3::Constant(infinity), high = -low;
+  for (Eigen::Index i = 0; i < solid->x.cols(); ++i) {
+    own.push_back(rounded.scale.cwiseProduct(solid->x.col(i)));
+    x.push_back(at.place(own.back()));
+    low = low.cwiseMin(own.back());
+    high = high.cwiseMax(own.back());
+  }
+  size = (high - low).norm();
+  for (const auto& face : solid->faces) {
+    normal.push_back(at.rotation *
+                     face.normal);  // a cube's stay as they are when it is stretched along its axes
+    offset.push_back(normal.back().dot(node(solid->corners[face.first])));
+  }
+  for (const auto& each : solid->edges) {
+    const Vec3 whole = node(each.node[1]) - node(each.node[0]);
+    length.push_back(whole.norm());
+    along.push_back(length.back() > 0 ? Vec3(whole / length.back()) : Vec3::Zero());
+  }
+  return true;
+}
+
+bool Core::above(int f, const Vec3& point_, double slack) const {
+  for (std::size_t i = 0; i < corners(f); ++i) {
+    const int e = side(f, i);
+    const Vec3 direction = along[static_cast<std::size_t>(e)] * (edge(e).face[0] == f ? 1.0 : -1.0);
+    if (direction.cross(face_normal(f)).dot(point_ - node(corner(f, i))) > slack) return false;
+  }
+  return true;
+}
+
+}  // namespace pbd

@@ -1,0 +1,239 @@
+#include <Eigen/Geometry>
+
+#include "contact/pairs.h"
+#include "contact/segments.h"
+
+namespace pbd {
+namespace {
+
+using Index = std::size_t;
+
+/// A direction along which a is apart from b (m; negative: they overlap by as much).
+struct Axis {
+  double apart = -infinity;
+  int i = -1, j = -1;  // a face of b (j), or edges of a and b
+  Vec3 normal;         // unit, from b to a
+};
+
+Axis face_axis(const Core& a, const Core& b) {
+  Axis best;
+  for (int f = 0; f < b.face_count(); ++f) {
+    const Vec3& normal = b.face_normal(f);
+    double lowest = infinity;
+    for (const Vec3& x : a.x) lowest = std::min(lowest, normal.dot(x));
+    const double apart = lowest - b.offset[static_cast<Index>(f)];
+    if (apart > best.apart) best = {apart, -1, f, normal};
+  }
+  return best;
+}
+
+/// That the edges' planes of support meet: the arcs between the faces' normals, b's turned round, cross. An
+/// edge without faces has the whole circle across it.
+bool support(const Core& a, const Polyhedron::Edge& of_a, const Vec3& along_a, const Core& b,
+             const Polyhedron::Edge& of_b, const Vec3& along_b) {
+  const bool solid_a = of_a.face[0] >= 0, solid_b = of_b.face[0] >= 0;
+  double first_b = 0, first_a = 0;
+  if (solid_b) {
+    first_b = b.face_normal(of_b.face[0]).dot(along_a);
+    if (first_b * b.face_normal(of_b.face[1]).dot(along_a) >= 0) return false;
+  }
+  if (solid_a) {
+    first_a = a.face_normal(of_a.face[1]).dot(along_b);
+    if (first_a * a.face_normal(of_a.face[0]).dot(along_b) >= 0) return false;
+  }
+  return !solid_a || !solid_b || first_b * first_a < 0;
+}
+
+Axis edge_axis(const Core& a, const Core& b) {
+  constexpr double parallel = 1e-12;
+  Axis best;
+  for (int i = 0; i < a.edge_count(); ++i)
+    for (int j = 0; j < b.edge_count(); ++j) {
+      const auto &of_a = a.edge(i), &of_b = b.edge(j);
+      const Vec3 &along_a = a.along[static_cast<Index>(i)], &along_b = b.along[static_cast<Index>(j)];
+      if (!support(a, of_a, along_a, b, of_b, along_b)) continue;
+      Vec3 normal = along_a.cross(along_b);
+      if (!(normal.squaredNorm() > parallel)) continue;
+      normal.normalize();
+      const Vec3 apart = a.node(of_a.node[0]) - b.node(of_b.node[0]);
+      double outward = normal.dot(apart);
+      if (of_b.face[0] >= 0)
+        outward = normal.dot(b.face_normal(of_b.face[0]) + b.face_normal(of_b.face[1]));
+      else if (of_a.face[0] >= 0)
+        outward = -normal.dot(a.face_normal(of_a.face[0]) + a.face_normal(of_a.face[1]));
+      if (outward < 0) normal = -normal;
+      const double distance = normal.dot(apart);
+      if (distance > best.apart) best = {distance, i, j, normal};
+    }
+  return best;
+}
+
+struct Pair {
+  const Core& a;
+  const Core& b;
+  const Roles& roles;
+  double radii = a.radius + b.radius, limit = roles.margin + radii, tiny = rounding * (a.size + b.size);
+
+  Segment segment(const Core& core, int e) const {
+    return {core.node(core.edge(e).node[0]), core.along[static_cast<Index>(e)],
+            core.length[static_cast<Index>(e)]};
+  }
+
+  /// The nearest points of edges that are nearer than the limit, along the normal of a plane between a and b.
+  bool nearest_edges(const Vec3& normal, int& best_i, int& best_j, Nearest& best) const {
+    double top = -infinity, least = limit * limit;
+    for (const Vec3& x : b.x) top = std::max(top, normal.dot(x));
+    best_i = -1;
+    for (int i = 0; i < a.edge_count(); ++i) {
+      const Segment of_a = segment(a, i);
+      const double low = std::min(normal.dot(of_a.from), normal.dot(of_a.at(of_a.length))) - top;
+      if (low > 0 && low * low > least) continue;
+      for (int j = 0; j < b.edge_count(); ++j) {
+        const Segment of_b = segment(b, j);
+        const double high = std::max(normal.dot(of_b.from), normal.dot(of_b.at(of_b.length))) - top;
+        if (low > high && (low - high) * (low - high) > least) continue;
+        const Nearest found = nearest(of_a, of_b);
+        if (!(found.apart.squaredNorm() < least)) continue;
+        least = found.apart.squaredNorm();
+        best_i = i;
+        best_j = j;
+        best = found;
+      }
+    }
+    return best_i >= 0;
+  }
+
+  /// The end of a's edge i at arc s, or -1.
+  int end(const Core& core, int e, double s) const {
+    if (s <= 0) return core.edge(e).node[0];
+    return s >= core.length[static_cast<Index>(e)] ? core.edge(e).node[1] : -1;
+  }
+
+  /// Points y_a and y_b of edges that are `apart`: kinds whose distance cannot be negative only where the
+  /// radii keep it from zero, else the plane between the points.
+  void write_edges(int i, int j, const Nearest& at) const {
+    const Segment of_a = segment(a, i), of_b = segment(b, j);
+    const Vec3 y_a = of_a.at(at.s), y_b = of_b.at(at.t);
+    const double distance = at.apart.norm(), gap = distance - radii;
+    const int end_a = end(a, i, at.s), end_b = end(b, j, at.t);
+    const bool a_ends = end_a >= 0, b_ends = end_b >= 0;
+    const auto key = roles.key(a_ends ? Feature::node : Feature::edge, a_ends ? end_a : i,
+                               b_ends ? Feature::node : Feature::edge, b_ends ? end_b : j);
+    roles.drop(key);  // of a face's manifold: the same features, not as near
+    if (!a_ends && !b_ends && of_a.along.cross(of_b.along).norm() >= crossing_sine)
+      return roles.write(on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, at.apart), key, gap);
+    if (radii == 0 && distance > 0)
+      return roles.write(on_face(y_a, 0, y_b, at.apart / distance, 0), key, gap);
+    if (a_ends && b_ends)
+      return roles.write(features(ContactPoint::Kind::point, y_a, a.radius, y_b, b.radius), key, gap);
+    if (b_ends) return roles.exchanged().write(on_line(y_b, b.radius, y_a, of_a.along, a.radius), key, gap);
+    roles.write(on_line(y_a, a.radius, y_b, of_b.along, b.radius), key, gap);
+  }
+
+  /// That no face of the edge is nearer to a point `apart` from it.
+  bool nearest_of_faces(const Core& core, int e, const Vec3& apart) const {
+    const auto& edge = core.edge(e);
+    for (const int side : {0, 1}) {
+      const int f = edge.face[static_cast<Index>(side)];
+      if (f < 0) continue;
+      const Vec3 inward = core.face_normal(f).cross(core.along[static_cast<Index>(e)]) * (side == 0 ? 1 : -1);
+      if (inward.dot(apart) > tiny) return false;
+    }
+    return true;
+  }
+
+  /// Where edges are nearly parallel, the ends of one beside the other, too.
+  void write_ends(int i, int j) const {
+    const Segment of_a = segment(a, i), of_b = segment(b, j);
+    if (of_a.along.cross(of_b.along).norm() > 0.5) return;
+    for (const double s : {0.0, of_a.length}) {
+      const double t = of_b.along.dot(of_a.at(s) - of_b.from);
+      const Nearest at{s, t, of_a.at(s) - of_b.at(t)};
+      if (t > 0 && t < of_b.length && nearest_of_faces(b, j, at.apart)) write_edges(i, j, at);
+    }
+    for (const double t : {0.0, of_b.length}) {
+      const double s = of_a.along.dot(of_b.at(t) - of_a.from);
+      const Nearest at{s, t, of_a.at(s) - of_b.at(t)};
+      if (s > 0 && s < of_a.length && nearest_of_faces(a, i, -at.apart)) write_edges(i, j, at);
+    }
+  }
+
+  void write_axis(const Axis& edges) const {
+    const Segment of_a = segment(a, edges.i), of_b = segment(b, edges.j);
+    const Nearest at = nearest(of_a, of_b);
+    roles.write(
+        on_edges(of_a.at(at.s), of_a.along, a.radius, of_b.at(at.t), of_b.along, b.radius, edges.normal),
+        roles.key(Feature::edge, edges.i, Feature::edge, edges.j), edges.apart - radii);
+  }
+
+  /// The deepest node below the face, wherever its sides are.
+  void write_deepest(const Axis& flat, bool b_refers) const {
+    const Core &of_node = b_refers ? a : b, &of_face = b_refers ? b : a;
+    const Vec3& normal = of_face.face_normal(flat.j);
+    int deepest = 0;
+    for (int i = 1; i < static_cast<int>(of_node.x.size()); ++i)
+      if (normal.dot(of_node.node(i)) < normal.dot(of_node.node(deepest))) deepest = i;
+    const Roles in_order = b_refers ? roles : roles.exchanged();
+    in_order.write(on_face(of_node.node(deepest), of_node.radius, of_face.node(of_face.corner(flat.j, 0)),
+                           normal, of_face.radius),
+                   in_order.key(Feature::node, deepest, Feature::face, flat.j), flat.apart - radii);
+  }
+
+  double least() const {
+    double gap = infinity;
+    for (std::size_t i = roles.begin; i < roles.out.size(); ++i) {
+      const auto& contact = roles.out[i];
+      const bool same = contact.swapped == roles.swapped;
+      gap = std::min(gap, touching(contact, same ? roles.a : roles.b, same ? roles.b : roles.a).gap);
+    }
+    return gap;
+  }
+
+  void write() const {
+    const Axis of_b = face_axis(a, b);
+    if (of_b.apart > limit) return;
+    Axis of_a = face_axis(b, a);
+    of_a.normal = -of_a.normal;
+    if (of_a.apart > limit) return;
+    const bool b_refers = of_b.apart >= of_a.apart - tiny;
+    const Axis& flat = b_refers ? of_b : of_a;
+    Axis edges;
+    if (flat.j >= 0 && flat.apart <= tiny) edges = edge_axis(a, b);
+    if (edges.apart > limit) return;
+    const bool across = edges.apart > flat.apart + tiny;
+    const Axis& axis = across ? edges : flat;
+    if (across && edges.apart <= tiny) write_axis(edges);
+    if (flat.j >= 0) {
+      const double floor = axis.apart - radii - tiny;
+      if (b_refers)
+        face_manifold(a, b, flat.j, floor, roles);
+      else
+        face_manifold(b, a, flat.j, floor, roles.exchanged());
+    }
+    if (axis.j >= 0 && least() <= axis.apart - radii + tiny) return;
+    // Points that coincide have no direction: what touches an edge or a node does so on the best plane.
+    if (axis.j >= 0 && axis.apart <= tiny) return write_deepest(flat, b_refers);
+    int i = 0, j = 0;
+    Nearest at{};
+    if (!nearest_edges(axis.j >= 0 ? axis.normal : Vec3::Zero(), i, j, at)) return;
+    write_edges(i, j, at);
+    write_ends(i, j);
+  }
+};
+
+}  // namespace
+
+void core_core(const Core& a, const Core& b, const Roles& roles) {
+  Pair{a, b, roles}.write();
+}
+
+void core_plane(const Core& a, const Roles& roles) {
+  const Vec3 normal = roles.b.rotation.col(2);
+  const Vec3& origin = roles.b.origin;
+  for (std::size_t i = 0; i < a.x.size(); ++i)
+    roles.write(on_face(a.x[i], a.radius, origin, normal, 0),
+                roles.key(Feature::node, static_cast<int>(i), Feature::face, 0),
+                normal.dot(a.x[i] - origin) - a.radius);
+}
+
+}  // namespace pbd

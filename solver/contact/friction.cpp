@@ -1,0 +1,103 @@
+#include "contact/friction.h"
+
+#include <Eigen/Dense>
+
+#include "names.h"
+
+namespace pbd {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of p_t -> bound p_t/|p_t|, bound = mu p_n with dp_n by `normal`.
+void scale_tangent(double mu, double bound, const Vector3d& z, const Eigen::RowVector3d& normal,
+                   Matrix3d& derivative) {
+  const double length = std::hypot(z[1], z[2]);
+  const Eigen::Vector2d along = z.tail<2>() / length;
+  derivative.bottomRows<2>() = mu * along * normal;
+  derivative.bottomRightCorner<2, 2>() +=
+      bound / length * (Eigen::Matrix2d::Identity() - along * along.transpose());
+}
+
+Matrix3d cone_derivative(double mu, const Vector3d& z) {
+  const double tangential = std::hypot(z[1], z[2]);
+  if (tangential <= mu * z[0]) return Matrix3d::Identity();
+  Matrix3d derivative = Matrix3d::Zero();
+  if (mu * tangential <= -z[0] || !(tangential > 0)) return derivative;
+  const double share = 1 / (1 + mu * mu);
+  derivative.row(0) << share, mu * share * z[1] / tangential, mu * share * z[2] / tangential;
+  const Eigen::RowVector3d normal = derivative.row(0);
+  scale_tangent(mu, mu * share * (mu * tangential + z[0]), z, normal, derivative);
+  return derivative;
+}
+
+Matrix3d disc_derivative(double mu, const Vector3d& z) {
+  Matrix3d derivative = Matrix3d::Zero();
+  if (!(z[0] > 0)) return derivative;
+  if (std::hypot(z[1], z[2]) <= mu * z[0]) return Matrix3d::Identity();
+  derivative(0, 0) = 1;
+  scale_tangent(mu, mu * z[0], z, Eigen::RowVector3d(1, 0, 0), derivative);
+  return derivative;
+}
+
+Matrix3d box_derivative(double mu, const Vector3d& z) {
+  Matrix3d derivative = Matrix3d::Zero();
+  if (!(z[0] > 0)) return derivative;
+  derivative(0, 0) = 1;
+  for (const int axis : {1, 2})
+    if (std::abs(z[axis]) <= mu * z[0])
+      derivative(axis, axis) = 1;
+    else
+      derivative(axis, 0) = std::copysign(mu, z[axis]);
+  return derivative;
+}
+
+}  // namespace
+
+Friction friction_by_name(std::string_view name) {
+  for (std::size_t i = 0; i < friction_names.size(); ++i)
+    if (friction_names[i] == name) return static_cast<Friction>(i);
+  throw unknown_name("friction", name, {friction_names.begin(), friction_names.end()});
+}
+
+ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Vector3d& p,
+                                        const Eigen::Vector3d& step) {
+  Vector3d z = p + step;
+  if (law == Friction::disc || law == Friction::box) {
+    const Matrix3d derivative = law == Friction::disc ? disc_derivative(mu, z) : box_derivative(mu, z);
+    return {derivative, derivative};
+  }
+  if (law == Friction::cone) {
+    const Matrix3d derivative = cone_derivative(mu, z);
+    return {derivative, derivative};
+  }
+  const double slip = std::hypot(step[1], step[2]);
+  z[0] -= mu * slip;
+  const Matrix3d derivative = cone_derivative(mu, z);
+  Matrix3d shifted = Matrix3d::Identity();  // d(step - mu |step_t| e_n) by step
+  if (slip > 0) shifted.row(0).tail<2>() = -mu / slip * step.tail<2>().transpose();
+  return {derivative, derivative * shifted};
+}
+
+Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
+                              const Eigen::Vector3d& start) {
+  const double slip = std::hypot(q[1], q[2]);
+  if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d sticking = -n.inverse() * q;
+  if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
+
+  constexpr int most = 30;
+  constexpr double settled = 1e-14;
+  const double step = 1 / n.rowwise().lpNorm<1>().maxCoeff();  // at least the largest eigenvalue's inverse
+  Eigen::Vector3d p = start;
+  for (int k = 0; k < most; ++k) {
+    const Eigen::Vector3d next = project(law, mu, p, -step * (n * p + q));
+    const double change = (next - p).squaredNorm();
+    p = next;
+    if (change <= settled * settled * p.squaredNorm()) break;
+  }
+  return p;
+}
+
+}  // namespace pbd

@@ -1,0 +1,107 @@
+// What the two halves of contact_rows.h share: a contact's directions and its columns.
+#pragma once
+
+#include <cmath>
+
+#include "contact_rows.h"
+#include "effects/joint_parts.h"
+
+namespace pbd {
+
+template <int R>
+using Directions = Eigen::Matrix<double, R, 3>;  // n, t1, t2 in rows
+
+/// The normal, and for R = 3 two tangents seen from `reference`.
+template <int R>
+Directions<R> directions_of(const Vec3& normal, const Vec3& reference) {
+  Directions<R> directions;
+  directions.row(0) = normal.transpose();
+  if constexpr (R == 3) {
+    directions.row(1) = (reference - normal.dot(reference) * normal).normalized().transpose();
+    directions.row(2) = normal.cross(Vec3(directions.row(1))).transpose();
+  }
+  return directions;
+}
+
+/// The axis of the world that lies best across `normal`, the first one where it does well enough.
+inline Vec3 reference_for(const Vec3& normal) {
+  constexpr double steep = 0.9;
+  return std::abs(normal.x()) < steep ? Vec3::UnitX() : Vec3::UnitY();
+}
+
+inline Frame frame_of(const ActiveContact& contact, int side, const Configuration& at) {
+  const int carrier = contact.carrier[static_cast<std::size_t>(side)];
+  if (side == contact.node_side) return {at.x.col(carrier), Eigen::Matrix3d::Identity()};
+  const Pose& pose = at.pose[static_cast<std::size_t>(carrier)];
+  return {pose.x, pose.rotation};
+}
+
+/// First of a side's columns among the row's K: a node's stands in front of its body's.
+template <class Block>
+int column_of(const ActiveContact& contact, int side) {
+  if (Block::nodes == 4) return 2 * side;
+  return side == contact.node_side ? 0 : 1;
+}
+
+/// Gap and normal of a contact, and its row's J.
+template <class Block>
+Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian) {
+  if constexpr (Block::nodes == 4)
+    if (contact.of_surfaces) {
+      const SurfaceTouching found = touching(contact.surface, at.x);
+      const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
+      for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
+      return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
+    }
+  const Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
+  const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
+  for (const int side : {0, 1}) {
+    const Vec3& point = side == 0 ? found.point_a : found.point_b;  // where they touch, each on its own
+    const int column = 3 * column_of<Block>(contact, side);
+    const double sign = side == 0 ? 1 : -1;
+    jacobian.template middleCols<3>(column) = sign * directions;
+    if (side == contact.node_side) continue;
+    const Pose& pose = at.pose[static_cast<std::size_t>(contact.carrier[static_cast<std::size_t>(side)])];
+    jacobian.template middleCols<3>(column + 3) =
+        -sign * directions * cross_matrix(point - pose.x) * pose.turning;
+  }
+  return found;
+}
+
+/// The directions in which the impulses of a row push a.
+template <class Block>
+Directions<Block::rows> directions_in(const ActiveContact& contact,
+                                      const typename Block::Jacobian& jacobian) {
+  const int column = contact.of_surfaces ? 0 : 3 * column_of<Block>(contact, 0);
+  Directions<Block::rows> directions = jacobian.template middleCols<3>(column);
+  if (contact.of_surfaces && contact.surface.edges) directions += jacobian.template middleCols<3>(3);
+  return directions;
+}
+
+/// The nodes of a contact's rows.
+template <class Block>
+typename Block::Nodes columns_of_contact(const ActiveContact& contact, const Bodies& bodies) {
+  typename Block::Nodes columns{};
+  if constexpr (Block::nodes == 4)
+    if (contact.of_surfaces) return contact.surface.node;
+  for (const int side : {0, 1}) {
+    const auto column = static_cast<std::size_t>(column_of<Block>(contact, side));
+    const int carrier = contact.carrier[static_cast<std::size_t>(side)];
+    columns[column] = side == contact.node_side ? carrier : bodies.node(carrier);
+    if (side != contact.node_side) columns[column + 1] = static_cast<int>(bodies.column(carrier));
+  }
+  return columns;
+}
+
+/// f(block, its contacts) for one of the blocks of contacts.
+template <class AnyRows, class Lists, class F>
+void with_contacts(AnyRows& rows, std::size_t index, std::size_t first_block, Lists& contacts, F&& f) {
+  std::visit(
+      [&]<class Block>(Block& own) {
+        if constexpr ((Block::rows == 1 || Block::rows == 3) && (Block::nodes == 3 || Block::nodes == 4))
+          f(own, contacts[index - first_block]);
+      },
+      rows.blocks[index]);
+}
+
+}  // namespace pbd

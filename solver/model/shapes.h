@@ -1,0 +1,50 @@
+// Shapes of rigid bodies and of cloth's nodes, each in a frame of its own: about the origin, cylinder and
+// capsule along z, a half space below z = 0.
+#pragma once
+
+#include <variant>
+
+#include "box_tree.h"
+#include "polyhedron.h"
+
+namespace pbd {
+
+/// Of a node of cloth, the radius may be 0.
+struct Sphere {
+  double radius;  // m
+};
+struct Box {
+  Vec3 size;  // m
+};
+struct Cylinder {
+  double radius, length;  // m
+};
+/// `length` is that of the cylindrical part.
+struct Capsule {
+  double radius, length;  // m
+};
+/// What is below z = 0; its normal is +z.
+struct HalfSpace {};
+
+/// A closed surface; its triangles are anticlockwise seen from outside. Throws SetupError for an open one.
+struct ClosedMesh {
+  explicit ClosedMesh(TriangleMesh closed);
+
+  TriangleMesh surface;
+  Polyhedron solid;     // a face a triangle
+  Points node_normals;  // unit, the faces' normals weighted by their angles at the node
+  BoxTree tree;         // of the triangles' boxes
+};
+
+/// A closed surface that is convex; likewise.
+struct ConvexHull {
+  explicit ConvexHull(TriangleMesh convex) : surface(std::move(convex)), solid(plane_faces(surface)) {}
+
+  TriangleMesh surface;
+  Polyhedron solid;  // a face a plane
+};
+
+/// `monostate`: a body without a shape.
+using Shape = std::variant<std::monostate, Sphere, Box, Cylinder, Capsule, ClosedMesh, ConvexHull, HalfSpace>;
+
+}  // namespace pbd

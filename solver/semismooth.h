@@ -1,0 +1,50 @@
+// Newton's method for linear rows whose impulses obey bounds and laws of friction: with w =
+// `inverse_diagonal` and P what the law makes of a step (rows.h), the rows hold where p = P(p, -w r), r = J v
+// + b + Sigma p. Each iteration solves the linear system of (dv, dp)
+//   M dv - J^T dp = 0,  (1 - P_p) dp / w + P_step (J dv + Sigma dp) = (P(p, -w r) - p) / w
+// (rows without a law: J dv + Sigma dp = -r) by sparse LU, and takes the longest of four steps that reduces
+// the residual; where none does, sweeps of Gauss-Seidel. Redundant rows make the system singular: Sigma is
+// taken larger by 1e-10 J W J^T, a proximal term, which the iteration removes (semismooth Newton: Qi, Sun
+// 1993; for friction Alart, Curnier 1991).
+#pragma once
+
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
+
+#include "rows.h"
+
+namespace pbd {
+
+class SemismoothNewton {
+ public:
+  /// To be called when the rows have changed.
+  void begin() {
+    lowest_ = infinity;
+    idle_ = 0;
+  }
+
+  /// Improves impulses and v by one iteration; returns the residual (sqrt(J)) it met, or 0 where that has not
+  /// fallen for some iterations: nothing left to gain.
+  double iterate(Rows& rows, Points& v);
+
+ private:
+  void assemble(const Rows& rows, const Points& v);
+
+  using Matrix = Eigen::SparseMatrix<double>;
+  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<int> column_;  // first unknown of each node, -1 for infinite mass
+  Matrix matrix_;
+  using Factor = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
+  std::unique_ptr<Factor> factor_ = std::make_unique<Factor>();
+  Eigen::VectorXd right_, solution_;
+  std::vector<double> kept_;
+  double lowest_ = infinity;
+  int idle_ = 0;  // iterations since the residual was clearly lower than ever
+  Points start_;
+};
+
+/// sqrt(sum_i) of the squared residuals of all rows at v.
+double natural_residual(const Rows& rows, const Points& v);
+
+}  // namespace pbd

@@ -1,0 +1,287 @@
+// Contact in a step, against exact recurrences and balances.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "error.h"
+#include "relaxation.h"
+#include "scenes/contacts.h"
+#include "step.h"
+
+using namespace pbd;
+using namespace pbdcheck;
+
+namespace {
+
+constexpr double gravity = 9.81;
+
+Method method_of(std::string_view relaxation, std::string_view friction = "coulomb") {
+  Method method;
+  method.relaxation = relaxation;
+  method.friction = friction;
+  method.tolerance = 1e-12;
+  return method;
+}
+
+/// The state after `steps` steps that all say ok.
+State run(const Scene& scene, const Method& method, double h, int steps, Workspace& workspace) {
+  State state = scene.initial;
+  for (int k = 0; k < steps; ++k) {
+    const Report report = step(scene, method, h, state, workspace);
+    INFO(method.relaxation << " " << method.friction << " step " << k << " residual " << report.residual());
+    REQUIRE(report.status == Status::ok);
+  }
+  return state;
+}
+
+State run(const Scene& scene, const Method& method, double h, int steps) {
+  Workspace workspace(scene, method);
+  return run(scene, method, h, steps, workspace);
+}
+
+/// v_k+1 = max(0, v_k - h deceleration), x_k+1 = x_k + h v_k+1
+double sliding_distance(double v, double deceleration, double h, int steps) {
+  double x = 0;
+  for (int k = 0; k < steps; ++k) {
+    v = std::max(0.0, v - h * deceleration);
+    x += h * v;
+  }
+  return x;
+}
+
+double weight(const Scene& scene) {
+  double mass = 0;
+  for (const double own : scene.mass)
+    if (std::isfinite(own)) mass += own;
+  return mass * gravity;
+}
+
+/// N, what the ground (collider 0) carries.
+Vec3 ground_force(const Workspace& workspace) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactForce& contact : workspace.contacts()) {
+    if (contact.collider[1] == 0) sum += contact.force;
+    if (contact.collider[0] == 0) sum -= contact.force;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a sliding box follows implicit Euler's recurrence with every relaxation and law") {
+  constexpr double h = 1.0 / 60, friction = 0.3, speed = 3;
+  constexpr int steps = 70;  // it stops in 61
+  const double exact = sliding_distance(speed, friction * gravity, h, steps);
+  for (const auto relaxation : relaxation_names())
+    for (const auto law : {"coulomb", "disc", "box"}) {
+      const State end = run(sliding_box(0, friction, speed), method_of(relaxation, law), h, steps);
+      INFO(relaxation << " " << law);
+      CHECK(std::abs(end.x(0, 1) - exact) <= 1e-9);
+      CHECK(std::abs(end.x(2, 1) - 0.05) <= 1e-10);
+    }
+}
+
+TEST_CASE("friction is the same at every heading, but for the box's sqrt(2)") {
+  constexpr double h = 0.01, friction = 0.3, speed = 2;
+  for (const double degrees : {20.0, 45.0, 130.0}) {
+    const double heading = degrees * std::numbers::pi / 180;
+    const Scene scene = sliding_box(0, friction, speed, heading);
+    const double exact = sliding_distance(speed, friction * gravity, h, 20);
+    for (const auto law : {"coulomb", "disc"}) {
+      const State end = run(scene, method_of("conjugate_gradients", law), h, 20);
+      CHECK(std::abs(end.x.col(1).head<2>().norm() - exact) <= 1e-9);
+      CHECK(std::abs(std::atan2(end.x(1, 1), end.x(0, 1)) - heading) <= 1e-9);
+    }
+  }
+  const State box = run(sliding_box(0, friction, speed, std::numbers::pi / 4),
+                        method_of("conjugate_gradients", "box"), h, 20);
+  CHECK(std::abs(box.x.col(1).head<2>().norm() -
+                 sliding_distance(speed, std::numbers::sqrt2 * friction * gravity, h, 20)) <= 1e-9);
+}
+
+TEST_CASE("the convex law lets a steadily sliding box hover by h mu v, Coulomb's does not") {
+  constexpr double angle = 0.4, friction = 0.2, h = 0.005;
+  for (const auto relaxation : {"gauss_seidel", "nesterov_jacobi", "direct"}) {
+    Workspace workspace(sliding_box(angle, friction, 1), method_of(relaxation, "cone"));
+    const Scene scene = sliding_box(angle, friction, 1);
+    const State end = run(scene, method_of(relaxation, "cone"), h, 200, workspace);
+    const Vec3 normal(std::sin(angle), 0, std::cos(angle));
+    const double gap = normal.dot(end.x.col(1)) - 0.05, speed = end.v.col(1).norm();
+    INFO(relaxation << " gap " << gap << " h mu v " << h * friction * speed);
+    CHECK(std::abs(gap / (h * friction * speed) - 1) <= 0.01);
+  }
+}
+
+TEST_CASE("a box sticks just below and slides just above the angle of friction") {
+  constexpr double angle = 0.5, h = 0.01;
+  const double tangent = std::tan(angle);
+  const State sticks = run(sliding_box(angle, tangent * (1 + 1e-6), 0), method_of("direct"), h, 100);
+  CHECK(sticks.v.col(1).norm() <= 1e-9);
+  const State slides = run(sliding_box(angle, tangent * (1 - 1e-6), 0), method_of("direct"), h, 100);
+  const double exact = gravity * std::sin(angle) * 1e-6 * 100 * h;
+  CHECK(std::abs(slides.v.col(1).norm() / exact - 1) <= 1e-3);
+}
+
+TEST_CASE("columns stand, however heavy their tops, and the ground carries their weight") {
+  for (const auto& scene : {column(5), column(2, 1e4), column(6, 4), pyramid(4)})
+    for (const auto relaxation : {"conjugate_gradients", "direct"}) {
+      const Method method = method_of(relaxation);
+      Workspace workspace(scene, method);
+      const State end = run(scene, method, 0.01, 20, workspace);
+      const Vec3 carried = ground_force(workspace);
+      CHECK(std::abs(carried.z() / weight(scene) - 1) <= 1e-9);
+      CHECK(carried.head<2>().norm() <= 1e-8 * weight(scene));
+      CHECK((end.x - scene.initial.x).cwiseAbs().maxCoeff() <= 1e-9);
+    }
+}
+
+TEST_CASE("a ball rolls when it has slid for 2/7 of its speed") {
+  BodyScene build({.friction = 0.2});
+  build.ground();
+  build.ball(0.1, 1, {Vec3(0, 0, 0.1), Eigen::Quaterniond::Identity(), Vec3(1, 0, 0)});
+  const State end = run(build.finish(), method_of("direct"), 0.001, 300);
+  CHECK(std::abs(end.v(0, 1) - 5.0 / 7) <= 1e-12);
+  CHECK(std::abs(end.spin(1, 1) - 5.0 / 0.7) <= 1e-11);
+}
+
+TEST_CASE("restitution returns the approaching speed, and with the trapezoidal rule all energy") {
+  for (const double restitution : {1.0, 0.5}) {
+    BodyScene build({.friction = 0, .restitution = restitution});
+    build.ground();
+    build.ball(0.1, 2, {Vec3(0, 0, 0.6)});
+    const Scene scene = build.finish();
+    Method method = method_of("direct");
+    method.integrator = "newmark";
+    method.alpha = 0.5;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    constexpr double h = 0.001;
+    const auto energy = [&] { return state.v.col(1).squaredNorm() + 2 * gravity * state.x(2, 1); };
+    const double start = energy();
+    int bounces = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const double before = state.v(2, 1);
+      REQUIRE(step(scene, method, h, state, workspace).status == Status::ok);
+      const double after = state.v(2, 1);
+      if (before < 0 && after > 0 && bounces++ < 3) CHECK(std::abs(after + restitution * before) <= 1e-12);
+    }
+    CHECK(bounces >= 3);
+    if (restitution == 1) CHECK(std::abs(energy() - start) <= 1e-10 * start);
+  }
+}
+
+TEST_CASE("an overlap parts no faster than it is told") {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  build.box(Vec3::Constant(0.2), 1, {Vec3(0, 0, 0.1 - 1e-3)});
+  build.contact().recovery = 0.01;
+  const Scene scene = build.finish();
+  const Method method = method_of("direct");
+  const State end = run(scene, method, 0.01, 5);
+  CHECK(std::abs(end.x(2, 1) - (0.1 - 1e-3 + 5 * 0.01 * 0.01)) <= 1e-12);
+}
+
+TEST_CASE("a fast body pushes those it has not touched yet within a step") {
+  BodyScene build({.friction = 0}, 0);
+  constexpr double gap = 1e-3;
+  build.ball(0.1, 1, {Vec3(0, 0, 0), Eigen::Quaterniond::Identity(), Vec3(10, 0, 0)});
+  build.ball(0.1, 1, {Vec3(0.2 + gap, 0, 0)});
+  build.ball(0.1, 1, {Vec3(0.4 + 2 * gap, 0, 0)});
+  for (const auto relaxation : relaxation_names()) {
+    INFO(relaxation);
+    const State end = run(build.finish(), method_of(relaxation), 0.01, 1);
+    CHECK(end.x(0, 1) - end.x(0, 0) >= 0.2 - 1e-10);
+    CHECK(end.x(0, 2) - end.x(0, 1) >= 0.2 - 1e-10);
+    CHECK(end.v(0, 2) > 0);
+    CHECK(std::abs(end.v.row(0).sum() - 10) <= 1e-10);
+  }
+}
+
+TEST_CASE("nodes rest on bodies and push them") {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  build.box(Vec3(1, 1, 0.2), 3, {Vec3(0, 0, 0.1)});
+  Scene scene = build.finish();
+  const int node = add_node(scene, Vec3(0.2, 0.1, 0.2 + 0.01), 2, Vec3(0.5, 0, 0));
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.node = {node};
+  contact.radius = {0.01};
+  contact.node_material = {0};
+  for (const auto relaxation : relaxation_names()) {
+    const Method method = method_of(relaxation);
+    Workspace workspace(scene, method);
+    const State end = run(scene, method, 0.01, 30, workspace);
+    INFO(relaxation);
+    CHECK(std::abs(end.x(0, node) - 0.2 - sliding_distance(0.5, 0.5 * gravity, 0.01, 30)) <= 1e-9);
+    CHECK(std::abs(end.x(2, node) - 0.21) <= 1e-10);
+    CHECK(std::abs(ground_force(workspace).z() / weight(scene) - 1) <= 1e-8);
+  }
+}
+
+TEST_CASE("deformable surfaces rest on each other") {
+  // A loose triangle above a fixed one; and two crossing edges of thin triangles.
+  for (const bool edges : {false, true}) {
+    Scene scene;
+    Contact contact;
+    constexpr double thickness = 0.01, height = thickness + 1e-3;
+    const auto triangle = [&](const Vec3& a, const Vec3& b, const Vec3& c, double mass) {
+      const int first = add_node(scene, a, mass);
+      add_node(scene, b, mass);
+      add_node(scene, c, mass);
+      contact.triangle.push_back({first, first + 1, first + 2});
+      return first;
+    };
+    triangle(edges ? Vec3(0, -1, 0) : Vec3(-1, -1, 0), edges ? Vec3(0, 1, 0) : Vec3(1, -1, 0),
+             edges ? Vec3(0, 0, -1) : Vec3(0, 1, 0), infinity);
+    const int upper = edges ? triangle(Vec3(-1, 0, height), Vec3(1, 0, height), Vec3(0, 0, 1), 1)
+                            : triangle(Vec3(0, 0, height), Vec3(0.1, 0, 1), Vec3(0, 0.1, 1), 1);
+    Distance links;
+    for (const auto& [a, b] : {std::array{0, 1}, std::array{1, 2}, std::array{0, 2}}) {
+      links.node.push_back({upper + a, upper + b});
+      links.rest_length.push_back((scene.initial.x.col(upper + a) - scene.initial.x.col(upper + b)).norm());
+      links.compliance.push_back(0);
+    }
+    contact.thickness = thickness;
+    contact.law[0].friction = 0.3;
+    contact.collider.push_back({Sphere{1}, add_body(scene, Vec3(9, 0, 0), 1, Vec3::Ones())});
+    scene.effects = {Gravity{}, links, contact};
+    const Method method = method_of("direct");
+    Workspace workspace(scene, method);
+    constexpr double h = 0.01;
+    State end = run(scene, method, h, 2, workspace);
+    const Points before = end.v;
+    REQUIRE(step(scene, method, h, end, workspace).status == Status::ok);
+    double carried = 0, gap = 1;
+    Vec3 on_upper = Vec3::Zero();
+    for (const ContactForce& each : workspace.contacts()) {
+      CHECK(std::min(each.collider[0], each.collider[1]) >= 1);  // nodes, counted behind the sphere
+      on_upper += each.collider[0] - 1 >= upper ? each.force : -each.force;
+      carried += std::abs(each.force.z());
+      gap = std::min(gap, each.gap);
+    }
+    const Vec3 gained = (end.v - before).middleCols<3>(upper).rowwise().sum() / h;  // times 1 kg
+    CHECK((gained - 3 * Vec3(0, 0, -gravity) - on_upper).norm() <= 1e-7 * gravity);
+    INFO((edges ? "edges" : "node and triangle"));
+    CHECK(gap >= -1e-10);
+    CHECK(carried > gravity);
+    CHECK(std::abs(end.x(2, upper) - thickness) <= 1e-8);
+  }
+}
+
+TEST_CASE("contact refuses what it cannot do") {
+  const Scene scene = sliding_box(0, 0.5, 1);
+  for (const auto integrator : {"midpoint", "bdf2", "generalised_alpha"}) {
+    Method method;
+    method.integrator = integrator;
+    CHECK_THROWS_AS(Workspace(scene, method), SetupError);
+  }
+  Method unknown;
+  unknown.friction = "pyramid";
+  CHECK_THROWS_AS(Workspace(scene, unknown), SetupError);
+  Scene bad = scene;
+  std::get<Contact>(bad.effects.back()).law[0].friction = -1;
+  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
+  bad = scene;
+  std::get<Contact>(bad.effects.back()).collider[1].body = 7;
+  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
+}

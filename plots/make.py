@@ -5,6 +5,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
 import conditioning  # noqa: F401  (each of these registers its figures)
+import cone_problems  # noqa: F401
 import contraction  # noqa: F401
 import damping  # noqa: F401
 import direction  # noqa: F401

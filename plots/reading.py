@@ -22,13 +22,13 @@ COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
             "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance",
-            "disturbance_rad_s", "bodies", "redundant_joints"}  # chosen or counted: numbers
+            "disturbance_rad_s", "bodies", "redundant_joints", "contacts"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
         "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
-        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome"}
+        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law"}
 
 
 class InputError(Exception):

@@ -111,11 +111,12 @@ void MeshPair::crossing(int i, int j) const {
     const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
       return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
     };
+    const double depth_b = below_faces(of_b, at.apart, normal_b);
+    const double depth_a = of_a.face[0] >= 0 ? below_faces(of_a, -at.apart, normal_a) : infinity;
+    if (distance > tiny && std::min(depth_a, depth_b) <= tiny) return;  // beside a face, not below
     MeshPlace place{};
-    if (!nearest_of_mesh(b, y_a, distance, place)) return;
-    if (-place.distance < below_faces(of_b, at.apart, normal_b) - tiny) return;
-    if (of_a.face[0] >= 0 && depth_in_a(y_b, distance) < below_faces(of_a, -at.apart, normal_a) - tiny)
-      return;
+    if (!nearest_of_mesh(b, y_a, distance, place) || -place.distance < depth_b - tiny) return;
+    if (of_a.face[0] >= 0 && depth_in_a(y_b, distance) < depth_a - tiny) return;
   }
   const auto key = roles.key(Feature::edge, i, Feature::edge, j);
   const double gap = (inside ? -distance : distance) - a.radius;

@@ -30,6 +30,10 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
     swapped = contact.swapped;
   }
   double seen = -infinity;  // a lower bound of the distance
+  for (const auto& contact : found) {
+    const Vec3 n = touch(contact, at_a, at_b).normal;
+    seen = std::max(seen, apart_along(a, at_a, b, at_b, contact.swapped ? Vec3(-n) : n));
+  }
   for (int k = 0; k < 30; ++k)
     seen = std::max(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
   if (found.empty()) {

@@ -118,7 +118,7 @@ TEST_CASE("edges within a flat side of a mesh are not felt") {
 }
 
 TEST_CASE("what stands on a flat side of a mesh, touching or nearly so, is pushed along its normal") {
-  const Shape ground = ClosedMesh(refined(refined(box_surface({6, 6, 1}))));
+  const Shape ground = ClosedMesh(refined(refined(refined(refined(box_surface({6, 6, 1}))))));
   const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder", "mesh");
   const double gap = GENERATE(0.0, 1e-17, -1e-17, 1e-12, -1e-12, 1e-6, -1e-6);
   Random random(53);
@@ -126,7 +126,7 @@ TEST_CASE("what stands on a flat side of a mesh, touching or nearly so, is pushe
     Shape shape = random_shape(kind, random);
     if (kind == "hull") shape = ConvexHull(box_surface({0.5, 0.75, 1}));
     if (kind == "mesh") shape = ClosedMesh(box_surface({0.5, 0.75, 1}));
-    Frame at;
+    Frame at;  // at first edges and nodes stand on each other
     if (number > 0) at.origin << random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0;
     if (number % 2 == 0) at.rotation = random.quarter_turns();
     at.origin.z() = 0.5 + support(shape, at, -Vec3::UnitZ()) + gap;

@@ -1,12 +1,30 @@
 """Draws the table of a comparison."""
 
+from itertools import cycle
+
+import matplotlib.pyplot as plt
 import numpy as np
 
 from command import command
-from common import literal, save
+from common import FALLBACK, literal, save
 from reading import InputError, read_table
 from tables import columns
-from work_precision import draw_methods
+from work_precision import REFERENCE, draw_methods
+
+
+def draw(frame):
+    """Each method by the text that was given, with a look of its own."""
+    looks = {method: dict(zip(("color", "marker", "linestyle"), look))
+             for method, look in zip(frame["method"].unique(), cycle(FALLBACK))}
+
+    def legend(fig, rows, references):
+        entries = {f"judge {method}, the reference itself" if method in references else method:
+                   REFERENCE if method in references else look for method, look in looks.items()}
+        handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
+        fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=1)
+
+    return draw_methods(frame, "wall_s", "wall time (s)", by=["method"], look=lambda row: looks[row["method"]],
+                        legend=legend)
 
 
 def main(directory):
@@ -19,8 +37,7 @@ def main(directory):
         if row["status"] == "ok" and not np.isfinite(row["error"]):
             raise InputError(f"{path}: line {i + 2}: column 'error': got {row['error']}; allowed where the status is ok: "
                              "a finite number")
-    fig = draw_methods(literal(frame), "wall_s", "wall time (s)")
-    save(fig, directory / "figures", "compare_seconds", f"pbdcheck compare: {path}")
+    save(draw(literal(frame)), directory / "figures", "compare_seconds", f"pbdcheck compare: {path}")
 
 
 if __name__ == "__main__":

@@ -10,8 +10,10 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 import common
+import compare
 import make
 import reading
 import sample
@@ -209,11 +211,23 @@ class Commands(unittest.TestCase):
 
     def test_a_comparison_without_an_error_is_never_ok(self):
         with tempfile.TemporaryDirectory() as folder:
-            row = ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 1.0, math.nan, "ok", "")
-            sample.write(folder, ".", "compare", tables.METHOD, [row])
+            row = ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 1.0, math.nan, "ok", "", "outer=plain")
+            sample.write(folder, ".", "compare", tables.METHOD + " method", [row])
             result = self.run_plots("compare.py", folder)
             self.assertEqual(result.returncode, 2)
             self.assertIn("compare.csv: line 2: column 'error': got nan", result.stderr)
+
+    def test_compare_tells_methods_apart_that_differ_in_a_parameter_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.write_all(folder)
+            frame = reading.read_table(Path(folder) / "compare.csv")
+            one = frame[frame["outer"] == "proximal"]
+            fig = compare.draw(pd.concat([one.assign(method="memory=0"), one.assign(method="memory=20")]))
+            entries = dict(zip((text.get_text() for text in fig.legends[0].get_texts()), fig.legends[0].get_lines()))
+            self.assertEqual(sorted(entries), ["memory=0", "memory=20"])
+            colors = {line.get_color() for line in entries.values()}
+            self.assertEqual(len(colors), 2)
+            self.assertLessEqual(colors, {line.get_color() for line in fig.axes[0].lines})
 
 
 if __name__ == "__main__":

@@ -65,7 +65,7 @@ def front(ax, points, x, look):
     draw_failed(ax, failed(points, x, "error"), x, "error", look)
 
 
-def legend(fig, frame, references):
+def families_legend(fig, frame, references):
     """Outer iterations by colour and line, then relaxations by marker."""
     entries = {}
     for row in frame.drop_duplicates(["outer", "relaxation"]).to_dict("records"):
@@ -83,21 +83,22 @@ def legend(fig, frame, references):
     fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
 
 
-def draw_methods(frame, x, label):
-    """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work."""
+def draw_methods(frame, x, label, by=("outer", "relaxation"), look=method_style, legend=families_legend):
+    """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work.
+    Curves are what the columns `by` tell apart."""
     judges = frame[frame["outer"] == "judge"]
-    names = [name for name, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
+    names = [judge for judge, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
     if x != "wall_s":
         frame = with_work(frame, x)
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
-        for _, points in rows.groupby(["outer", "relaxation"], sort=False):
+        for _, points in rows.groupby(list(by), sort=False):
             first = points.iloc[0]
             if is_reference(points):
                 mark_reference(ax, points, x)
             else:
-                front(ax, points, x, method_style(first))
+                front(ax, points, x, look(first))
         extra = f", {friction}" if frame["friction"].nunique() > 1 else ""
         ax.set(xscale="log", yscale="log", title=f"{scene_text(scene)}, {integrator}, h = {step_text(step)}{extra}")
         ax.title.set_fontsize(7)

@@ -18,7 +18,9 @@ SINGULAR = (
     "The four-bar chain of N loops moves with one degree of freedom, all legs parallel. Where its legs lie along the "
     "couplers, the joints' rows depend on each other, and the number of degrees of freedom jumps from 1 to N + 1 for that "
     "moment: any loop may fold into an antiparallelogram. The constraints alone do not say there which way the chain goes on; "
-    "the velocity it comes with does.")
+    "the velocity it comes with does. Beside that place a step ends where rounding leaves it: places up to L from the origin are "
+    "known to eps L, the rates of constraints to eps L/h, and the step changes velocities by g h, so that eps L/(g h²) of it "
+    "may be left, which exceeds the tolerance of 1e-12 at the shorter steps.")
 MULTIPLIERS = (
     "Rows that depend on each other leave the impulses p open: any with the same J^T p do. Unique are the motion and the net "
     "force of the joints of one place; the part of p without effect is what a relaxation makes of it. `direct` (whose shift "

@@ -23,7 +23,7 @@ def draw(frame):
         handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
         fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=1)
 
-    return draw_methods(frame, "wall_s", "wall time (s)", by=["method"], look=lambda row: looks[row["method"]],
+    return draw_methods(frame, "wall_s", "wall time (s)", by="method", look=lambda row: looks[row["method"]],
                         legend=legend)
 
 

@@ -83,7 +83,7 @@ def families_legend(fig, frame, references):
     fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
 
 
-def draw_methods(frame, x, label, by=("outer", "relaxation"), look=method_style, legend=families_legend):
+def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style, legend=families_legend):
     """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work.
     Curves are what the columns `by` tell apart."""
     judges = frame[frame["outer"] == "judge"]
@@ -93,7 +93,7 @@ def draw_methods(frame, x, label, by=("outer", "relaxation"), look=method_style,
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
-        for _, points in rows.groupby(list(by), sort=False):
+        for _, points in rows.groupby(by, sort=False):
             first = points.iloc[0]
             if is_reference(points):
                 mark_reference(ax, points, x)

@@ -191,7 +191,9 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     report.dual = std::sqrt(found.squared);
     report.primal = std::hypot(w.distance(w.v, w.rebuilt), std::sqrt(w.torque_missed));
     report.scale = w.distance(w.v, w.start_v) + free_change;
-    velocity_rounding = 8 * rounding_unit * (free_speed + std::sqrt(found.impulses_squared));
+    const double impulses = std::sqrt(found.impulses_squared);
+    const bool balance = report.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
+    velocity_rounding = 8 * rounding_unit * (free_speed + (balance ? impulses : 0.0));
     rounding = velocity_rounding + std::sqrt(found.rounding_squared);
   };
 

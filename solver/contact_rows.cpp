@@ -98,7 +98,7 @@ void ContactRows::linearise_contact(const Linearisation& to, ActiveContact& cont
   constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
   const double size = roundoff * largest(contact, found, to.at) / to.map.d;
   sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
-  sums.impulses_squared += block.squared_impulse(i);
+  sums.impulses_squared += block.squared_effect(to.inverse_mass, i);
 }
 
 BlockResidual ContactRows::linearise(const Configuration& at, const Configuration* directions,

@@ -12,7 +12,7 @@ Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block
 
 /// Squared dual residual of a block, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
 /// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J; and
-/// what the rows' impulses p do each alone, sum_i p_i^T N_ii p_i by N's diagonal. All in J.
+/// what the rows' impulses p do each alone, sum_i |W J_i^T p_i|_M^2. All in J.
 struct BlockResidual {
   double squared = 0;
   double rounding_squared = 0;

@@ -147,11 +147,13 @@ struct RowBlock : ConstraintShape<R, K> {
     return inverse_diagonal[i](0, 0) > 0 ? change.squaredNorm() / inverse_diagonal[i](0, 0) : 0.0;
   }
 
-  /// p^T N_ii p of constraint i's impulse p (J), by N_ii's diagonal.
-  double squared_impulse(std::size_t i) const {
+  /// |W J_i^T p|_M^2 of constraint i's impulse p, J.
+  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i) const {
+    const Velocities push = jacobian[i].transpose() * impulse[i];
     double sum = 0;
-    for (int r = 0; r < R; ++r)
-      if (inverse_diagonal[i](r, r) > 0) sum += impulse[i][r] * impulse[i][r] / inverse_diagonal[i](r, r);
+    for (int a = 0; a < K; ++a)
+      sum += inverse_mass[static_cast<std::size_t>(node[i][static_cast<std::size_t>(a)])] *
+             push.template segment<3>(3 * a).squaredNorm();
     return sum;
   }
 

@@ -194,7 +194,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
     const double impulses = std::sqrt(found.impulses_squared);
     const bool balance = report.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
     velocity_rounding = 8 * rounding_unit * (free_speed + (balance ? impulses : 0.0));
-    rounding = velocity_rounding + std::sqrt(found.rounding_squared);
+    rounding = 8 * rounding_unit * free_speed + std::sqrt(found.rounding_squared);
   };
 
   for (;; ++report.outer_iterations) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "polar.h"
+
 namespace pbd::reference {
 namespace {
 
@@ -148,7 +150,12 @@ Rows all_rows(const Model& model, const Points& x, const Vector& gamma) {
     const RowVector multiplier = -stress(e, local.value, {gamma, {}});
     r.value.segment(at, e.rows) = local.value;
     r.multiplier.segment(at, e.rows) = multiplier;
-    const LocalMatrix h = curvature_of(local, multiplier, RowMatrix::Zero(e.rows, e.rows));
+    LocalMatrix h = curvature_of(local, multiplier, RowMatrix::Zero(e.rows, e.rows));
+    if (e.kind == Kind::corotational) {
+      const HeldRotation held = held_rotation(local_matrix(e, x), multiplier);
+      h = held.turning + held.jacobian.transpose() * e.stiffness * (held.jacobian - local.jacobian);
+      local.jacobian = held.jacobian;
+    }
     for (int a = 0; a < e.nodes; ++a) {
       const int i = model.unknown(e, a);
       if (i < 0) continue;

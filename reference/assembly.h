@@ -46,7 +46,9 @@ class Assembly {
 Vector energy_gradient(const Model& model, const Points& x);
 
 /// Constraint rows of all elements, hard and compliant, in the scene's order: c, J (rows x unknowns), force
-/// multipliers (gamma, or -A^-1 c), and the geometric stiffness sum_i multiplier_i d2c_i/dx2 (N/m).
+/// multipliers (gamma, or -A^-1 c), and the geometric stiffness sum_i multiplier_i d2c_i/dx2 (N/m). Of
+/// corotational tetrahedra J holds the rotation fixed, as their rows do, and the stiffness is what such rows
+/// leave out: d(J^T multiplier)/dx + J^T A^-1 (J - dc/dx).
 struct Rows {
   std::vector<int> first;  // first row of each element, and the number of rows at the end
   Vector value, multiplier;

@@ -26,6 +26,16 @@ double spectral_radius(const Matrix& a) {
 
 }  // namespace
 
+Contraction extremes(const Matrix& map) {
+  Contraction found;
+  const Eigen::EigenSolver<Matrix> solver(map, false);
+  for (const auto& value : solver.eigenvalues()) {
+    found.smallest = std::min(found.smallest, std::copysign(std::abs(value), value.real()));
+    found.largest = std::max(found.largest, std::copysign(std::abs(value), value.real()));
+  }
+  return found;
+}
+
 Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::VectorXd& gamma, double h) {
   const Model model = make_model(scene);
   const Rows rows = all_rows(model, x, gamma);
@@ -45,9 +55,8 @@ Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::
       model.hard_rows > 0 ? null_space(hard) : Matrix::Identity(model.unknowns, model.unknowns);
   if (basis.cols() == 0) return {};
   const Matrix dropped = h * h * (root.asDiagonal() * rows.geometric * root.asDiagonal());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(
-      basis.transpose() * dropped * basis, basis.transpose() * metric * basis, Eigen::EigenvaluesOnly);
-  return {eigen.eigenvalues().minCoeff(), eigen.eigenvalues().maxCoeff()};
+  const Matrix left = basis.transpose() * metric * basis;
+  return extremes(left.llt().solve(basis.transpose() * dropped * basis));
 }
 
 RelaxationRates relaxation_rates(const Scene& scene, const Points& x, double h, double omega) {

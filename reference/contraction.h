@@ -6,6 +6,7 @@
 // + J* e_{k+1} up to O(e^2), so that on the null space of the hard rows
 //   (M + h^2 J_c^T A^-1 J_c) e_{k+1} = h^2 G e_k,   G = sum_i gamma_i d2c_i  (gamma = -A^-1 c for compliant
 //   rows)
+// Corotational rows hold their rotation fixed: J is not dc/dx, and G gains J^T A^-1 (J - dc/dx).
 // Under tension gamma < 0 and the eigenvalues are negative: the iteration oscillates. Pendulum: -h^2 T/(m l).
 //
 // Relaxation of the linearised problem, N = J W J^T + A/h^2 in blocks per constraint, N = L + D + L^T:
@@ -24,6 +25,9 @@ struct Contraction {
   double smallest = 0, largest = 0;
   double radius() const { return std::max(-smallest, largest); }
 };
+
+/// Of the eigenvalues of an error map.
+Contraction extremes(const Eigen::MatrixXd& map);
 
 /// At a solved step's positions x (3 x N) and force multipliers gamma of the hard rows (N for lengths, as in
 /// Judgement).

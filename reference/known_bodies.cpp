@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "closed_form_bodies.h"
@@ -15,6 +16,24 @@ Vec3 spin_by_ode(const Vec3& inertia, const Vec3& spin, double time) {
     out = momentum.cross(w).cwiseQuotient(inertia);
   };
   return solve_ode(slope, spin, {time}).states.back();
+}
+
+/// Rate at which the third axis of that body circles the angular momentum, by its orientation: half a turn is
+/// over where the axis crosses the plane of the momentum and its first direction again, near `time`.
+double axis_rate_by_ode(const Vec3& inertia, const Vec3& spin, double time) {
+  const auto slope = [&](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) {
+    const Vec3 w = y.head<3>(), momentum = inertia.cwiseProduct(w);
+    const Eigen::Quaterniond q(y(3), y(4), y(5), y(6)), rate = q * Eigen::Quaterniond(0, w(0), w(1), w(2));
+    out << momentum.cross(w).cwiseQuotient(inertia), rate.w() / 2, rate.vec() / 2;
+  };
+  Eigen::VectorXd start(7);
+  start << spin, 1, 0, 0, 0;
+  const Vec3 normal = inertia.cwiseProduct(spin).cross(Vec3::UnitZ());
+  const auto beside = [&](double t) {
+    const Eigen::VectorXd y = solve_ode(slope, start, {t}).states.back();
+    return normal.dot(Eigen::Quaterniond(y(3), y(4), y(5), y(6)) * Vec3::UnitZ());
+  };
+  return pi / find_root(beside, 0.8 * time, 1.2 * time);
 }
 
 void free_bodies(Rows& rows) {
@@ -60,7 +79,7 @@ void free_bodies(Rows& rows) {
   rows.push_back({"symmetric_body", "body of moments (1, 1, 2) kg m^2 from (0.5, 0, 10) rad/s: its period",
                   "s", 2 * pi / body_precession(1, 2, spin), "0.628318531", 4 * quarter});
   rows.push_back({"symmetric_body", "its rate of precession in space", "rad/s", space_precession(1, 2, spin),
-                  "20.0062490", symmetric.cwiseProduct(spin).norm() / symmetric[0]});
+                  "20.0062490", axis_rate_by_ode(symmetric, spin, pi / 20)});
 }
 
 /// dL/dt - torque of a top that precesses steadily, across its axis: L in the plane of axis and vertical.

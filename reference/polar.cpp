@@ -133,4 +133,19 @@ StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f) {
   return result;
 }
 
+HeldRotation held_rotation(const Eigen::Matrix3d& f, const Strain6& p) {
+  const ProperSvd svd = proper_svd(f);
+  const Eigen::Matrix3d rotation = svd.u * svd.v.transpose(), inverse = inverse_sums(svd.s);
+  Eigen::Matrix3d stress;
+  stress << p(0), p(3), p(5), p(3), p(1), p(4), p(5), p(4), p(2);
+  HeldRotation held;
+  for (int a = 0; a < 9; ++a) {
+    const Eigen::Matrix3d strain = rotation.transpose() * unit(a), g = svd.u.transpose() * unit(a) * svd.v;
+    held.jacobian.col(a) = components((strain + strain.transpose()) / 2);
+    const Eigen::Matrix3d turn = svd.u * (g - g.transpose()).cwiseProduct(inverse) * svd.v.transpose();
+    held.turning.col(a) = (turn * stress).reshaped();
+  }
+  return held;
+}
+
 }  // namespace pbd::reference

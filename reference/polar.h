@@ -45,4 +45,13 @@ struct StrainDerivatives : StrainSlope {
 };
 StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f);
 
+/// What is left of the slope where R is held fixed, R^T dF made symmetric, and how the force R P of a stress
+/// p = (P_xx, P_yy, P_zz, P_xy, P_yz, P_zx) turns with it, dR P: with U^T dR V = W,
+///   (s_i + s_j) W_ij = (U^T dF V - V^T dF^T U)_ij
+struct HeldRotation {
+  Eigen::Matrix<double, 6, 9> jacobian;
+  Eigen::Matrix<double, 9, 9> turning;
+};
+HeldRotation held_rotation(const Eigen::Matrix3d& f, const Strain6& stress);
+
 }  // namespace pbd::reference

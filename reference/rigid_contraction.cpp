@@ -53,13 +53,7 @@ Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, 
   left << inertia, -jacobian.transpose(), h * jacobian, Matrix(system.compliance);
   right << inertia - Matrix(system.tangent) * turn, h * jacobian - jacobian * turn;
   const Matrix map = left.partialPivLu().solve(right).topRows(n);
-  Contraction found;
-  const Eigen::EigenSolver<Matrix> solver(map, false);
-  for (const auto& value : solver.eigenvalues()) {
-    found.smallest = std::min(found.smallest, std::copysign(std::abs(value), value.real()));
-    found.largest = std::max(found.largest, std::copysign(std::abs(value), value.real()));
-  }
-  return found;
+  return extremes(map);
 }
 
 }  // namespace pbd::reference

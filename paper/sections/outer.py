@@ -148,11 +148,11 @@ def contraction(results):
         "Small bodies of one effect each, loaded so that their geometric stiffness matters; of joints, three rods on balls "
         "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain`, measured beside the solution, is "
         "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect, to which "
-        "of rods half the angle that they turn in the step is added.",
+        "of rods half the angle that they turn in the step is added. Corotational rows hold their rotation fixed: J is not dc/dx, "
+        "and what the rows leave out is d(J^T p)/dx + J^T A^-1 (J - dc/dx), by which the dense radius is computed.",
         figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
-                        "Where the bound is at most 0.7 it is the solver's prediction. Corotational rows hold their "
-                        "rotation fixed, which the dense radius, from exact derivatives, does not.")])
+                        "Where the bound is at most 0.7 it is the solver's prediction.")])
     return section.tell(results.table("contraction", "rates"), effects_table)
 
 

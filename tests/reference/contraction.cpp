@@ -1,6 +1,7 @@
 // Predicted rates against formulas and stated values.
 #include "contraction.h"
 
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -153,6 +154,53 @@ TEST_CASE("a spring across the motion slows the error by its material stiffness"
   held.rest_length.push_back(1);
   held.compliance.push_back(1e-3);
   CHECK(plain_contraction(scene, scene.initial.x, {}, h).smallest == Approx(along).epsilon(1e-12));
+}
+
+// One corner of a corotational tetrahedron is pulled far away, the others are held. Plain with rows
+// J = sym(R^T dF) of c = S - I, R from the polar decomposition of F = R S:
+//   (M/h^2 + J^T K J) x' = M y/h^2 + J^T K (J x - c),  y the free end
+TEST_CASE("the predicted rate is that of plain on a corotational tetrahedron") {
+  const double h = 0.1, young = 1e5, poisson = 0.3;
+  Scene scene;
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+    add_node(scene, x, x.z() > 0 ? 20 : infinity);
+  Eigen::Matrix<double, 3, 4> rest = scene.initial.x;
+  scene.effects = {TetStrain{{{0, 1, 2, 3}}, {rest}, {young, poisson}, Strain::corotational},
+                   ExternalForce{{3}, {Vec3(2000, 1000, 6000)}}};
+  const Judgement judged = primal_newton(scene, scene.initial, h);
+  REQUIRE(judged.outcome == Outcome::ok);
+  const Contraction rate = plain_contraction(scene, judged.x, judged.multiplier, h);
+
+  using Square = Eigen::Matrix<double, 6, 6>;
+  Square compliance = Square::Zero();  // C^-1 over the volume, 1/6 m^3
+  compliance.topLeftCorner<3, 3>().setConstant(-poisson);
+  compliance.diagonal() << 1, 1, 1, 2 * (1 + poisson), 2 * (1 + poisson), 2 * (1 + poisson);
+  const Square stiffness = (compliance / young).inverse() / 6;
+  const auto strain = [](const Eigen::Matrix3d& s) {
+    const Eigen::Matrix3d e = (s + s.transpose()) / 2;
+    return Eigen::Matrix<double, 6, 1>(e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0));
+  };
+  const double inertia = 20 / (h * h);
+  const Vec3 end = judged.x.col(3);
+  const Vec3 free = scene.initial.x.col(3) + Vec3(2000, 1000, 6000) / inertia;
+  Vec3 x = end + Vec3(1e-3, -2e-3, 1e-3);
+  double last = 0, measured = 0;
+  for (int k = 0; k < 12; ++k) {
+    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();  // its third column is the corner
+    f.col(2) = x;
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Matrix3d r = svd.matrixU() * svd.matrixV().transpose();
+    Eigen::Matrix<double, 6, 3> j;
+    for (int i = 0; i < 3; ++i) j.col(i) = strain(r.transpose() * Vec3::Unit(i) * Vec3::UnitZ().transpose());
+    const auto c = strain(r.transpose() * f - Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d left = inertia * Eigen::Matrix3d::Identity() + j.transpose() * stiffness * j;
+    x = left.llt().solve(inertia * free + j.transpose() * stiffness * (j * x - c));
+    measured = (x - end).norm() / last;
+    last = (x - end).norm();
+  }
+  CHECK(last < 1e-3);
+  CHECK(rate.radius() > 0.01);
+  CHECK(measured == Approx(rate.radius()).epsilon(1e-3));
 }
 
 // A rod of mass m and length l hangs from a ball at its end: turns about it have the inertia I = m l^2/3 and

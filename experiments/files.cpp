@@ -72,12 +72,12 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
 void require_writable(const std::filesystem::path& directory, std::string_view option) {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
-  const std::string where = std::string(option) + " " + directory.string();
+  const std::string where(option), name = "`" + directory.string() + "`";
   if (!std::filesystem::is_directory(directory, failure))
-    throw pbd::SetupError(where, "no directory, and none can be made there", "a directory");
+    throw pbd::SetupError(where, name + ", no directory, and none can be made there", "a directory");
   const auto trial = directory / ".pbdcheck_trial";
   if (!std::ofstream(trial))
-    throw pbd::SetupError(where, "a directory that cannot be written to", "a writable one");
+    throw pbd::SetupError(where, name + ", a directory that cannot be written to", "a writable one");
   std::filesystem::remove(trial, failure);
 }
 

@@ -92,17 +92,21 @@ void Builder::anchor(const Keys& keys, const std::vector<int>& nodes, double com
   }
 }
 
+std::vector<std::string> Builder::body_names() const {
+  std::vector<std::string> names{"world"};
+  for (const auto& body : bodies)
+    if (body.name != "world") names.push_back(body.name);
+  return names;
+}
+
 int Builder::body(Keys& keys, std::string_view key) {
-  return body(keys, key, keys.text(key));
+  return body(keys, key, keys.choice(key, body_names()));
 }
 
 int Builder::body(const Keys& keys, std::string_view key, const std::string& name) {
-  std::vector<std::string> names{"world"};
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].name == name) return static_cast<int>(i);
-    names.push_back(bodies[i].name);
-  }
-  if (name != "world") keys.refuse(key, "`" + name + "`", allowed_names(name, names));
+  if (name != "world") keys.refuse(key, "`" + name + "`", allowed_names(name, body_names()));
   bodies.push_back({name, {}, Eigen::Isometry3d::Identity()});
   return pbd::add_body(scene, pbd::Vec3::Zero(), pbd::infinity, pbd::Vec3::Constant(pbd::infinity));
 }

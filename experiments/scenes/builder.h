@@ -73,6 +73,9 @@ struct Builder {
   /// infinite mass are refused.
   void anchor(const Keys& keys, const std::vector<int>& nodes, double compliance, pbd::Anchor& effect);
 
+  /// What may name one: "world" and the bodies there are.
+  std::vector<std::string> body_names() const;
+
   /// The body that `key` names; "world", fixed at the origin, is made when it is first asked for.
   int body(Keys& keys, std::string_view key);
   int body(const Keys& keys, std::string_view key, const std::string& name);

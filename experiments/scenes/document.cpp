@@ -111,7 +111,9 @@ void apply_setting(toml::table& root, const std::string& setting, const std::str
   if (line_of_deep_key(setting) > 0) refuse_deep_key(option);
   const auto equals = setting.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw pbd::SetupError(option, "`" + setting + "`", "KEY=VALUE, as in method.relaxation=jacobi");
+    throw pbd::SetupError(option, "`" + setting + "`",
+                          option == "--set" ? "KEY=VALUE, as in method.relaxation=jacobi"
+                                            : "KEY=VALUE, as in relaxation=jacobi");
   const std::string where = option + " " + setting.substr(0, equals);
   const auto parts = split_path(setting.substr(0, equals), where);
   const toml::table value = parsed_value(setting.substr(equals + 1));

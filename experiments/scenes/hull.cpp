@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 
@@ -42,9 +44,13 @@ std::string qhull_version() {
 pbd::TriangleMesh convex_hull(pbd::Points points) {
   const Eigen::Index count = points.cols();
   Qhull hull;
-  if (count < 4 || !hull.run(points))
-    throw pbd::SetupError("convex hull", std::to_string(count) + " points",
-                          "four points or more that do not lie in one plane");
+  if (count < 4) throw pbd::SetupError("convex hull", fmt::format("{} points", count), "four points or more");
+  if (!hull.run(points)) {
+    const pbd::Vec3 size = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+    throw pbd::SetupError(
+        "convex hull", fmt::format("{} points within {:g} x {:g} x {:g} m", count, size[0], size[1], size[2]),
+        "points that do not lie in one plane, as seen at the size of the whole");
+  }
   std::vector<int> index(static_cast<std::size_t>(count), -1);  // in the hull
   pbd::TriangleMesh found{pbd::Points(3, hull.state.num_vertices), {}};
   int used = 0;

@@ -78,13 +78,17 @@ std::string Keys::where() const {
   return where_of(nullptr, "");
 }
 
+std::string Keys::where(std::string_view key) const {
+  return where_of(table_->get(key), key);
+}
+
 int Keys::line() const {
   const auto line = table_->source().begin.line;
   return line > 0 ? static_cast<int>(line) : std::numeric_limits<int>::max();
 }
 
 void Keys::refuse(std::string_view key, const std::string& value, std::string_view allowed) const {
-  throw pbd::SetupError(where_of(table_->get(key), key), value, allowed);
+  throw pbd::SetupError(where(key), value, allowed);
 }
 
 void Keys::refuse(std::string_view key, std::string_view allowed) const {
@@ -157,12 +161,18 @@ std::string Keys::text(std::string_view key) {
   return *node.value<std::string>();
 }
 
+std::string Keys::choice(std::string_view key, const std::vector<std::string>& allowed) {
+  const auto names = allowed_names("", allowed);
+  const toml::node& node = need(key, names);
+  if (!node.is_string()) refuse(key, names);
+  std::string name = *node.value<std::string>();
+  require_name(where(key), name, allowed);
+  return name;
+}
+
 std::string Keys::choice_or(std::string_view key, std::string_view fallback,
                             const std::vector<std::string>& allowed) {
-  if (!has(key)) return std::string(fallback);
-  std::string name = text(key);
-  require_name(where_of(find(key), key), name, allowed);
-  return name;
+  return has(key) ? choice(key, allowed) : std::string(fallback);
 }
 
 std::vector<std::string> Keys::texts(std::string_view key, std::size_t size) {

@@ -41,6 +41,7 @@ class Keys {
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::vector<std::string> texts(std::string_view key, std::size_t size);
+  std::string choice(std::string_view key, const std::vector<std::string>& allowed);
   std::string choice_or(std::string_view key, std::string_view fallback,
                         const std::vector<std::string>& allowed);
 
@@ -76,8 +77,9 @@ class Keys {
   /// Refuses the value that stands at `key`.
   [[noreturn]] void refuse(std::string_view key, std::string_view allowed) const;
 
-  /// Where the table itself stands, as errors begin.
+  /// Where the table itself, or a key of it, stands, as errors begin.
   std::string where() const;
+  std::string where(std::string_view key) const;
   int line() const;
   const std::string& file() const { return origin_.file; }
 

@@ -19,6 +19,10 @@ bool parse(std::string_view text, T& value) {
   return failure == std::errc() && end == text.data() + text.size();
 }
 
+std::string counted(std::size_t words) {
+  return fmt::format("{} word{}", words, words == 1 ? "" : "s");
+}
+
 bool is_control(char c) {
   return c == 127 || (c >= 0 && c < ' ' && (c < '\t' || c > '\r'));
 }
@@ -69,7 +73,7 @@ void Lines::need_first(std::string_view first) const {
 }
 
 void Lines::need_words(std::size_t least, std::size_t most, std::string_view meaning) const {
-  if (words_.size() < least || words_.size() > most) refuse(fmt::format("{} words", words_.size()), meaning);
+  if (words_.size() < least || words_.size() > most) refuse(counted(words_.size()), meaning);
 }
 
 void Lines::need_words(std::size_t number, std::string_view meaning) const {
@@ -88,7 +92,7 @@ void Lines::refuse(std::string value, std::string_view allowed) const {
 }
 
 const std::string& Lines::word(std::size_t index) const {
-  if (index >= words_.size()) refuse(fmt::format("{} words", words_.size()), "a number more");
+  if (index >= words_.size()) refuse(counted(words_.size()), "a number more");
   return words_[index];
 }
 

@@ -20,6 +20,8 @@ struct NamedJoint {
   int body = 0;                         // the second one
   pbd::Vec3 point = pbd::Vec3::Zero();  // of that one, in its frame: where the joint holds it
   bool compliant = false;               // one of its constraints is
+  bool bounded = false;                 // its force is: a limit, or a motor of limited force
+  std::string where{};                  // in the scene file, as errors begin
   struct Part {
     std::size_t effect, constraint;
   };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -61,6 +62,7 @@ class JointReader {
       centre_[k] = initial.x.col(builder.scene.bodies[index].node);
     }
     joint_.body = body_[1];
+    joint_.where = keys.where();
   }
 
   NamedJoint read(const std::string& kind) {
@@ -111,8 +113,9 @@ class JointReader {
 
   /// Bounds of the last constraint's force; an effect without any stays without.
   template <class Effect>
-  static void set_bounds(Effect& effect, const pbd::ForceBounds& bounds) {
+  void set_bounds(Effect& effect, const pbd::ForceBounds& bounds) {
     constexpr pbd::ForceBounds none{-pbd::infinity, pbd::infinity};
+    joint_.bounded = joint_.bounded || bounds != none;
     if (bounds == none && effect.bounds.empty()) return;
     effect.bounds.resize(effect.body.size(), none);
     effect.bounds.back() = bounds;
@@ -215,6 +218,9 @@ class JointReader {
   void add_angle() {
     const Vec3 axis = read_axis(keys_, "axis"), reference = axis.unitOrthogonal();
     const auto rest = [&] { return keys_.number_or("rest_angle_rad", 0, Range::finite); };
+    for (const auto* limit : {"min_angle_rad", "max_angle_rad"})
+      if (keys_.has(limit) && std::abs(keys_.number(limit, Range::finite)) >= std::numbers::pi)
+        keys_.refuse(limit, "an angle between -pi and pi: it is known modulo 2 pi");
     add_limited("angle_rad", "max_torque_n_m", Range::finite,
                 {"rest_angle_rad", "rate_rad_s", "over_time", "max_torque_n_m"}, rest,
                 [&](double angle, const pbd::ForceBounds& bounds) {
@@ -247,8 +253,7 @@ class JointReader {
 void read_joints(Keys& root, Builder& builder) {
   JointEffects effects;
   for (auto& keys : root.tables("joint")) {
-    keys.text("kind");
-    const auto kind = keys.choice_or("kind", "", strings(joint_kinds));
+    const auto kind = keys.choice("kind", strings(joint_kinds));
     auto joint = JointReader(keys, builder, effects).read(kind);
     for (const auto& other : builder.joints)
       if (!joint.name.empty() && joint.name == other.name)

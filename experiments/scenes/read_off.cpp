@@ -16,7 +16,7 @@ Elements<3> read_off(const std::filesystem::path& file) {
   const std::size_t vertices = lines.count(first);
   const std::size_t faces = lines.count(first + 1);
   lines.for_each(vertices, "a vertex", [&] {
-    lines.need_words(3, "a vertex' x, y, z");
+    lines.need_words(3, "x, y, z of a vertex");
     found.add_node(lines, static_cast<std::int64_t>(found.x.size()), lines.position(0));
   });
   lines.for_each(faces, "a face", [&] {

@@ -17,10 +17,9 @@ namespace {
 int named_body(Keys& keys, const SceneFile& file, std::string_view key = "body") {
   std::vector<std::string> names;
   for (const auto& body : file.bodies) names.push_back(body.name);
-  const auto name = keys.text(key);
-  if (names.empty()) keys.refuse(key, "`" + name + "`", "a [[rigid_body]], of which the scene has none");
-  return static_cast<int>(std::find(names.begin(), names.end(), keys.choice_or(key, "", names)) -
-                          names.begin());
+  if (names.empty())
+    keys.refuse(key, "`" + keys.text(key) + "`", "a [[rigid_body]], of which the scene has none");
+  return static_cast<int>(std::find(names.begin(), names.end(), keys.choice(key, names)) - names.begin());
 }
 
 int touching_body(Keys& keys, const SceneFile& file, std::string_view key) {
@@ -45,10 +44,10 @@ std::size_t named_joint(Keys& keys, const SceneFile& file) {
   std::vector<std::string> names;
   for (const auto& joint : file.joints)
     if (!joint.name.empty()) names.push_back(joint.name);
-  const auto name = keys.text("joint");
   if (names.empty())
-    keys.refuse("joint", "`" + name + "`", "a [[joint]] with a name, of which the scene has none");
-  keys.choice_or("joint", "", names);
+    keys.refuse("joint", "`" + keys.text("joint") + "`",
+                "a [[joint]] with a name, of which the scene has none");
+  const auto name = keys.choice("joint", names);
   const auto named = [&](const NamedJoint& joint) { return joint.name == name; };
   const auto found = std::find_if(file.joints.begin(), file.joints.end(), named);
   if (found->compliant &&
@@ -77,9 +76,8 @@ std::string read_place(Keys& keys, const SceneFile& file, Probe& probe) {
 
 Probe read_probe(Keys& keys, const SceneFile& file) {
   static const auto kinds = strings(probe_kinds);
-  keys.text("kind");
   Probe probe;
-  probe.kind = keys.choice_or("kind", "", kinds);
+  probe.kind = keys.choice("kind", kinds);
   const bool named = keys.has("name");
   if (probe.kind.starts_with("contact") && contact_of(file.scene) == nullptr)
     keys.refuse("kind", "`" + probe.kind + "`", "another kind: the scene has no table [contact]");

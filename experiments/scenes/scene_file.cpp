@@ -90,7 +90,11 @@ SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<s
   for (const auto* later : {"step", "method", "probe"}) root.has(later);  // known, though read last
   read_scene(root, found);
   read_step(root, found);
-  if (auto keys = root.table("method")) found.method = read_method(*keys, found.method);
+  if (auto keys = root.table("method")) {
+    found.method = read_method(*keys, found.method);
+    for (const auto* key : {"integrator", "direction_blend"})
+      if (keys->has(key)) found.method_where[key] = keys->where(key);
+  }
   read_probes(root, found);
   root.refuse_unknown();
   located(file.string(), [&] { pbd::validate(found.scene); });

@@ -39,6 +39,7 @@ struct SceneFile {
   double step_s = 0;
   std::int64_t steps = 0;
   pbd::Method method;
+  std::map<std::string, std::string> method_where;  // of its keys the file states, as errors begin
   std::vector<Probe> probes;
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "error.h"
 
@@ -13,6 +14,18 @@ constexpr double pi = std::numbers::pi;
 
 MassProperties diagonal(double mass, const Vec3& moments) {
   return {mass, Vec3::Zero(), moments.asDiagonal()};
+}
+
+/// The integral of (x - centre)(x - centre)^T over what a surface encloses has no negative eigenvalue.
+void require_inside(const Eigen::Matrix3d& second) {
+  constexpr double rounding = 1e-9;
+  if (!second.allFinite()) return;
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (least < -rounding * second.cwiseAbs().maxCoeff())
+    throw SetupError(
+        "surface", "parts that enclose a negative volume",
+        "a surface that does not cross itself, all of its parts anticlockwise seen from outside");
 }
 
 }  // namespace
@@ -59,11 +72,14 @@ MassProperties surface_properties(const TriangleMesh& surface, double density) {
     first += six / 24 * sum;
     second += six / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
-  if (!(volume > 0))
-    throw SetupError("surface", "volume " + std::to_string(volume) + " m^3",
-                     "a positive volume: triangles anticlockwise seen from outside");
+  if (!(volume > 0)) {
+    std::ostringstream text;
+    text << "volume " << volume << " m^3";
+    throw SetupError("surface", text.str(), "a positive volume: triangles anticlockwise seen from outside");
+  }
   const Vec3 centre = first / volume;
   second -= volume * centre * centre.transpose();
+  require_inside(second);
   return {density * volume, origin + centre,
           density * (second.trace() * Eigen::Matrix3d::Identity() - second)};
 }

@@ -119,9 +119,9 @@ struct EffectCheck {
 
   void body_index(int body, std::size_t i) const {
     const auto count = static_cast<int>(scene.bodies.size());
-    REQUIRE(body >= 0 && body<count, at(i, "body"), text(body), count> 0
-                ? "a rigid body's index from 0 to " + text(count - 1)
-                : "no body: the scene has none");
+    REQUIRE(
+        body >= 0 && (body < count), at(i, "body"), text(body),
+        (count > 0) ? "a rigid body's index from 0 to " + text(count - 1) : "no body: the scene has none");
   }
 
   /// Two bodies each, and one entry a joint of everything else.
@@ -347,15 +347,19 @@ struct EffectCheck {
 
 void require_proper(const Eigen::Matrix<double, 3, 4>& rest, std::string_view what, std::size_t index) {
   const double volume = tet_volume(rest);
-  REQUIRE(volume > degenerate_ratio * std::pow(longest_edge(rest), 3), std::string(what) + text(index),
-          "volume " + text(volume) + " m^3",
-          "a positive volume: nodes ordered so that ((x1-x0) x (x2-x0)) . (x3-x0) > 0, and not flat");
+  const double longest = longest_edge(rest);
+  REQUIRE(volume > degenerate_ratio * std::pow(longest, 3), std::string(what) + text(index),
+          "volume " + text(volume) + " m^3, longest edge " + text(longest) + " m",
+          "a positive volume, above 1e-12 of the edge's cube: nodes ordered so that ((x1-x0) x (x2-x0)) . "
+          "(x3-x0) > 0, and not flat");
 }
 
 void require_proper(const Eigen::Matrix3d& rest, std::string_view what, std::size_t index) {
   const double area = triangle_area(rest);
-  REQUIRE(area > degenerate_ratio * std::pow(longest_edge<3>(rest), 2), std::string(what) + text(index),
-          "area " + text(area) + " m^2", "a positive area");
+  const double longest = longest_edge<3>(rest);
+  REQUIRE(area > degenerate_ratio * std::pow(longest, 2), std::string(what) + text(index),
+          "area " + text(area) + " m^2, longest edge " + text(longest) + " m",
+          "a positive area, above 1e-12 of the edge's square");
 }
 
 /// The bodies, before any effect refers to them.

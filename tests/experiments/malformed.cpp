@@ -149,7 +149,11 @@ const std::vector<Mistake> mistakes{
     {"[[solid]]\ncells = [1, 1, 1]\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1\nyoung_pa = inf\npoisson = 0.3\n",
      {"scene.toml:14: solid.0.young_pa", "got inf"}},
     {"[[solid]]\nfile = \"inverted.node\"\ndensity_kg_m3 = 1\nyoung_pa = 1\npoisson = 0\n",
-     {"scene.toml:10: solid.0", "inverted.node: tetrahedron 1", "volume -", "a positive volume"}},
+     {"scene.toml:10: solid.0", "inverted.node: tetrahedron 1", "volume -", "longest edge",
+      "a positive volume"}},
+    {"[[cloth]]\nfile = \"thin.obj\"\narea_density_kg_m2 = 1\n",
+     {"scene.toml:10: cloth.0", "thin.obj: triangle 0", "area 5", "longest edge 1e+20 m",
+      "above 1e-12 of the edge's square"}},
     {"[[solid]]\nfile = \"bad.msh\"\ndensity_kg_m3 = 1\nyoung_pa = 1\npoisson = 0\n",
      {"bad.msh:2", "binary", "ASCII"}},
     {"[step]\nstep_s = 0\nsteps = 1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
@@ -177,6 +181,7 @@ TEST_CASE("mistakes in a scene file are refused with line, key, value and what i
   for (const auto& mistake : mistakes) {
     INFO(mistake.text);
     const TemporaryFolder folder;
+    folder.write("thin.obj", "v 0 0 0\nv 1e20 0 0\nv 0 0.1 0\nf 1 2 3\n");
     folder.write("inverted.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 -1\n");
     folder.write("inverted.ele", "2 4 0\n0 0 1 2 3\n1 0 1 2 4\n");
     folder.write("twisted.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n");

@@ -83,11 +83,21 @@ const std::vector<Mistake> mistakes{
     {body("name = \"a\"\nshape = \"mesh\"\nfile = \"mesh.stl\"\nmass_kg = 1\n"),
      {"extension `.stl`", ".obj or .off"}},
     {body("name = \"a\"\nshape = \"hull\"\nfile = \"flat.obj\"\nmass_kg = 1\n"),
-     {"scene.toml:15: rigid_body.2: flat.obj: convex hull: got 5 points", "do not lie in one plane"}},
+     {"scene.toml:15: rigid_body.2: flat.obj: convex hull: got 5 points within 2 x 3 x 0 m",
+      "do not lie in one plane"}},
+    {body("name = \"a\"\nshape = \"hull\"\nfile = \"broken.obj\"\nmass_kg = 1\n"),
+     {"broken.obj: convex hull: got 5 points within 1 x 1 x 1e+30 m"}},
+    {body("name = \"a\"\nshape = \"mesh\"\nfile = \"crossed.obj\"\nmass_kg = 1\n"),
+     {"crossed.obj: surface: got parts that enclose a negative volume", "does not cross itself"}},
     {body("name = \"a\"\nshape = \"hull\"\nfile = \"few.obj\"\nmass_kg = 1\n"),
      {"few.obj: convex hull: got 3 points", "four points"}},
+    {"[[joint]]\nbodies = [\"arm\", \"hand\"]\nkind = 1\n",
+     {"scene.toml:17: joint.0.kind", "got 1", "one of ball, hinge"}},
+    {body("name = \"a\"\nshape = 1\n"), {"scene.toml:17: rigid_body.2.shape", "got 1", "one of sphere, box"}},
+    {"[method]\nouter = 1\n", {"scene.toml:16: method.outer", "got 1", "one of auto, plain"}},
     {joint("bal", ""), {"scene.toml:17: joint.0.kind", "`bal`", "did you mean `ball`?"}},
-    {"[[joint]]\nbodies = [\"arm\", \"hand\"]\n", {"scene.toml:15: joint.0.kind", "got nothing"}},
+    {"[[joint]]\nbodies = [\"arm\", \"hand\"]\n",
+     {"scene.toml:15: joint.0.kind", "got nothing", "one of ball, hinge"}},
     {"[[joint]]\nkind = \"ball\"\n", {"scene.toml:15: joint.0.bodies", "got nothing"}},
     {"[[joint]]\nkind = \"ball\"\nbodies = [\"arm\"]\n",
      {"scene.toml:17: joint.0.bodies", "arm", "a list of 2 texts"}},
@@ -127,6 +137,10 @@ const std::vector<Mistake> mistakes{
      {"scene.toml:20: joint.0.max_angle_rad", "got 0.5", "above min_angle_rad"}},
     {joint("angle", "axis = [0, 0, 1]\nmin_angle_rad = -2\nmax_angle_rad = 2\n"),
      {"scene.toml:20: joint.0.max_angle_rad", "got 2", "less than half a turn"}},
+    {joint("angle", "axis = [0, 0, 1]\nmin_angle_rad = 7\nmax_angle_rad = 8\n"),
+     {"scene.toml:19: joint.0.min_angle_rad", "got 7", "between -pi and pi"}},
+    {joint("angle", "axis = [0, 0, 1]\nmax_angle_rad = -3.5\nmin_angle_rad = -3\n"),
+     {"scene.toml:19: joint.0.max_angle_rad", "got -3.5", "between -pi and pi"}},
     {joint("angle", "axis = [0, 0, 1]\nmin_angle_rad = nan\n"),
      {"scene.toml:19: joint.0.min_angle_rad", "got nan", "finite"}},
     {joint("angle", "axis = [0, 0, 1]\nmin_angle_rad = -1\nrate_rad_s = 1\n"),
@@ -177,7 +191,8 @@ const std::vector<Mistake> mistakes{
     {"[[force]]\nnode = 0\nforce_n = [1, 0, 0]\n",
      {"scene.toml:16: force.0.node", "a scene without nodes", "rigid bodies have names"}},
     {"[[distance]]\nnodes = [0, 1]\n", {"scene.toml:16: distance.0.nodes", "a scene without nodes"}},
-    {"[[attachment]]\nnode = 0\n", {"scene.toml:15: attachment.0.body", "got nothing"}},
+    {"[[attachment]]\nnode = 0\n",
+     {"scene.toml:15: attachment.0.body", "got nothing", "one of world, arm, hand"}},
     {"[[chain]]\nlength_m = 1\nmass_kg = 1\n[[attachment]]\nbody = \"arm\"\nnode = 21\n",
      {"scene.toml:20: attachment.0.node", "got 21", "from 0 to 20"}},
     {"[[chain]]\nlength_m = 1\nmass_kg = 1\n[[attachment]]\nbody = \"arm\"\nnode = 1\n[[attachment]]\nbody = "
@@ -187,7 +202,8 @@ const std::vector<Mistake> mistakes{
      {"scene.toml:19: attachment.0", "node 0 and a body that nothing moves"}},
     {"[[probe]]\nkind = \"position\"\nbody = \"leg\"\n",
      {"scene.toml:17: probe.0.body", "`leg`", "one of arm, hand"}},
-    {"[[probe]]\nkind = \"orientation\"\n", {"scene.toml:15: probe.0.body", "got nothing"}},
+    {"[[probe]]\nkind = \"orientation\"\n",
+     {"scene.toml:15: probe.0.body", "got nothing", "one of arm, hand"}},
     {"[[probe]]\nkind = \"joint_force\"\njoint = \"knee\"\n",
      {"scene.toml:17: probe.0.joint", "`knee`", "of which the scene has none"}},
     {joint("ball", "name = \"elbow\"\npoint_m = [0, 0, 0]\n") +
@@ -207,6 +223,11 @@ TEST_CASE("mistakes with rigid bodies and joints are refused with line, key, val
   folder.write("open.obj", tetrahedron);
   folder.write("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 4 2\nf 2 4 3\nf 3 4 1\nf 1 2 3\n");
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 3 0\n");
+  folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1e30\n");
+  // The tetrahedron, and a smaller one inside out far away.
+  folder.write("crossed.obj", tetrahedron +
+                                  "f 1 3 2\nv 9 0 0\nv 9.5 0 0\nv 9 0.5 0\nv 9 0 0.5\n"
+                                  "f 5 8 6\nf 6 8 7\nf 7 8 5\nf 5 6 7\n");
   folder.write("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("mesh.stl", "solid\n");
   const auto out = folder.path / "out";

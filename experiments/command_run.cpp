@@ -100,6 +100,7 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
     json["tier"] = options.tier;
     json["settings"] = settings_json(options);
     json["wall_s"] = seconds();
+    json["rows"] = context.rows();
     json["verdicts"] = {{"holds", holding}, {"fails", failing}};
     write_file(directory / "run.json", json_text(json));
   };

@@ -48,7 +48,7 @@ class Output {
     require_writable(options.directory);
     if (!file.probes.empty()) {
       for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
-      probes_.emplace(options.directory / "probes.csv", columns_);
+      probes_.emplace(options.directory / "probes.csv", columns_, &rows_);
     }
     if (options.export_format != "vtk") return;
     frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
@@ -79,13 +79,23 @@ class Output {
     if (body_frames_) body_frames_->close();
   }
 
+  const RowCounts& rows() const { return rows_; }
+
  private:
   const SceneFile& file_;
+  RowCounts rows_;
   std::vector<std::string> columns_{"step", "time_s"};
   std::optional<Table> probes_;
   std::optional<VtkSeries> frames_, body_frames_;
   std::optional<BodySurfaces> surfaces_;
 };
+
+/// The worst step, which may have no residual.
+std::string worst_text(const Totals& totals) {
+  return std::isfinite(totals.worst_residual)
+             ? fmt::format("the worst with {:.3g} (step {})", totals.worst_residual, totals.worst_step)
+             : fmt::format("step {} diverged", totals.worst_step);
+}
 
 nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& workspace) {
   auto steps = nlohmann::ordered_json::object();
@@ -162,14 +172,14 @@ int simulate(const SimulateOptions& options) {
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
+  json["rows"] = output.rows();
   json["report"] = report_json(totals, workspace);
   record.write(json_text(json));
   record.complete();
 
   if (totals.missed() > 0)
-    warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, the worst with {:.3g} (step {})",
-                     totals.missed(), totals.steps, file.method.tolerance, totals.worst_residual,
-                     totals.worst_step));
+    warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, {}", totals.missed(), totals.steps,
+                     file.method.tolerance, worst_text(totals)));
   if (outcome == Outcome::failed) error_message(reason);
   if (outcome == Outcome::interrupted) return exit_interrupted;
   return outcome == Outcome::failed || totals.missed() > 0 ? exit_failed : exit_done;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,10 +21,14 @@ namespace pbdcheck {
 /// `-inf`.
 using Cell = std::variant<std::string, double, std::int64_t>;
 
-/// A tidy table, written to `<path>.partial` and renamed when closed.
+/// Rows of tables, without the header, by their names.
+using RowCounts = std::map<std::string, std::int64_t>;
+
+/// A tidy table, written to `<path>.partial` and renamed when closed; `counts`, if there are any, get its
+/// rows then.
 class Table {
  public:
-  Table(std::filesystem::path path, std::vector<std::string> columns);
+  Table(std::filesystem::path path, std::vector<std::string> columns, RowCounts* counts = nullptr);
   ~Table();  // without close(): the partial file is removed
   Table(Table&&) noexcept;
   Table& operator=(Table&&) = delete;
@@ -65,12 +70,16 @@ class Context {
   /// A table `<directory>/<name>.csv`.
   Table table(std::string_view name, std::vector<std::string> columns);
 
+  /// Of the tables that are closed.
+  const RowCounts& rows() const;
+
   /// Announces the number of units of work, then each finished one with a short label; throws Interrupted if
   /// the user pressed Ctrl-C.
   void begin(std::int64_t units);
   void advance(std::string_view label);
 
-  /// Records a verdict in `verdicts.csv`: holds if measured <= bound (NaN never holds).
+  /// Records a verdict in `verdicts.csv`: holds if measured <= bound (NaN never holds). Of `id` lower case
+  /// letters, digits and dots are kept, what is between becomes one _.
   void verdict(std::string_view id, std::string_view statement, std::string_view quantity, double measured,
                double bound);
   const std::vector<Verdict>& verdicts() const;

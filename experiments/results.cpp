@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cmath>
 #include <exception>
 #include <mutex>
@@ -31,15 +32,29 @@ std::string cell_text(const Cell& cell) {
   return std::isnan(number) ? "nan" : fmt::format("{:.17g}", number);
 }
 
+std::string clean_id(std::string_view text) {
+  std::string id;
+  for (const unsigned char c : text) {
+    const bool kept = c < 128 && (std::isalnum(c) != 0 || c == '.');
+    if (kept)
+      id += static_cast<char>(std::tolower(c));
+    else if (!id.empty() && id.back() != '_')
+      id += '_';
+  }
+  return id;
+}
+
 }  // namespace
 
 struct Table::Data {
   PartialFile file;
   std::size_t columns;
+  RowCounts* counts;
+  std::int64_t rows = -1;  // the header is written as one
 };
 
-Table::Table(std::filesystem::path path, std::vector<std::string> columns)
-    : data_(new Data{PartialFile(std::move(path)), columns.size()}) {
+Table::Table(std::filesystem::path path, std::vector<std::string> columns, RowCounts* counts)
+    : data_(new Data{PartialFile(std::move(path)), columns.size(), counts}) {
   row({columns.begin(), columns.end()});
 }
 
@@ -54,10 +69,12 @@ void Table::row(const std::vector<Cell>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + cell_text(cells[i]);
   data_->file.write(line + '\n');
+  ++data_->rows;
 }
 
 void Table::close() {
   data_->file.complete();
+  if (data_->counts != nullptr) (*data_->counts)[data_->file.path().stem().string()] = data_->rows;
 }
 
 struct Context::Data {
@@ -66,6 +83,7 @@ struct Context::Data {
   int threads;
   std::optional<Progress> progress;
   std::vector<Verdict> verdicts;
+  RowCounts rows;
 };
 
 Context::Context(std::filesystem::path directory, Tier tier, int threads) : data_(std::make_shared<Data>()) {
@@ -83,7 +101,11 @@ int Context::threads() const {
 }
 
 Table Context::table(std::string_view name, std::vector<std::string> columns) {
-  return {data_->directory / (std::string(name) + ".csv"), std::move(columns)};
+  return {data_->directory / (std::string(name) + ".csv"), std::move(columns), &data_->rows};
+}
+
+const RowCounts& Context::rows() const {
+  return data_->rows;
 }
 
 void Context::begin(std::int64_t units) {
@@ -97,8 +119,7 @@ void Context::advance(std::string_view label) {
 
 void Context::verdict(std::string_view id, std::string_view statement, std::string_view quantity,
                       double measured, double bound) {
-  data_->verdicts.push_back(
-      {std::string(id), std::string(statement), std::string(quantity), measured, bound});
+  data_->verdicts.push_back({clean_id(id), std::string(statement), std::string(quantity), measured, bound});
 }
 
 const std::vector<Verdict>& Context::verdicts() const {

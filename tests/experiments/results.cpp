@@ -38,6 +38,10 @@ const std::vector<Experiment> samples{
      [](Context& context) {
        context.verdict("u1", "nan", "error", std::numeric_limits<double>::quiet_NaN(), 1);
      }},
+    {"titled", "What becomes of an id made of a title?",
+     [](Context& context) {
+       context.verdict("titled.A02 four-bar,  explicit_torque.newmark 0.5", "holds", "error", 0, 1);
+     }},
     {"thrown", "What if it throws?",
      [](Context& context) {
        auto table = context.table("half", {"a"});
@@ -46,7 +50,10 @@ const std::vector<Experiment> samples{
      }},
     {"stopped", "What if it is stopped?",
      [](Context& context) {
-       context.table("first", {"a"}).close();
+       auto table = context.table("first", {"a"});
+       table.row({1.0});
+       table.row({2.0});
+       table.close();
        throw Interrupted{};
      }},
     {"unwritable", "What if a table's place is taken?",
@@ -136,6 +143,21 @@ TEST_CASE("a run writes its verdicts and record, and its exit code says whether 
     CHECK(run(options, samples) == exit_failed);
     CHECK(run_record(folder.path / name)["verdicts"]["fails"] == 1);
   }
+}
+
+TEST_CASE("ids of verdicts are lower case letters, digits, dots and single _") {
+  const TemporaryFolder folder;
+  CHECK(run({.experiments = {"titled"}, .directory = folder.path}, samples) == exit_done);
+  CHECK_THAT(read_text(folder.path / "titled" / "verdicts.csv"),
+             Catch::Contains("\ntitled.a02_four_bar_explicit_torque.newmark_0.5,holds,"));
+}
+
+TEST_CASE("the record counts the rows of each table that is complete") {
+  const TemporaryFolder folder;
+  run({.experiments = {"thrown", "stopped", "bad"}, .directory = folder.path}, samples);
+  CHECK(run_record(folder.path / "bad")["rows"].dump() == "{\"verdicts\":1}");
+  CHECK(run_record(folder.path / "thrown")["rows"].dump() == "{\"verdicts\":0}");
+  CHECK(run_record(folder.path / "stopped")["rows"].dump() == "{\"first\":2,\"verdicts\":0}");
 }
 
 TEST_CASE("an experiment that throws or is stopped says so and leaves no partial files") {

@@ -27,9 +27,8 @@ Trace solve(const SolvedStep& each, std::string_view outer, std::string_view rel
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
-  const auto once = [&] {
-    return measure_once(each.step.scene, each.start, each.step.h, method, each.exact.x);
-  };
+  const Points exact = places(each.step.scene, each.exact.x, each.exact.orientation);
+  const auto once = [&] { return measure_once(each.step.scene, each.start, each.step.h, method, exact); };
   Trace first = once();
   return first.report.status == Status::ok ? measure(once) : first;
 }

@@ -6,6 +6,7 @@
 #include "choices.h"
 #include "error.h"
 #include "interrupt.h"
+#include "measure.h"
 #include "primal_newton.h"
 
 namespace pbdcheck {
@@ -27,7 +28,7 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
         judged.outcome = Outcome::not_converged;
         judged.reason = "not finite";
       }
-      return {judged.x,
+      return {judged.outcome == Outcome::ok ? places(scene, judged.x, judged.orientation) : judged.x,
               std::string(pbd::reference::outcome_names[static_cast<std::size_t>(judged.outcome)]),
               judged.reason,
               judged.iterations,

@@ -15,7 +15,7 @@ std::vector<std::string> reference_names();
 
 /// What a reference says about one step.
 struct Judged {
-  pbd::Points x;       // end positions, m
+  pbd::Points x;       // places at the end, m; what was reached of nodes if not ok
   std::string status;  // ok or not_converged
   std::string reason;  // empty if ok
   int iterations = 0;

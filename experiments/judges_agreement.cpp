@@ -43,16 +43,25 @@ reference::Judgement solved(const Case& each, State state) {
   reference::Judgement found;
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   found.x = state.x;
+  found.orientation = state.orientation;
   found.residual = std::max(report.primal, report.dual) / report.scale;
   found.outcome = report.status == Status::ok ? reference::Outcome::ok : reference::Outcome::not_converged;
   found.reason = report.reason;
   return found;
 }
 
+/// Not a number where a judge left no state behind.
+Points places_of(const Scene& scene, const reference::Judgement& found) {
+  if (found.x.cols() == scene.nodes() && found.orientation.size() == scene.bodies.size())
+    return places(scene, found.x, found.orientation);
+  return Points::Constant(3, scene.nodes() + 3 * std::ssize(scene.bodies), std::nan(""));
+}
+
 /// Writes both and returns their difference, infinite where one failed.
 double compare(Table& table, const Case& each, const State& start, const reference::Judgement& a,
                const reference::Judgement& b, std::string_view name_b) {
-  const double difference = relative_error(b.x, a.x, start.x);
+  const double difference = relative_error(places_of(each.scene, b), places_of(each.scene, a),
+                                           places(each.scene, start.x, start.orientation));
   const bool first_ok = a.outcome == reference::Outcome::ok;
   const auto& failed = first_ok ? b : a;
   table.row({each.name, std::int64_t{each.scene.nodes()}, each.h, "primal_newton", std::string(name_b),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "bodies.h"
 #include "interrupt.h"
 
 namespace pbdcheck {
@@ -19,6 +20,22 @@ double seconds(Clock::duration duration) {
 
 }  // namespace
 
+pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
+                   const std::vector<Eigen::Quaterniond>& orientation) {
+  const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
+  pbd::Points all(3, scene.nodes() + 3 * bodies);
+  all.leftCols(scene.nodes()) = x;
+  for (Eigen::Index b = 0; b < bodies; ++b) {
+    const auto& [node, inertia] = scene.bodies[static_cast<std::size_t>(b)];
+    const double mass = scene.mass[static_cast<std::size_t>(node)];
+    const pbd::Vec3 arm = inertia.allFinite() && std::isfinite(mass) ? pbd::Vec3((inertia / mass).cwiseSqrt())
+                                                                     : pbd::Vec3(pbd::Vec3::Ones());
+    const Eigen::Matrix3d axes = orientation[static_cast<std::size_t>(b)].toRotationMatrix();
+    all.middleCols(scene.nodes() + 3 * b, 3) = (axes * arm.asDiagonal()).colwise() + x.col(node);
+  }
+  return all;
+}
+
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
   const auto farthest = [](const pbd::Points& d) {
     return d.colwise().stableNorm().maxCoeff<Eigen::PropagateNaN>();
@@ -30,8 +47,16 @@ double relative_error(const pbd::Points& x, const pbd::Points& reference, const 
 }
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-                   const pbd::Points& reference_x) {
+                   const pbd::Points& exact) {
   Trace trace;
+  const pbd::Points begin = places(scene, state.x, state.orientation);
+  pbd::Bodies bodies(scene);
+  pbd::Points x, v;
+  bodies.begin(state, x, v);
+  const auto error_of = [&](const pbd::State& at) {
+    return relative_error(places(scene, at.x, at.orientation), exact, begin);
+  };
+  pbd::State reached = state;
   Clock::duration watching{0};
   const auto start = Clock::now();
   pbd::Workspace workspace(scene, method);
@@ -40,9 +65,9 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
     const auto entered = Clock::now();
     throw_if_interrupted();
     const double residual = std::max(iterate.primal, iterate.dual);
+    bodies.end(iterate.x, iterate.v, reached);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
-                            seconds(entered - start - watching),
-                            relative_error(iterate.x.leftCols(scene.nodes()), reference_x, state.x),
+                            seconds(entered - start - watching), error_of(reached),
                             iterate.scale > 0 ? residual / iterate.scale : residual});
     watching += Clock::now() - entered;
   };
@@ -50,9 +75,8 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   const double wall = seconds(Clock::now() - start - watching);
   const pbd::Report& report = trace.report;
   if (trace.points.empty() || trace.points.back().outer_iterations != report.outer_iterations)
-    trace.points.push_back({.outer_iterations = report.outer_iterations,
-                            .error = relative_error(end.x, reference_x, state.x),
-                            .residual = report.residual()});
+    trace.points.push_back(
+        {.outer_iterations = report.outer_iterations, .error = error_of(end), .residual = report.residual()});
   TracePoint& last = trace.points.back();  // with what the step does after its last iterate
   last.sweeps = report.sweeps;
   last.row_updates = report.row_updates;
@@ -62,7 +86,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,
                    const pbd::rivals::NamedRival& rival, const pbd::rivals::Budget& budget,
-                   const pbd::Points& reference_x) {
+                   const pbd::Points& exact) {
   Trace trace;
   const auto start = Clock::now();
   const auto made = rival.make(scene, h);
@@ -72,7 +96,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,
     throw_if_interrupted();
     trace.points.push_back({.outer_iterations = iterate.iteration,
                             .wall_s = making + iterate.seconds,
-                            .error = relative_error(iterate.x, reference_x, state.x),
+                            .error = relative_error(iterate.x, exact, state.x),
                             .residual = iterate.residual});
   }));
   return trace;

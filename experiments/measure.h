@@ -49,19 +49,24 @@ class Worst {
   bool any_ = false, spoilt_ = false;
 };
 
-/// max |x - reference| / max |reference - start| over the nodes; if nothing moved, the numerator in metres;
+/// Positions of all nodes, and of points of each body at its radii of gyration along the principal axes (1 m
+/// where its inertia is infinite), 3 x (N + 3 B).
+pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
+                   const std::vector<Eigen::Quaterniond>& orientation);
+
+/// max |x - reference| / max |reference - start| over the places; if nothing moved, the numerator in metres;
 /// NaN where the displacement is not finite.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 
-/// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the end
-/// positions `reference_x`. Throws SetupError as Workspace does, and Interrupted.
+/// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the places at
+/// its end `exact`. Throws SetupError as Workspace does, and Interrupted.
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-                   const pbd::Points& reference_x);
+                   const pbd::Points& exact);
 
-/// The same by a rival. Throws SetupError as its making does.
+/// The same by a rival, of scenes without bodies. Throws SetupError as its making does.
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,
                    const pbd::rivals::NamedRival& rival, const pbd::rivals::Budget& budget,
-                   const pbd::Points& reference_x);
+                   const pbd::Points& exact);
 
 /// `once` `timed_repeats` times after a discarded run, with the smallest times; a step that misses its
 /// tolerance is done once.

@@ -25,20 +25,8 @@ double largest_distance(const Points& a, const Points& b) {
   return (a - b).colwise().norm().maxCoeff<Eigen::PropagateNaN>();
 }
 
-/// Positions of all nodes, and of points of each body at its radii of gyration along the principal axes.
-Points places(const Scene& scene, const State& state) {
-  const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
-  Points x(3, scene.nodes() + 3 * bodies);
-  x.leftCols(scene.nodes()) = state.x;
-  for (Eigen::Index b = 0; b < bodies; ++b) {
-    const auto& [node, inertia] = scene.bodies[static_cast<std::size_t>(b)];
-    const double mass = scene.mass[static_cast<std::size_t>(node)];
-    const Vec3 arm =
-        inertia.allFinite() && std::isfinite(mass) ? Vec3((inertia / mass).cwiseSqrt()) : Vec3(Vec3::Ones());
-    const Eigen::Matrix3d axes = state.orientation[static_cast<std::size_t>(b)].toRotationMatrix();
-    x.middleCols(scene.nodes() + 3 * b, 3) = (axes * arm.asDiagonal()).colwise() + state.x.col(node);
-  }
-  return x;
+Points places_of(const Motion& motion, const State& state) {
+  return places(motion.scene, state.x, state.orientation);
 }
 
 struct Level {
@@ -53,10 +41,10 @@ struct Level {
 std::vector<Points> sampled(const Motion& motion, const Method& method, Level& level) {
   std::vector<Points> x;
   int done = 0;
-  const Points start = places(motion.scene, motion.scene.initial);
+  const Points start = places_of(motion, motion.scene.initial);
   level.run =
       simulate_steps(motion.scene, method, level.h, level.steps, [&](const State&, const State& after) {
-        const Points now = places(motion.scene, after);
+        const Points now = places_of(motion, after);
         if (++done % (level.steps / samples) == 0) x.push_back(now);
         const bool lost = !(largest_distance(now, start) < 100 * motion.size);
         return lost ? "a hundred times the motion away" : "";
@@ -76,7 +64,7 @@ Level level_of(const Motion& motion, Rule rule, int steps) {
   }
   Worst error, unsolved;
   for (std::size_t i = 0; i < samples; ++i) {
-    error.add(largest_distance(x[i], places(motion.scene, motion.exact.samples[i])) / motion.size);
+    error.add(largest_distance(x[i], places_of(motion, motion.exact.samples[i])) / motion.size);
     unsolved.add(largest_distance(x[i], other[i]) / motion.size);
   }
   level.error = error.value();
@@ -146,11 +134,9 @@ void conclude(Context& context, std::string_view experiment, Table& table, const
               std::string(behaviour_of(error)), status_cell(worst.status), worst.reason});
   table.row(row);
   if (!judged(course)) return;
-  std::string id = std::string(experiment) + "." + course.motion->name + "." + course.rule.name();
-  std::replace(id.begin(), id.end(), ' ', '_');
   const bool solved = worst.status == Status::ok && behaviour_of(error) == "converging";
-  context.verdict(id, "the errors fall at the integrator's order",
-                  "|order - " + std::to_string(expected) + "|",
+  context.verdict(std::string(experiment) + "." + course.motion->name + "." + course.rule.name(),
+                  "the errors fall at the integrator's order", "|order - " + std::to_string(expected) + "|",
                   solved ? std::abs(order - expected) : std::nan(""), expected == 1 ? 0.05 : 0.1);
 }
 
@@ -167,14 +153,17 @@ void study_orders(Context& context, std::string_view experiment, std::vector<Mot
                  "step_s", "error", "behaviour", "status", "reason"});
   Worst resolved;
   for (Motion& motion : motions) {
+    if (motion.coarsest_steps % samples != 0)
+      throw std::logic_error(motion.name + ": samples fall between steps");
     motion.exact = reference::ode(motion.scene, sample_times(motion));
     if (motion.exact.outcome != reference::Outcome::ok)
       throw std::runtime_error("ode, " + motion.name + ": " + motion.exact.reason);
     for (const State& sample : motion.exact.samples)
-      motion.size = std::max(motion.size, largest_distance(places(motion.scene, sample),
-                                                           places(motion.scene, motion.scene.initial)));
+      motion.size = std::max(
+          motion.size, largest_distance(places_of(motion, sample), places_of(motion, motion.scene.initial)));
     std::vector<Course> courses;
-    for (const Rule& rule : integrator_rules(alphas)) courses.push_back({&motion, rule});
+    for (const Rule& rule : integrator_rules(alphas))
+      if (rule.method.integrator != motion.shown_elsewhere) courses.push_back({&motion, rule});
     for (Course& course : courses) course.levels.resize(static_cast<std::size_t>(levels));
     context.parallel(std::ssize(courses) * levels, [&](std::int64_t index) {
       Course& course = courses[static_cast<std::size_t>(index / levels)];

@@ -18,8 +18,9 @@ struct Motion {
   double duration;     // s
   int coarsest_steps;  // of the first level; a multiple of 4
   bool hard = false;
-  bool judged = true;     // false: so long that the orders are not yet seen
-  int highest_order = 2;  // that the scene's forces allow
+  bool judged = true;                  // false: so long that the orders are not yet seen
+  int highest_order = 2;               // that the scene's forces allow
+  std::string_view shown_elsewhere{};  // an integrator whose steps another motion shows already
   pbd::reference::Trajectory exact{};
   double size = 0;  // m, the largest displacement from the start at a sample
 };

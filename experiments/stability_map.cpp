@@ -143,7 +143,8 @@ std::vector<MapCell> run_map(const Context& context, const Map& map, const std::
     MapCell& cell = cells[static_cast<std::size_t>(index)];
     cell.start = start_of(cell.step);
     cell.exact = truth(cell.step.scene, cell.start, cell.step.h);
-    for (const auto& method : all) cell.solves.push_back(solve(cell.step, cell.start, cell.exact.x, method));
+    const Points exact = places(cell.step.scene, cell.exact.x, cell.exact.orientation);
+    for (const auto& method : all) cell.solves.push_back(solve(cell.step, cell.start, exact, method));
   });
   return cells;
 }

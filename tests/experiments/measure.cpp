@@ -1,6 +1,8 @@
 #include "measure.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "probes.h"
 
@@ -53,6 +55,25 @@ TEST_CASE("the relative error is that of the worst node over the largest displac
     CHECK_FALSE(std::isfinite(relative_error(nowhere, reference, start)));
     CHECK(std::isnan(relative_error(x, nowhere, start)));
   }
+}
+
+// A body turns freely about z, its moments equal, by w h in a step; radii of gyration r = sqrt(I/m).
+TEST_CASE("a body's turn counts as that of points at its radii of gyration") {
+  const double w = 3, h = 0.1, inertia = 2, m = 8;
+  pbd::Scene scene;
+  pbd::add_body(scene, pbd::Vec3::Zero(), m, pbd::Vec3::Constant(inertia), Eigen::Quaterniond::Identity(),
+                pbd::Vec3::Zero(), pbd::Vec3(0, 0, w));
+  const auto turned = [&](double angle) {
+    return places(scene, scene.initial.x, {Eigen::Quaterniond(Eigen::AngleAxisd(angle, pbd::Vec3::UnitZ()))});
+  };
+  // Chords of r: 2 r sin(angle/2).
+  const double r = std::sqrt(inertia / m);
+  CHECK(relative_error(turned(0.4), turned(0), turned(0)) == Approx(2 * r * std::sin(0.2)).epsilon(1e-14));
+  const Trace right = measure_once(scene, scene.initial, h, pbd::Method{}, turned(w * h));
+  CHECK(right.points.back().error < 1e-14);
+  const Trace wrong = measure_once(scene, scene.initial, h, pbd::Method{}, turned(2 * w * h));
+  for (const auto& point : wrong.points)
+    CHECK(point.error == Approx(std::sin(w * h / 2) / std::sin(w * h)).epsilon(1e-12));
 }
 
 TEST_CASE("energies and constraint errors are those of the formulas") {

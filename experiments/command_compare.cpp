@@ -51,14 +51,15 @@ class Comparison {
         step_s_(file.step_s),
         table_(options.directory / "compare.csv",
                {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
-                "sweeps", "row_updates", "wall_s", "error", "status", "reason"}) {}
+                "sweeps", "row_updates", "wall_s", "error", "status", "reason", "method"},
+               &rows_) {}
 
   /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
   void add_judge(const std::string& name, const Judged& judged) {
     pbd::Method method;
     method.outer = "judge";
     method.relaxation = name;
-    add(method,
+    add({name, method},
         {.outer_iterations = judged.iterations,
          .wall_s = judged.seconds,
          .error = judged.status == "ok" ? 0 : std::nan("")},
@@ -66,34 +67,37 @@ class Comparison {
   }
 
   /// A method's iterates; returns whether it solved the step.
-  bool add_trace(const pbd::Method& method, const Trace& trace) {
+  bool add_trace(const Contender& contender, const Trace& trace) {
     bool ok = trace.report.status == pbd::Status::ok;
     for (const auto& point : trace.points) {
       const bool finite = std::isfinite(point.error);
       ok = ok && finite;
-      add(method, point,
+      add(contender, point,
           finite ? pbd::status_names[static_cast<std::size_t>(trace.report.status)] : "diverged",
           finite ? trace.report.reason : "error not finite");
     }
     return ok;
   }
 
-  void skip(const pbd::Method& method, std::string_view reason) {
-    add(method, {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", reason);
+  void skip(const Contender& contender, std::string_view reason) {
+    add(contender, {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", reason);
   }
 
   void close() { table_.close(); }
+  const RowCounts& rows() const { return rows_; }
 
  private:
-  void add(const pbd::Method& method, const TracePoint& point, std::string_view status,
+  void add(const Contender& contender, const TracePoint& point, std::string_view status,
            std::string_view reason) {
+    const auto& method = contender.method;
     table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation, std::string("none"),
                 std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
-                point.error, std::string(status), std::string(reason)});
+                point.error, std::string(status), std::string(reason), contender.text});
   }
 
   std::string scene_;
   double step_s_;
+  RowCounts rows_;
   Table table_;
 };
 
@@ -117,16 +121,28 @@ void draw(const std::filesystem::path& directory) {
     warn(fmt::format("no figure drawn: {} {} failed", arguments[0], script));
 }
 
+/// Refuses what the reference does not solve, and a step beyond the scene's last.
+void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
+  if (contact_of(file.scene) != nullptr)
+    throw pbd::SetupError("--reference " + reference, "a scene with contact",
+                          "a scene without the table [contact]: this reference solves equations, and a gap "
+                          "is none");
+  for (const auto& joint : file.joints)
+    if (joint.bounded)
+      throw pbd::SetupError(joint.where, "a limit or a limited force",
+                            "neither in what is compared: the references solve equations");
+  if (options.at_step >= file.steps)
+    throw pbd::SetupError("--at-step", std::to_string(options.at_step),
+                          fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));
+}
+
 }  // namespace
 
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
   const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
-  if (contact_of(file.scene) != nullptr)
-    throw pbd::SetupError("--reference " + name, "a scene with contact",
-                          "a scene without the table [contact]: this reference solves equations, and a gap "
-                          "is none");
+  require_comparable(options, file, name);
   const auto contenders = parsed_contenders(options.methods, file);
   require_writable(options.directory);
   Comparison comparison(options, file);
@@ -150,19 +166,17 @@ int compare(const CompareOptions& options) {
   Progress progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
-      const auto& method = contender.method;
       if (outcome == Outcome::failed) {
-        comparison.skip(method, reason);
+        comparison.skip(contender, reason);
         continue;
       }
       throw_if_interrupted();
       const Trace trace = measure([&] { return contender.measure_once(file, state, judged.x); });
-      if (!comparison.add_trace(method, trace)) {
+      if (!comparison.add_trace(contender, trace)) {
         all_ok = false;
-        warn(fmt::format("{} {} missed its tolerance: {}", method.outer, method.relaxation,
-                         trace.report.reason));
+        warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));
       }
-      progress.advance(method.outer + " " + method.relaxation);
+      progress.advance(contender.text);
     }
   } catch (const Interrupted&) {
     outcome = Outcome::interrupted;
@@ -171,6 +185,7 @@ int compare(const CompareOptions& options) {
   comparison.close();
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file, name);
+  json["rows"] = comparison.rows();
   json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   record.write(json_text(json));
   record.complete();

@@ -13,9 +13,11 @@
 namespace pbdcheck {
 namespace {
 
-/// The words KEY=VALUE of a --method, by key; refuses none, and a key that stands twice.
-std::map<std::string, std::string> words_of(const std::string& text) {
-  std::map<std::string, std::string> found;
+using Words = std::map<std::string, std::string>;  // KEY=VALUE by key
+
+/// The words of a --method; refuses none, and a key that stands twice.
+Words words_of(const std::string& text) {
+  Words found;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const std::string key = word.substr(0, word.find('='));
@@ -27,7 +29,7 @@ std::map<std::string, std::string> words_of(const std::string& text) {
 }
 
 /// "rival=NAME", with a tolerance and a number of iterations (`max_outer`) at most.
-Contender parsed_rival(std::map<std::string, std::string> words, const pbd::Method& base) {
+Contender parsed_rival(const std::string& text, Words words, const pbd::Method& base) {
   const std::string option = "--method", word = words.extract("rival").mapped();
   const std::string name = word.substr(std::min(word.find('='), word.size() - 1) + 1);
   require_name(option + " rival", name, rival_names());
@@ -37,7 +39,7 @@ Contender parsed_rival(std::map<std::string, std::string> words, const pbd::Meth
       throw pbd::SetupError(option + " " + key, "`" + setting + "` for a rival", "tolerance, max_outer");
     settings += setting + " ";
   }
-  Contender contender{parse_method(settings, base, option)};
+  Contender contender{text, parse_method(settings, base, option)};
   contender.method.integrator = pbd::Method{}.integrator;
   contender.method.direction_blend = pbd::Method{}.direction_blend;
   contender.method.outer = "rival";
@@ -46,18 +48,31 @@ Contender parsed_rival(std::map<std::string, std::string> words, const pbd::Meth
   return contender;
 }
 
-/// Refuses what the scene does not allow, and steps that the references do not solve.
-void require_possible(const Contender& contender, const SceneFile& file) {
+/// Refuses steps that the references do not solve, where they are stated, and what the scene does not allow.
+void require_possible(const Contender& contender, const Words& words, const SceneFile& file) {
+  const auto where = [&](const std::string& key) {
+    return words.contains(key) ? "--method " + key : file.method_where.at(key);
+  };
   if (contender.method.integrator != "implicit_euler")
-    throw pbd::SetupError("--method integrator", "`" + contender.method.integrator + "`",
+    throw pbd::SetupError(where("integrator"), "`" + contender.method.integrator + "`",
                           "implicit_euler, the step the references solve");
   if (contender.method.direction_blend != 1)
-    throw pbd::SetupError("--method direction_blend", fmt::format("{}", contender.method.direction_blend),
+    throw pbd::SetupError(where("direction_blend"), fmt::format("{}", contender.method.direction_blend),
                           "1, the directions of the step the references solve");
-  if (contender.rival)
-    contender.rival->make(file.scene, file.step_s);
-  else
-    pbd::Workspace(file.scene, contender.method);
+  located("--method \"" + contender.text + "\"", [&] {
+    if (contender.rival)
+      contender.rival->make(file.scene, file.step_s);
+    else
+      pbd::Workspace(file.scene, contender.method);
+  });
+}
+
+/// Rows of the same method could not be told apart.
+void require_another(const Contender& contender, const std::vector<Contender>& earlier) {
+  for (const auto& other : earlier)
+    if (method_text(other.method) == method_text(contender.method))
+      throw pbd::SetupError("--method", "`" + contender.text + "`, the same as `" + other.text + "`",
+                            "methods that differ");
 }
 
 }  // namespace
@@ -73,9 +88,11 @@ std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, 
   std::vector<Contender> contenders;
   for (const auto& text : texts) {
     const auto words = words_of(text);
-    contenders.push_back(words.contains("rival") ? parsed_rival(words, file.method)
-                                                 : Contender{parse_method(text, file.method, "--method")});
-    located("--method \"" + text + "\"", [&] { require_possible(contenders.back(), file); });
+    auto contender = words.contains("rival") ? parsed_rival(text, words, file.method)
+                                             : Contender{text, parse_method(text, file.method, "--method")};
+    require_possible(contender, words, file);
+    require_another(contender, contenders);
+    contenders.push_back(std::move(contender));
   }
   return contenders;
 }

@@ -12,6 +12,7 @@ namespace pbdcheck {
 
 /// A method, or the rival that its outer iteration (`rival`) and relaxation (the name) stand for.
 struct Contender {
+  std::string text;  // as given
   pbd::Method method;
   const pbd::rivals::NamedRival* rival = nullptr;
 
@@ -20,7 +21,7 @@ struct Contender {
 };
 
 /// Each text is "KEY=VALUE ..." on top of the file's method, or "rival=NAME" with tolerance and max_outer at
-/// most. Throws SetupError, also for what the scene does not allow.
+/// most. Throws SetupError, also for what the scene does not allow and for a method that stands twice.
 std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, const SceneFile& file);
 
 }  // namespace pbdcheck

@@ -305,7 +305,8 @@ def write_all(directory):
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)
         write_run(directory, name, holds=1, fails=1)
-    write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", ""), method_points(False))
+    write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", "") + " method",
+          [(*row, row[4] if row[3] == "judge" else f"outer={row[3]} relaxation={row[4]}") for row in method_points(False)])
 
 
 def main(directory):

@@ -90,7 +90,7 @@ TABLES = {
     ("generated_scenes", "outcomes"): "relaxation steps claim_largest status reason",
     ("generated_scenes", "sample"): "scene nodes step_s outer relaxation outer_iterations sweeps residual "
                                     "residual_judged claim error reference_status status reason",
-    (".", "compare"): METHOD,
+    (".", "compare"): METHOD + " method",
 }
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",

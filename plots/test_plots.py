@@ -10,8 +10,10 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 import common
+import compare
 import make
 import reading
 import sample
@@ -294,6 +296,16 @@ class Commands(unittest.TestCase):
             sample.write_all(folder)
             self.assertEqual(self.run_plots("compare.py", folder).returncode, 0)
             self.assertTrue((Path(folder) / "figures" / "compare_seconds.svg").exists())
+
+    def test_compare_tells_methods_apart_that_differ_in_a_parameter_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample.write_all(folder)
+            frame = reading.read_table(Path(folder) / "compare.csv")
+            one = frame[frame["outer"] == "proximal"]
+            axes = compare.draw(pd.concat([one.assign(method="memory=0"), one.assign(method="memory=20")])).axes
+            curves = {line.get_label(): line for line in axes[0].lines if line.get_label().startswith("memory")}
+            self.assertEqual(sorted(curves), ["memory=0", "memory=20"])
+            self.assertNotEqual(curves["memory=0"].get_color(), curves["memory=20"].get_color())
 
 
 if __name__ == "__main__":

@@ -56,27 +56,28 @@ def mark_reference(ax, points, x, name):
                 label=f"{name}, the reference itself")
 
 
-def draw_methods(frame, x, label):
-    """Error against work, one panel a scene, step, integrator and friction."""
+def draw_methods(frame, x, label, by=None, name=method_name, look=method_style, columns=3):
+    """Error against work, one panel a scene, step, integrator and friction. A curve is what `by` tells apart,
+    outer iteration and relaxation if nothing else is asked."""
     judges = frame[frame["outer"] == "judge"]
-    names = [name for name, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
+    names = [judge for judge, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
     if x != "wall_s":
         frame = with_work(frame, x)
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
-        for _, points in rows.groupby(["outer", "relaxation"], sort=False):
+        for _, points in rows.groupby(by or ["outer", "relaxation"], sort=False):
             first = points.iloc[0]
             if is_reference(points):
-                mark_reference(ax, points, x, method_name(first))
+                mark_reference(ax, points, x, name(first))
             else:
-                curve_points(ax, points, x, "error", method_name(first), method_style(first))
+                curve_points(ax, points, x, "error", name(first), look(first))
         extra = f", {friction}" if frame["friction"].nunique() > 1 else ""
         ax.set(xscale="log", yscale="log", title=f"{scene}, {integrator}, h = {step_text(step)}{extra}")
         ax.title.set_fontsize(7)
     fig.supxlabel(label, fontsize=8)
     fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
-    shared_legend(fig, axes, columns=3)
+    shared_legend(fig, axes, columns=columns)
     bad = failed(frame, x, "error")
     beside = "Beside the right edge: methods that were skipped at tighter tolerances, or altogether. " if \
         bad["status"].eq("skipped").any() else ""

@@ -1,5 +1,6 @@
 #include "integrator_rules.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -51,6 +52,8 @@ Simulation simulate_steps(const Scene& scene, const Method& method, double h, in
     const State before = found.end;
     const Report report = step(scene, method, h, found.end, workspace);
     found.steps_ok += report.status == Status::ok;
+    if (report.status != Status::ok)
+      found.missed_residual = std::max(found.missed_residual, report.residual());
     if (report.status > found.status) found.status = report.status, found.reason = report.reason;
     if (report.status == Status::diverged) break;
     ++found.steps;

@@ -32,6 +32,7 @@ struct Simulation {
   int steps_ok = 0;
   pbd::Status status = pbd::Status::ok;  // the worst of all steps
   std::string reason;                    // of the first step with that status
+  double missed_residual = 0;            // the largest of the steps that are not ok
 };
 
 /// Called after each step with the states before and after; a text ends the simulation as diverged, with this

@@ -162,7 +162,7 @@ void chain_map(Context& context, Table& map) {
   }
   context.verdict("outer.chain_map.rate",
                   "measured rate equals the predicted spectral radius where that is < 0.95",
-                  "largest |measured/predicted - 1|", worst.value(), 0.05);
+                  "largest |measured/predicted - 1|", worst.value(), 0.001);
   context.verdict("outer.chain_map.no_false_claim",
                   "no convergence is claimed where the predicted rate exceeds 1.05", "1 if a cell claims it",
                   claimed.value(), 0);

@@ -97,10 +97,6 @@ struct Unit {
   }
 };
 
-std::string_view error_unit(const pbd::Effect& effect) {
-  return std::visit(Unit{}, effect);
-}
-
 bool has_rows(const pbd::Effect& effect) {
   return std::visit([]<class E>(const E&) { return pbd::RowEffect<E>; }, effect);
 }
@@ -210,6 +206,10 @@ void append_contact(const SceneFile& file, const Probe& probe, const pbd::Worksp
 }
 
 }  // namespace
+
+std::string_view error_unit(const pbd::Effect& effect) {
+  return std::visit(Unit{}, effect);
+}
 
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state) {
   double energy = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment.h"
@@ -26,6 +27,9 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 /// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J; of one whose force has bounds, what
 /// they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Of an effect's values, as columns end: "_m", "_rad" or nothing.
+std::string_view error_unit(const pbd::Effect& effect);
 
 /// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
 /// A limit counts where it is passed, a motor of limited force not at all.

@@ -18,7 +18,9 @@ SINGULAR = (
     "The four-bar chain of N loops moves with one degree of freedom, all legs parallel. Where its legs lie along the "
     "couplers, the joints' rows depend on each other, and the number of degrees of freedom jumps from 1 to N + 1 for that "
     "moment: any loop may fold into an antiparallelogram. The constraints alone do not say there which way the chain goes on; "
-    "the velocity it comes with does.")
+    "the velocity it comes with does. Beside that place a step ends where rounding leaves it: places up to L from the origin are "
+    "known to eps L, the rates of constraints to eps L/h, and the step changes velocities by g h, so that eps L/(g h²) of it "
+    "may be left, which exceeds the tolerance of 1e-12 at the shorter steps.")
 MULTIPLIERS = (
     "Rows that depend on each other leave the impulses p open: any with the same J^T p do. Unique are the motion and the net "
     "force of the joints of one place; the part of p without effect is what a relaxation makes of it. `direct` (whose shift "
@@ -174,7 +176,7 @@ def redundant(results):
         "Does a mechanism move as before when joints hold what others hold already?",
         "A chain of two four-bars with up to three hinges more, each on the axis of one that is there already. Does it move as "
         "without them, and is the net force that a leg and a coupler exchange the same, whatever the relaxation makes of the "
-        "impulses?",
+        "impulses? Steps are solved to 1e-12 of their scale.",
         figures=[Figure("redundant_motion", "Largest difference of positions and of net forces in the plane (of the largest force) "
                         "to the same relaxation without redundant joints, and largest difference of the impulses that joints of "
                         "one place share (of their sum). Crossed: some step was not solved, or the run diverged; at the upper edge "

@@ -30,6 +30,18 @@ TEST_CASE("every integrator is a rule, newmark one for each alpha") {
   CHECK(trapezoid->name() == "newmark 0.5");
 }
 
+TEST_CASE("what steps miss their tolerance by is told, 0 where none does") {
+  const pbd::Scene scene = pendulum(1, 0);
+  pbd::Method method;
+  const auto keep = [](const pbd::State&, const pbd::State&) { return ""; };
+  CHECK(simulate_steps(scene, method, 0.01, 10, keep).missed_residual == 0);
+  method.max_outer = 1;
+  const auto missed = simulate_steps(scene, method, 0.1, 10, keep);
+  REQUIRE(missed.steps_ok < 10);
+  CHECK(missed.missed_residual > method.tolerance);
+  CHECK(missed.missed_residual < 1);
+}
+
 TEST_CASE("a simulation does its steps, or ends as diverged with the reason given") {
   const pbd::Scene scene = pendulum(1, 0);
   int seen = 0;

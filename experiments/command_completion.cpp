@@ -2,6 +2,7 @@
 
 #include "choices.h"
 #include "commands.h"
+#include "cone_solvers.h"
 #include "judges.h"
 
 namespace pbdcheck {
@@ -15,20 +16,24 @@ _pbdcheck() {
     -o|--output) COMPREPLY=($(compgen -d -- "$word")); return ;;
     --tier) words="quick full" ;;
     --export) words="vtk" ;;
+    --law) words="@LAWS@" ;;
+    --relaxation) words="@SOLVERS@" ;;
     --reference) words="@REFERENCES@" ;;
     *)
       if ((COMP_CWORD == 1)); then
-        words="list simulate compare run completion --help --version"
+        words="list simulate compare run cone completion --help --version"
       else
         case ${COMP_WORDS[1]} in
           list) words="@KINDS@ --json --help" ;;
           completion) words="bash" ;;
           simulate) words="--set --output --export --help" ;;
           compare) words="--set --method --reference --at-step --output --help" ;;
+          cone) words="--law --relaxation --tolerance --json --output --help" ;;
           run) words="--all --tier --threads --resume --output --help
                       $("$program" list experiments 2>/dev/null | cut -d' ' -f1)" ;;
         esac
         case ${COMP_WORDS[1]} in
+          cone) COMPREPLY=($(compgen -f -- "$word")) ;;
           simulate|compare) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -S / -- "$word")) ;;
         esac
       fi ;;
@@ -48,6 +53,10 @@ int completion(const std::string& shell) {
   };
   fill("@KINDS@", list_kinds());
   fill("@REFERENCES@", reference_names());
+  fill("@LAWS@", cone_laws());
+  std::vector<std::string> solvers;
+  for (const auto& solver : cone_solvers()) solvers.push_back(solver.name);
+  fill("@SOLVERS@", solvers);
   fmt::print("{}", script);
   return exit_done;
 }

@@ -54,6 +54,16 @@ struct RunOptions {
 };
 int run(const RunOptions& options, const std::vector<Experiment>& known = experiments());
 
+struct ConeOptions {
+  std::filesystem::path problem;
+  std::string law = "coulomb";
+  std::string relaxation = "cone_interior_point";
+  double tolerance = 1e-8;
+  bool json = false;
+  std::filesystem::path output;  // empty: none
+};
+int cone(const ConeOptions& options);
+
 /// Prints the completion script of a shell.
 int completion(const std::string& shell);
 

@@ -48,6 +48,7 @@ const std::vector<Experiment>& experiments() {
        simbenchmark},
       {"contact_hard_cases", "Does one method without settings survive the contacts that solvers fail on?",
        contact_hard_cases},
+      {"cone_problems", "Are contact problems with friction solved whose answer was planted?", cone_problems},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},

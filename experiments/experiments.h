@@ -29,6 +29,7 @@ void restitution(Context& context);
 void stack(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
+void cone_problems(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);

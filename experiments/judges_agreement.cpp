@@ -35,7 +35,7 @@ std::vector<Case> all_cases(bool full) {
 reference::Judgement solved(const Case& each, State state) {
   Method method;
   method.relaxation = Direct::name;
-  method.tolerance = 1e-12;
+  method.tolerance = 1e-13;
   method.max_outer = 1000;
   const auto start = std::chrono::steady_clock::now();
   Workspace workspace(each.scene, method);

@@ -14,6 +14,7 @@
 
 #include "choices.h"
 #include "commands.h"
+#include "cone_solvers.h"
 #include "error.h"
 #include "interrupt.h"
 #include "judges.h"
@@ -112,6 +113,20 @@ void add_run(CLI::App& app, RunOptions& options) {
   command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
 }
 
+void add_cone(CLI::App& app, ConeOptions& options) {
+  auto* command = app.add_subcommand("cone", "Solve one contact problem with friction from a file");
+  command->add_option("PROBLEM", options.problem, "FCLIB (HDF5) or Siconos (text)")->required();
+  command->add_option("--law", options.law, joined(cone_laws()))
+      ->check(one_of(cone_laws()))
+      ->capture_default_str();
+  command->add_option("--relaxation", options.relaxation, "Solver, as of `list references`")
+      ->capture_default_str();
+  command->add_option("--tolerance", options.tolerance, "Largest natural residual, |r - P_K(r - u)| / |q|")
+      ->capture_default_str();
+  command->add_flag("--json", options.json, "Print JSON")->check(no_value());
+  command->add_option("-o,--output", options.output, "Write problem and solution as FCLIB (HDF5)");
+}
+
 /// A usage error in one line, with the nearest command if an unknown one was given.
 int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands;
@@ -138,11 +153,13 @@ int run_command(int argc, char** argv) {
   SimulateOptions simulate_options;
   CompareOptions compare_options;
   RunOptions run_options;
+  ConeOptions cone_options;
   std::string shell = "bash";
   add_list(app, list_options);
   add_simulate(app, simulate_options);
   add_compare(app, compare_options);
   add_run(app, run_options);
+  add_cone(app, cone_options);
   app.add_subcommand("completion", "Print a completion script: source <(pbdcheck completion bash)")
       ->add_option("SHELL", shell, "bash")
       ->capture_default_str();
@@ -167,6 +184,7 @@ int run_command(int argc, char** argv) {
     if (app.got_subcommand("simulate")) return simulate(simulate_options);
     if (app.got_subcommand("compare")) return compare(compare_options);
     if (app.got_subcommand("run")) return run(run_options);
+    if (app.got_subcommand("cone")) return cone(cone_options);
     return completion(shell);
   } catch (const Interrupted&) {
     return exit_interrupted;

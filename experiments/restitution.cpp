@@ -35,6 +35,7 @@ void bounce(KnownAnswers& answers, Table& heights, const Method& method, double 
   BodyScene build({.friction = 0, .restitution = restitution});
   build.ground();
   build.ball(radius, 1, {Vec3(0, 0, radius + height)});
+  const double slowest = 20 * gravity * h;  // later bounces are as short as some steps
   const double impact = std::sqrt(2 * height / gravity);
   const double rest = restitution < 1 ? impact * (1 + restitution) / (1 - restitution) : 5;  // s
   // In flight z + v^2/(2 g) is the height a flight reaches. A step that turns the speed may begin v h above
@@ -47,7 +48,7 @@ void bounce(KnownAnswers& answers, Table& heights, const Method& method, double 
         const double v = now.v(2, 1);
         const double reached = now.x(2, 1) - radius + v * v / (2 * gravity);
         energy = std::max(energy, std::abs(reached / height - 1));
-        if (before < 0 && v > 0 && v > 20 * gravity * h) {  // later bounces are as short as some steps
+        if (before < 0 && v > slowest) {
           const double square = restitution * restitution;
           allowed = square * allowed + (1 - square) * std::sqrt(2 * gravity * (expected + allowed)) * h;
           expected *= square;
@@ -63,11 +64,14 @@ void bounce(KnownAnswers& answers, Table& heights, const Method& method, double 
         before = v;
       });
   if (restitution < 1) {
-    answers.add("heights", name, method, h, worst, 0, bounces > 2 ? worst : std::nan(""), run);
+    const auto bounces_above = [&](double speed) {
+      return std::log(speed / std::sqrt(2 * gravity * height)) / std::log(restitution);
+    };
+    answers.add("heights", name, method, h, worst, 0,
+                bounces + 1 > bounces_above(slowest) ? worst : std::nan(""), run);
     // Each of n bounces is late or early by at most two steps.
-    const double count = std::log(gravity * h / std::sqrt(2 * gravity * height)) / std::log(restitution);
     answers.add("rest_time", name, method, h, last_moving, rest,
-                std::abs(last_moving - rest) / (2 * h * (count + 1)), run);
+                std::abs(last_moving - rest) / (2 * h * (bounces_above(gravity * h) + 1)), run);
   } else {
     answers.add("energy", name, method, h, energy, 0, energy, run);
   }

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import signal
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,11 +11,13 @@ from reading import InputError
 
 
 def command(main, text):
-    """Calls `main` with the folder named on the command line; bad input is one line and exit code 2."""
+    """Calls `main` with the folder named on the command line; bad input is one line and exit code 2. SIGTERM ends it as an
+    exception does, so that no partial file stays."""
     parser = argparse.ArgumentParser(description=text)
     parser.add_argument("directory", metavar="DIR", nargs="?", type=Path, default=Path("results"),
                         help="the result folder (default: %(default)s)")
     directory = parser.parse_args().directory
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         main(directory)
     except InputError as error:

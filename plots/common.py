@@ -11,6 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 from command import replacing  # noqa: E402
 from reading import LARGEST, TEXT, drawable, failed, good, text_number  # noqa: E402
@@ -24,6 +25,7 @@ STYLES = {
     "gauss_seidel": (BLUE, "o", "-"), "jacobi": (ORANGE, "s", "--"), "nesterov_jacobi": (GREEN, "^", "-."),
     "conjugate_gradients": (PURPLE, "P", (0, (5, 1))),
     "direct": (BLACK, "D", ":"),
+    "cone_interior_point": (BLACK, "*", ":"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
     "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),
@@ -42,7 +44,8 @@ plt.rcParams.update({
     "font.size": 8, "axes.titlesize": 8, "axes.titlepad": 9, "axes.labelsize": 8,
     "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
     "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 3.5,
+    "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True,
+    "lines.linewidth": 1.2, "lines.markersize": 3.5,
     "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "path", "pdf.fonttype": 42,
     "savefig.dpi": 200,
 })
@@ -113,7 +116,8 @@ def curve(ax, frame, x, y, label, look):
     ax.plot(rows[x][shown], on_log(rows[y][shown]), label=label, markevery=max(1, shown.sum() // 8),
             **{"markerfacecolor": "white"} | look)
     ends = rows[shown].tail(1)
-    draw_failed(ax, pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)]), x, y, {"color": look["color"], "marker": look["marker"]})
+    bad = pd.concat([ends[ends["status"] != "ok"], rows[~shown].head(1)])
+    draw_failed(ax, bad, x, y, {"color": look["color"], "marker": look["marker"]})
 
 
 def trace(ax, rows, values, name, low=-np.inf, high=np.inf):
@@ -172,6 +176,8 @@ def panels(count, columns=3, width=6.5, height=2.1, **keywords):
     figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows + 0.7), squeeze=False, **keywords)
     for ax in axes.flat[count:]:
         ax.remove()
+    for ax in axes.flat[max(count - columns, 0):count]:  # also those above a removed one
+        ax.tick_params(labelbottom=True)
     return figure, list(axes.flat[:count])
 
 
@@ -216,10 +222,43 @@ def _give_empty_axes_limits(figure):
             ax.set_ylim(1e-16, 1)
 
 
+def power_text(value):
+    """A power of ten or a multiple of it, as on the axes."""
+    digit, exponent = f"{value:.0e}".split("e")
+    times = "" if digit == "1" else digit + r"\cdot"
+    return f"${times}10^{{{int(exponent)}}}$"
+
+
+def _label_log_axes(figure):
+    """Two labels at least on every logarithmic axis without labels of its own: powers of ten alone, else with 3 times
+    each, else with 2 and 5 times; an axis that is too short for that grows."""
+    for axis in (axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)):
+        if axis.get_scale() != "log" or not isinstance(axis.get_major_locator(), LogLocator):
+            continue
+        low, high = sorted(axis.get_view_interval())
+        decades = np.arange(np.floor(np.log10(low)) - 1, np.ceil(np.log10(high)) + 2)
+        for factors in ((1,), (1, 3), (1, 2, 5)):
+            places = np.sort(np.outer(factors, 10.0 ** decades).ravel())
+            if ((low <= places) & (places <= high)).sum() >= 2:
+                break
+        else:
+            lowest, highest = places[places < low].max(), places[places > high].min()
+            if ((low <= places) & (places <= high)).any():  # one more will do
+                lowest, highest = (lowest, high) if low / lowest < highest / high else (low, highest)
+            (axis.axes.set_xlim if axis.axis_name == "x" else axis.axes.set_ylim)(
+                *((highest, lowest) if axis.get_inverted() else (lowest, highest)))
+        if factors != (1,):
+            axis.set_major_locator(LogLocator(subs=factors))
+            plain = 1e-3 <= low and high <= 1e4
+            axis.set_major_formatter(FuncFormatter(lambda v, _, plain=plain: f"{v:g}" if plain else power_text(v)))
+        axis.set_minor_formatter(NullFormatter())
+
+
 def save(figure, directory, name, foot):
     """Writes DIR/name.{png,svg,pdf} with the provenance at the foot; the same input gives the same bytes."""
     directory.mkdir(parents=True, exist_ok=True)
     _give_empty_axes_limits(figure)
+    _label_log_axes(figure)
     footnote(figure, foot.replace("$", r"\$"), size=4.5)
     _place_footnotes(figure)
     figure.set_layout_engine("none")  # laid out by now

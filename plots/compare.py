@@ -2,19 +2,29 @@
 
 from itertools import cycle
 
+import matplotlib.pyplot as plt
+import numpy as np
+
 from command import command
 from common import FALLBACK, literal, save
 from reading import InputError, read_table
 from tables import columns
-from work_precision import draw_methods, method_name
+from work_precision import REFERENCE, draw_methods
 
 
 def draw(frame):
     """Each method by the text that was given, with a look of its own."""
-    looks = dict(zip(frame["method"].unique(), cycle(FALLBACK)))
-    return draw_methods(frame, "wall_s", "wall time (s)", by="method", columns=1,
-                        name=lambda row: method_name(row) if row["outer"] == "judge" else row["method"],
-                        look=lambda row: dict(zip(("color", "marker", "linestyle"), looks[row["method"]])))
+    looks = {method: dict(zip(("color", "marker", "linestyle"), look))
+             for method, look in zip(frame["method"].unique(), cycle(FALLBACK))}
+
+    def legend(fig, rows, references):
+        entries = {f"judge {method}, the reference itself" if method in references else method:
+                   REFERENCE if method in references else look for method, look in looks.items()}
+        handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
+        fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=1)
+
+    return draw_methods(frame, "wall_s", "wall time (s)", by="method", look=lambda row: looks[row["method"]],
+                        legend=legend)
 
 
 def main(directory):
@@ -23,6 +33,10 @@ def main(directory):
     frame = read_table(path, columns(".", "compare"))
     if frame.empty:
         raise InputError(f"{path}: got no rows; at least one is needed")
+    for i, row in frame.iterrows():
+        if row["status"] == "ok" and not np.isfinite(row["error"]):
+            raise InputError(f"{path}: line {i + 2}: column 'error': got {row['error']}; allowed where the status is ok: "
+                             "a finite number")
     save(draw(literal(frame)), directory / "figures", "compare_seconds", f"pbdcheck compare: {path}")
 
 

@@ -21,7 +21,8 @@ def decrements(frame):
         for integrator, look in looks(frame).items():
             points = rows[rows["integrator"] == integrator]
             fine = good(points, "error")
-            ax.plot(fine["step_s"], on_log(fine["error"]), label=integrator, markerfacecolor="none", **look | {"linestyle": "none"})
+            ax.plot(fine["step_s"], on_log(fine["error"]), label=integrator, markerfacecolor="none",
+                    **look | {"linestyle": "none"})
             draw_failed(ax, failed(points, "error"), "step_s", "error", look)
         ax.axhline(1e-8, color=BLACK, linewidth=0.8, linestyle=":")
         ax.set(xscale="log", yscale="log", title=scene)

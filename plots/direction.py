@@ -68,7 +68,8 @@ def modes(frame):
         bad = failed(rows, "measured_left")
         draw_failed(ax, bad.assign(direction_blend=bad["direction_blend"].clip(lower=1e-3)), "direction_blend", "measured_left",
                     {"color": color, "marker": marker})
-    ax.set(xlabel="blend b of directions (0: begin of the step, 1: end)", ylabel="energy left by a step at h w = 1", ylim=(0, 1.1))
+    ax.set(xlabel="blend b of directions (0: begin of the step, 1: end)", ylabel="energy left by a step at h w = 1",
+           ylim=(0, 1.1))
     shared_legend(fig, [ax])
     footnote(fig, reasons_note(failed(position, "measured_left")))
     return fig
@@ -85,7 +86,8 @@ def energy(frame):
         for ax in axes:
             ax.plot(rows["time_s"], rows["energy_j"], label=label, markevery=max(1, len(rows) // 8),
                     **{"markerfacecolor": "white"} | look)
-        draw_failed(axes[0], failed(rows, "time_s").tail(1), "time_s", "energy_j", {"color": look["color"], "marker": look["marker"]})
+        draw_failed(axes[0], failed(rows, "time_s").tail(1), "time_s", "energy_j",
+                    {"color": look["color"], "marker": look["marker"]})
     axes[0].set(ylabel="energy (J); m g l = 9.81 J")
     axes[1].set(ylim=(-0.5, 0.5))
     fig.supxlabel(f"time (s), steps of {step_text(frame['step_s'].iloc[0])}", fontsize=8)

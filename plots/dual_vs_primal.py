@@ -30,7 +30,8 @@ def errors(frame):
             curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
             if outer == "incremental" and (trace["status"] != "ok").all():
                 draw_floor(ax, trace)
-        ax.set(yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")
+        ax.set_xscale("symlog", linthresh=1)
+        ax.set(xlim=(-0.3, None), yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")
         ax.title.set_fontsize(7)
     fig.supxlabel("sweeps", fontsize=8)
     fig.supylabel("error against Newton on the energy, relative", fontsize=8)

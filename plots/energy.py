@@ -67,7 +67,8 @@ def drift(frame):
     for (scene, name), rows in frame.assign(rule=rule_names(frame)).groupby(["scene", "rule"], sort=False):
         look = style(name) | {"marker": "o" if scene == frame["scene"].iloc[0] else "s"}
         shown = good(rows, "step_s", "drift").sort_values("step_s")
-        ax.plot(shown["step_s"], on_log(shown["drift"]), label=f"{scene.replace('_', ' ')}, {name}", markerfacecolor="white", **look)
+        ax.plot(shown["step_s"], on_log(shown["drift"]), markerfacecolor="white",
+                label=f"{scene.replace('_', ' ')}, {name}", **look)
         draw_failed(ax, failed(rows, "step_s", "drift"), "step_s", "drift", look)
     ok = good(frame, "step_s", "drift")
     if len(ok):

@@ -1,10 +1,12 @@
 """Contact beside known answers: the errors of every quantity, friction over the heading, and the convex law's gap."""
 
-from common import (BLACK, curve_points, draw_failed, figure, footnote, on_log, order_triangles, panels, shared_legend, style,
-                    ticks)
+from common import (BLACK, ZERO_DRAWN_AT, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend,
+                    style, ticks)
 from reading import failed, good, reasons_note, text_number
 
 SHORT = {"gauss_seidel": "GS", "jacobi": "J", "nesterov_jacobi": "NJ", "conjugate_gradients": "CG", "direct": "direct"}
+
+ZEROS = f"Errors that are exactly 0 stand at {text_number(ZERO_DRAWN_AT)}. "
 
 
 def answers(frame):
@@ -28,7 +30,7 @@ def answers(frame):
         ax.set(yscale="log", title=quantity.replace("_", " "), xlim=(0.5, len(names) + 0.5))
         ax.set_ylabel(f"error ({here['unit'].iloc[0]})", fontsize=7)
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "error")))
+    footnote(fig, ZEROS + reasons_note(failed(frame, "error")))
     return fig
 
 
@@ -45,13 +47,13 @@ def headings(frame):
         for ax, column in zip(axes, ("deceleration_share", "share_error", "heading_error_rad")):
             curve_points(ax, rows, "heading_deg", column, label, style(friction) | {"linestyle": "none"})
     axes[0].set_ylabel("deceleration over mu g")
-    axes[1].set(yscale="log", ylabel="error of that")
+    axes[1].set(yscale="log", ylabel="error of that share")
     axes[2].set(yscale="log", ylabel="error of the heading (rad)")
     for ax in axes:
         ax.set_xlabel("heading (degrees)")
         ax.set_xticks(range(0, 361, 90))
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "share_error", "heading_error_rad")))
+    footnote(fig, ZEROS + reasons_note(failed(frame, "share_error", "heading_error_rad")))
     return fig
 
 
@@ -82,10 +84,12 @@ def heights(frame):
     for ax, (restitution, here) in zip(axes, coefficients):
         for (relaxation, h), rows in here.groupby(["relaxation", "step_s"], sort=False):
             if relaxation == "direct":
-                curve_points(ax, rows, "bounce", "height_m", f"h = {text_number(h)} s", style(f"step {h}") | {"linestyle": "none"})
+                look = style(f"step {h}") | {"linestyle": "none"}
+                curve_points(ax, rows, "bounce", "height_m", f"h = {text_number(h)} s", look)
         exact = here.drop_duplicates("bounce").sort_values("bounce")
         ax.plot(exact["bounce"], exact["expected_m"], color=BLACK, linewidth=0.8, label="restitution^(2 n) m")
         ax.set(yscale="log", title=f"restitution {restitution:g}", xlabel="bounce n")
+        ax.set_xticks(exact["bounce"])
     axes[0].set_ylabel("height (m)")
     shared_legend(fig, axes)
     footnote(fig, reasons_note(failed(frame, "height_m")))
@@ -94,14 +98,16 @@ def heights(frame):
 
 @figure("stack", "thresholds", table="thresholds")
 def thresholds(frame):
-    """Largest displacement of structures just inside and just outside of their limits; between the lines neither stands nor falls."""
+    """Largest displacement of structures just inside and just outside of their limits; between the lines none stands or
+    falls."""
     fig, axes = panels(len(frame["structure"].unique()), columns=2, height=2.6, sharey=True)
     for ax, (structure, here) in zip(axes, frame.groupby("structure", sort=False)):
         counts = sorted(here["count"].unique())
         for (relaxation, outcome), rows in here.groupby(["relaxation", "outcome"], sort=False):
             shift = 0.1 if relaxation == "direct" else -0.1
             placed = rows.assign(place=[counts.index(count) + 1 + shift for count in rows["count"]])
-            look = style(relaxation) | {"linestyle": "none"} | ({"markerfacecolor": style(relaxation)["color"]} if outcome == "falls" else {})
+            look = style(relaxation) | {"linestyle": "none"}
+            look |= {"markerfacecolor": look["color"] if outcome == "falls" else "white"}
             curve_points(ax, placed, "place", "moved", f"{relaxation}, {outcome}", look)
         for line in (1e-4, 0.1):
             ax.axhline(line, color=BLACK, linestyle="--", linewidth=0.8)

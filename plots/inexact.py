@@ -19,8 +19,8 @@ def row_updates(frame):
                 inexact = share == loosest
                 look = {"color": color, "marker": marker, "linestyle": "-" if inexact else "--",
                         "markerfacecolor": color if inexact else "white"}
-                curve_points(ax, points, "mass_ratio", "row_updates", f"h = {step_text(step)}, {'inexact' if inexact else 'exact'}",
-                             look)
+                label = f"h = {step_text(step)}, {'inexact' if inexact else 'exact'}"
+                curve_points(ax, points, "mass_ratio", "row_updates", label, look)
         ax.set(xscale="log", yscale="log", title=relaxation)
     fig.supxlabel("mass ratio, tip to other nodes", fontsize=8)
     fig.supylabel("row updates to the step's tolerance", fontsize=8)

@@ -12,7 +12,7 @@ def traces(frame, x, label):
     for ax, scene in zip(axes, scenes):
         for relaxation, rows in frame[frame["scene"] == scene].groupby("relaxation", sort=False):
             curve(ax, rows, x, "error", relaxation, style(relaxation))
-        ax.set(xscale="log" if x == "wall_s" else "linear", yscale="log", title=scene)
+        ax.set(xscale="log", yscale="log", title=scene)
     fig.supxlabel(label, fontsize=8)
     fig.supylabel("error against the dense solution, relative", fontsize=8)
     shared_legend(fig, axes)

@@ -8,11 +8,15 @@ from reading import failed, good, reasons_note, text_number
 SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
           ("residual_b", "residual of the second", GREEN, "^"))
 
+LEFT_OUT = ("tip", "Pa", "N", "N/m", "m/rad")
+NUMBER = re.compile(r"[-x]?(\d[\d.e+-]*|inf)")
+
 
 def family(scene):
-    """The scene's name without sizes and parameters: `cantilever green` of `cantilever8 green E=1e5 nu=0.3`."""
-    words = [word for word in scene.split() if "=" not in word and word != "tip" and not re.fullmatch(r"x\d+", word)]
-    return " ".join(word.rstrip("0123456789") for word in words) if words else scene
+    """The scene's name without sizes and parameters: `cantilever green` of `cantilever8 green E=1e5 Pa`."""
+    words = [word.rstrip(",") for word in scene.split() if "=" not in word]
+    kept = [re.sub(r"(?<=[a-z])\d+$", "", word) for word in words if word not in LEFT_OUT and not NUMBER.fullmatch(word)]
+    return " ".join(kept) or scene
 
 
 @figure("judges", "agreement", table="agreement")

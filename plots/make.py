@@ -5,6 +5,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
 import conditioning  # noqa: F401  (each of these registers its figures)
+import cone_problems  # noqa: F401
 import contraction  # noqa: F401
 import damping  # noqa: F401
 import direction  # noqa: F401
@@ -38,24 +39,26 @@ def say(text):
 
 
 def draw(entry, directory):
-    """Draws one figure in place of an older one; says so if its run is not complete or there is nothing to draw."""
+    """Draws one figure in place of an older one and returns whether it did; says so if its run is not complete or there is
+    nothing to draw."""
     name = f"{entry.experiment}_{entry.name}"
     for kind in KINDS:
         (directory / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
     path = directory / entry.experiment / f"{entry.table}.csv"
     if not path.exists():
         say(f"skipped: {name}: no {path}")
-        return
+        return False
     run = read_run(path.parent)
     if shortfall(run):
         say(f"skipped: {name}: {path.parent}: {shortfall(run)}")
-        return
+        return False
     frame = literal(read_table(path, columns(entry.experiment, entry.table)))
     drawn = entry.draw(frame) if len(frame) else None
     if drawn is None:
         say(f"skipped: {name}: nothing to draw in {path}")
-        return
+        return False
     save(drawn, directory / "figures", name, provenance(run))
+    return True
 
 
 def without_figure(directory):
@@ -71,9 +74,11 @@ def main(directory):
     if not directory.is_dir():
         raise InputError(f"{directory}: got no folder; allowed: a result folder, as written by `pbdcheck run`")
     with ProcessPoolExecutor() as pool:
-        list(pool.map(partial(draw, directory=directory), FIGURES))
+        drawn = list(pool.map(partial(draw, directory=directory), FIGURES))
     for path in without_figure(directory):
         say(f"warning: {path}: no figure reads this table")
+    if not any(drawn):
+        raise InputError(f"{directory}: got no result to draw; allowed: a result folder with a complete run of an experiment")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
-from common import BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, style, ticks
+from common import (BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle,
+                    style, ticks)
 from reading import failed, good, reasons_note
 
 QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}

@@ -5,13 +5,15 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import CONTRACTING, LARGEST, failed, good, reasons_note, step_text, text_number
+from reading import CONTRACTING, LARGEST, failed, good, reasons_note, scene_text, step_text, text_number
 
 
 def cases(frame):
-    """(title, rows) per scene, step and mass ratio."""
+    """(title, rows) per scene, step and, where a scene has several, mass ratio."""
+    several = frame.groupby("scene")["mass_ratio"].nunique() > 1
     for (scene, step, ratio), rows in frame.groupby(["scene", "step_s", "mass_ratio"]):
-        yield f"{scene}\nh = {step_text(step)}, ratio {text_number(ratio)}", rows
+        mass = f", mass ratio {text_number(ratio)}" if several[scene] else ""
+        yield f"{scene_text(scene)}\nh = {step_text(step)}{mass}", rows
 
 
 def last_rows(frame, keys):
@@ -30,7 +32,7 @@ def error_curves(frame, names):
     """Error against outer iteration for some outer iterations, one panel a case."""
     frame = frame[frame["outer"].isin(names)]
     chosen = list(cases(frame))
-    fig, axes = panels(len(chosen), columns=3, height=1.7, sharex=False)
+    fig, axes = panels(len(chosen), columns=3, height=1.8)
     for ax, (title, rows) in zip(axes, chosen):
         for (outer, relaxation), trace in rows.groupby(["outer", "relaxation"], sort=False):
             curve(ax, trace, "iteration", "error", f"{outer}, {relaxation}", look(outer, relaxation))
@@ -67,7 +69,8 @@ def rate_map(frame):
     fig, axes = panels(len(scenes), columns=2, height=2.6)
     for ax, scene in zip(axes, scenes):
         mesh = map_panel(ax, frame[frame["scene"] == scene])
-        ax.set(title=f"{scene}, plain iteration, error against Newton", xlabel="step", ylabel="mass ratio, heaviest to lightest node")
+        ax.set(title=f"{scene}, plain iteration, error against Newton", xlabel="step",
+               ylabel="mass ratio, heaviest to lightest node")
     fig.colorbar(mesh, ax=axes, label="measured rate, error per iteration", extend="both")
     handles = [plt.Line2D([], [], color=BLACK, linestyle="--"), plt.Line2D([], [], color=BLACK, marker="x", linestyle="")]
     fig.legend(handles, ["predicted rate = 1", "error does not fall steadily; grey: no rate to measure"],

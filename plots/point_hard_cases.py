@@ -1,5 +1,7 @@
 """Which gates hold on the hard cases, and how far step and budget can be pushed?"""
 
+import textwrap
+
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
@@ -7,7 +9,8 @@ from common import BLUE, GREEN, RED, crossed, figure, footnote, panels, shared_l
 from reading import drawable, text_number
 
 HOLDS, FAILS, SKIPPED = 1.0, 0.0, 0.5
-LOOK = {"gauss_seidel": (BLUE, "o"), "direct": ("#000000", "D")}
+UNSWEPT = "quasi-Newton, no sweeps"
+LOOK = {"gauss_seidel": (BLUE, "o"), "direct": ("#000000", "D"), UNSWEPT: ("#777777", "s")}
 
 
 def row_names(frame):
@@ -34,15 +37,20 @@ def gates(frame):
     ax.imshow(colours, cmap=ListedColormap([RED, "#dddddd", "#a8ddb5"]), norm=BoundaryNorm([-0.25, 0.25, 0.75, 1.25], 3),
               aspect="auto")
     bounds = frame.groupby("gate", sort=False)["bound"].first()
-    ax.set_xticks(range(len(columns)), [f"{name}\n≤ {text_number(bounds[name])}" for name in columns], fontsize=6)
+    ax.set_xticks(range(len(columns)), [f"{folded(name)}\n≤ {text_number(bounds[name])}" for name in columns], fontsize=6)
     ax.set_yticks(range(len(rows)), [name + unsolved_mark(frame[frame["row"] == name]) for name in rows], fontsize=5.5)
     ax.tick_params(top=True, labeltop=True)
     ax.grid(False)
     runs = frame[frame["status"] != "skipped"].drop_duplicates("row")
     skipped = frame[frame["status"] == "skipped"]["reason"].map(lambda reason: reason.partition(" in ")[0]).value_counts()
-    footnote(fig, f"Red: the gate fails. * some steps say that they are not solved, in {(runs['status'] != 'ok').sum()} of {len(runs)} "
-             "simulations. Skipped: " + ("; ".join(f"{count} x {reason}" for reason, count in skipped.items()) or "none") + ".")
+    unsolved = f"{(runs['status'] != 'ok').sum()} of {len(runs)}"
+    footnote(fig, f"Red: the gate fails. * some steps say that they are not solved, in {unsolved} simulations. Skipped: " + ("; ".join(f"{count} x {reason}" for reason, count in skipped.items()) or "none") + ".")
     return fig
+
+
+def folded(name):
+    """A gate's name in lines of a column's width."""
+    return textwrap.fill(name.replace("_", "_ "), 8, break_long_words=False).replace("_ ", "_")
 
 
 def unsolved_mark(rows):
@@ -57,7 +65,8 @@ def frontier(frame):
     rows = list(frame["row"].unique())
     fig, axes = panels(2, columns=2, height=0.15 * len(rows) + 0.5, sharey=True)
     fig.set_figwidth(7.2)
-    for relaxation, group in frame.groupby("relaxation", sort=False):
+    swept = frame["relaxation"].where(frame["fewest_sweeps"] != 0, UNSWEPT)
+    for relaxation, group in frame.groupby(swept, sort=False):
         color, marker = LOOK.get(relaxation) or (style(relaxation)["color"], style(relaxation)["marker"])
         points(axes[0], group, rows, "largest_step_s", color, marker, f"{relaxation}: gates hold")
         if "largest_solved_step_s" in group:
@@ -68,8 +77,7 @@ def frontier(frame):
     axes[0].set_yticks(range(len(rows)), rows, fontsize=5.5)
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
     shared_legend(fig, axes[:1])
-    footnote(fig, "Crossed: a gate fails already at the mildest setting. No sweeps: every row is compliant and the "
-             "quasi-Newton iteration has none.")
+    footnote(fig, "Crossed: a gate fails already at the mildest setting. No sweeps: every row is compliant.")
     return fig
 
 

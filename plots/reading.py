@@ -7,6 +7,8 @@ with 17 digits, `nan`, `inf` or `-inf`. A row whose `status` is not `ok`, or who
 
 import csv
 import json
+import re
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -19,14 +21,14 @@ VERDICTS = ("holds", "fails")
 COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
-            "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance", "disturbance_rad_s", "bodies",
-            "redundant_joints"}  # chosen or counted: numbers
+            "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance",
+            "disturbance_rad_s", "bodies", "redundant_joints", "contacts"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
-TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour", "theory", "model",
-        "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
+TEXT = {"benchmark", "engine", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
+        "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
-        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome"}
+        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law"}
 
 
 class InputError(Exception):
@@ -34,8 +36,10 @@ class InputError(Exception):
 
 
 def read_table(path, columns=()):
-    """A table as a DataFrame; raises InputError unless it has `columns` and every cell is well formed."""
+    """A table as a DataFrame; raises InputError unless it has `columns`, every row that its run counted, and every cell
+    is well formed."""
     header, rows = _read_cells(Path(path))
+    _check_count(Path(path), len(rows))
     missing = [c for c in columns if c not in header]
     if missing:
         raise InputError(f"{path}: column '{missing[0]}' is missing; needed: {', '.join(columns)}; "
@@ -89,6 +93,17 @@ def _read_cells(path):
     return header, rows[1:]
 
 
+def _check_count(path, found):
+    """Whether the table is whole: a file that is cut at a row's end looks like one that is."""
+    record = path.with_name("run.json")
+    counts = _read_record(record).get("rows", {}) if record.exists() else {}
+    if not isinstance(counts, dict):
+        raise InputError(f"{record}: key 'rows': got {json.dumps(counts)[:40]}; allowed: an object")
+    counted = counts.get(path.stem, found)
+    if counted != found:
+        raise InputError(f"{path}: got {found} rows; allowed: {json.dumps(counted)[:40]}, as {record.name} says")
+
+
 def _column(path, name, values, needed):
     if name in TEXT:
         return values
@@ -129,13 +144,7 @@ def read_run(directory):
     path = Path(directory) / "run.json"
     if not path.exists():
         return {}
-    try:
-        run = json.loads(path.read_text(encoding="utf-8"))
-        json.dumps(run, ensure_ascii=False).encode()  # half a character can be escaped, never written
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: cannot be read as JSON: {error}") from error
-    if not isinstance(run, dict):
-        raise InputError(f"{path}: got {json.dumps(run)[:40]}; allowed: an object")
+    run = _read_record(path)
     needed = {"status": str} | (RUN if run.get("status") == COMPLETE else {})
     for key, kind in needed.items():
         value = run.get(key)
@@ -143,6 +152,17 @@ def read_run(directory):
             name = {str: "a text", bool: "true or false", dict: "an object"}.get(kind, "a number")
             raise InputError(f"{path}: key '{key}': got {json.dumps(value)[:40] if key in run else 'nothing'}; "
                              f"allowed: {name}")
+    return run
+
+
+def _read_record(path):
+    try:
+        run = json.loads(path.read_text(encoding="utf-8"))
+        json.dumps(run, ensure_ascii=False).encode()  # half a character can be escaped, never written
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: cannot be read as JSON: {error}") from error
+    if not isinstance(run, dict):
+        raise InputError(f"{path}: got {json.dumps(run)[:40]}; allowed: an object")
     return run
 
 
@@ -214,15 +234,27 @@ def reasons_note(rows, limit=4):
     if rows.empty:
         return ""
     counts = rows.apply(why, axis=1).value_counts()
-    lines = [f"{count} x {reason[:90]}" for reason, count in counts.head(limit).items()]
+    lines = [f"{count} x {textwrap.shorten(reason, 140, placeholder=' ...')}" for reason, count in counts.head(limit).items()]
     if len(counts) > limit:
         lines.append(f"and {counts.iloc[limit:].sum()} more for {len(counts) - limit} other reasons")
     return "Crossed, not ok: " + "; ".join(lines)
 
 
+def missed_note(frame):
+    """How many steps the runs missed that did not solve all, '' if all did."""
+    missed = frame["missed_steps"][frame["missed_steps"] > 0]
+    spanned = f"{missed.min():.0f} to {missed.max():.0f}" if len(missed) else ""
+    return f"Of each crossed run {spanned} steps missed their tolerance. " if spanned else ""
+
+
 def text_number(value):
     """A number with three digits: 0.004, 1e6."""
     return f"{value:.3g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+
+
+def scene_text(scene):
+    """A scene's name with the numbers of its parameters as `text_number` writes them."""
+    return re.sub(r"(?<==)\d+(\.\d*)?(e[-+]?\d+)?", lambda match: text_number(float(match[0])), scene)
 
 
 def step_text(step):

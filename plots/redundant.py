@@ -1,27 +1,33 @@
 """Does a mechanism move as before when joints hold what others hold already?"""
 
-from common import curve_points, figure, footnote, panels, shared_legend, style
-from reading import failed, reasons_note
+from common import BLACK, crossed, curve_points, figure, footnote, panels, shared_legend, style
+from reading import missed_note, reasons_note
 
 COLUMNS = {"position_difference_m": "positions: difference (m)", "net_force_difference": "net forces: difference",
            "split": "joints of one place: difference"}
+
+BOUND = 1e-9  # of the verdicts
 
 
 @figure("redundant", "motion", table="motion")
 def motion(frame):
     """Differences to the motion without redundant joints, and of the impulses that joints of one place share, over the number of
-    redundant joints. The run without is what others differ from, and drawn only where it fails."""
+    redundant joints. The run without is what others differ from, and stands on the lower edge where it fails."""
+    placed = frame.assign(place=frame["redundant_joints"] + 1)
     plain = frame["redundant_joints"] == 0
-    shown = frame[~plain | (frame["status"] != "ok")].assign(place=frame["redundant_joints"] + 1)
-    shown.loc[plain, list(COLUMNS)] = float("nan")
     fig, axes = panels(len(COLUMNS), columns=3, height=2.4)
     for ax, (column, title) in zip(axes, COLUMNS.items()):
-        for relaxation, rows in shown.groupby("relaxation", sort=False):
+        for relaxation, rows in placed[~plain].groupby("relaxation", sort=False):
             curve_points(ax, rows, "place", column, relaxation, style(relaxation))
+        for _, row in placed[plain & (frame["status"] != "ok")].iterrows():
+            look = style(row["relaxation"]) | {"linestyle": "none"}
+            crossed(ax, row["place"], 0.03, look, ax.get_xaxis_transform())
+        if column != "split":
+            ax.axhline(BOUND, color=BLACK, linewidth=0.8, linestyle="--", label="bound")
         counts = sorted(frame["redundant_joints"].unique())
         ax.set_xticks([count + 1 for count in counts], [f"{count:.0f}" for count in counts])
         ax.set(yscale="log", title=title, xlim=(counts[0] + 0.7, counts[-1] + 1.3))
     fig.supxlabel("redundant joints", fontsize=8)
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(frame[frame["status"] != "ok"]))
+    footnote(fig, missed_note(frame) + reasons_note(frame[frame["status"] != "ok"]))
     return fig

@@ -48,8 +48,8 @@ def seconds(frame):
     fig.supxlabel("wall time (s)", fontsize=8)
     fig.supylabel("error, relative", fontsize=8)
     shared_legend(fig, axes)
-    footnote(fig, f"Cantilever of {largest:.0f} tetrahedra. Exact zeros, where a method's own end is the reference, are left out. "
-             + reasons_note(failed(frame.drop_duplicates(["young_pa", "poisson", "method", "status"]), "error")))
+    footnote(fig, f"Cantilever of {largest:.0f} tetrahedra. Exact zeros, where a method's own end is the reference, are "
+             "left out. " + reasons_note(failed(frame.drop_duplicates(["young_pa", "poisson", "method", "status"]), "error")))
     return fig
 
 

@@ -50,7 +50,7 @@ def joints(directory):
                                  0.1 * 2 ** k, status, reason))
     write(directory, "joints", "accuracy", "mechanism integrator alpha outer relaxation step_s error order joint_error "
           "missed_steps wall_s status reason", accuracy)
-    write(directory, "joints", "lengths", "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status "
+    write(directory, "joints", "lengths", "relaxation bodies cpu_s_per_step cpu_s_per_sweep exponent_step exponent_sweep status "
           "reason",
           [(relaxation, count, 40 * cost * count, cost * count, 1.01, 1.0, "ok", "")
            for relaxation, cost in (("gauss_seidel", 1e-7), ("jacobi", 1.3e-7), ("nesterov_jacobi", 1.8e-7),

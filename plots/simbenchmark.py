@@ -5,8 +5,8 @@ from reading import reasons_note
 
 LOOKS = {"RaiSim": (ORANGE, "s", ":"), "Bullet": (RED, "^", ":"), "ODE": (GREEN, "D", ":"), "DART": (PURPLE, "v", ":"),
          "MuJoCo": (BLACK, "X", ":")}
-UNITS = {"rolling_xy": "velocity error² (m²/s²)", "rolling_y": "velocity error² (m²/s²)", "bouncing": "energy error² (J²)",
-         "666": "overlap² (m²)", "elastic_666": "energy error² (J²)"}
+UNITS = {"rolling_xy": "velocity error² (m²/s²)", "rolling_y": "velocity error² (m²/s²)",
+         "bouncing": "energy error² (J²)", "666": "overlap² (m²)", "elastic_666": "energy error² (J²)"}
 
 
 def look(engine):
@@ -23,7 +23,7 @@ def benchmarks(frame):
 def accuracy(frame):
     """Error over the step, one panel a benchmark."""
     names = benchmarks(frame)
-    fig, axes = panels(len(names), columns=3, height=4.4)
+    fig, axes = panels(len(names), columns=3, height=2.2)
     for ax, name in zip(axes, names):
         rows = frame[frame["benchmark"] == name]
         curve_points(ax, rows, "step_s", "error", "pbdcheck",
@@ -38,7 +38,7 @@ def accuracy(frame):
 def published(frame):
     """What five engines were published to reach."""
     names = benchmarks(frame)
-    fig, axes = panels(len(names), columns=3, height=4.4)
+    fig, axes = panels(len(names), columns=3, height=2.2)
     for ax, name in zip(axes, names):
         for engine, rows in frame[frame["benchmark"] == name].groupby("engine", sort=False):
             rows = rows.sort_values("step_s")

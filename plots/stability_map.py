@@ -60,7 +60,7 @@ def maps(frame, value):
     for ax, ((outer, memory), rows) in zip(axes, chosen):
         mesh = map_panel(ax, rows, value, most)
         ax.set_title(method_name(outer, memory))
-    fig.supxlabel("step", fontsize=8)
+    fig.supxlabel("step (s)", fontsize=8)
     fig.supylabel(AXES[value], fontsize=8)
     fig.colorbar(mesh, ax=axes, label="outer iterations to an error of 1e-8", extend="max")
     met = [status for status in MARKS if unsolved(frame)["status"].eq(status).any()]

@@ -6,6 +6,8 @@ METHOD = "scene step_s integrator outer relaxation friction outer_iterations swe
 ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
+CONES = ("family number contacts law relaxation natural_residual gap feasibility error_m_per_s difference_m_per_s sweeps wall_s "
+         "status reason")
 
 TABLES = {
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
@@ -58,7 +60,7 @@ TABLES = {
     ("rotation", "tumbling"): "disturbance_rad_s integrator alpha outer relaxation step_s period_s exact_s error status reason",
     ("joints", "accuracy"): "mechanism integrator alpha outer relaxation step_s error order joint_error missed_steps wall_s status "
                             "reason",
-    ("joints", "lengths"): "relaxation bodies wall_s_per_step wall_s_per_sweep exponent_step exponent_sweep status reason",
+    ("joints", "lengths"): "relaxation bodies cpu_s_per_step cpu_s_per_sweep exponent_step exponent_sweep status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
@@ -76,6 +78,8 @@ TABLES = {
     ("contact_hard_cases", "gates"): "scene step_s integrator outer relaxation friction steps steps_ok sweeps gate measured "
                                      "bound holds status reason",
     ("contact_hard_cases", "frontier"): "scene outer relaxation friction largest_step_s fewest_sweeps status reason",
+    ("cone_problems", "solves"): CONES,
+    ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",

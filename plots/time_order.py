@@ -25,11 +25,13 @@ def errors(frame):
 @figure("time_order", "orders", table="orders")
 @figure("rotation", "orders", table="orders")
 def orders(frame):
-    """Observed orders, one column a motion."""
+    """Observed orders, one column a motion, the integrators beside each other."""
     fig, (ax,) = panels(1, height=2.7)
     scenes = list(frame["scene"].unique())
     placed = frame.assign(column=frame["scene"].map(scenes.index) + 1.0, rule=rule_names(frame))
+    rules = list(placed["rule"].unique())
     for name, rows in placed.groupby("rule", sort=False):
+        rows = rows.assign(column=rows["column"] + 0.08 * (rules.index(name) - (len(rules) - 1) / 2))
         look = style(name) | {"linestyle": "none", "markerfacecolor": "white"}
         shown = good(rows, "order")
         ax.plot(shown["column"], shown["order"], label=name, **look)

@@ -1,13 +1,13 @@
 """Which method gives which accuracy for which work?"""
 
-from common import BLACK, BLUE, GREEN, ORANGE, SKY, curve_points, figure, footnote, panels, shared_legend, style
-from reading import failed, good, reasons_note, step_text
+import matplotlib.pyplot as plt
+
+from common import BLACK, draw_failed, figure, footnote, on_log, panels, style
+from reading import failed, good, reasons_note, scene_text, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "conjugate_gradients": "P", "direct": "D"}
+REFERENCE = {"color": BLACK, "marker": "*", "linestyle": "none", "markersize": 7, "markerfacecolor": BLACK}
 LEAST_ERROR = 1e-9  # differences in accuracy below are not worth work
-FILLINGS = {"auto": {"markerfacecolor": BLUE}, "proximal": {"markerfacecolor": GREEN, "fillstyle": "full"}, "rival": {"markerfacecolor": BLACK},
-            "incremental": {"fillstyle": "left", "markerfacecolor": SKY, "markerfacecoloralt": "white"},
-            "frozen": {"markerfacecolor": ORANGE}}
 
 
 def method_name(row):
@@ -20,9 +20,9 @@ def method_name(row):
 
 
 def method_style(row):
-    """Colour, line and filling tell the outer iteration, the marker the relaxation."""
+    """Colour and line tell the outer iteration, the marker the relaxation."""
     look = style(row["outer"])
-    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])} | FILLINGS.get(row["outer"], {})
+    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])}
 
 
 def quickest(frame, x):
@@ -49,16 +49,43 @@ def is_reference(points):
     return (points["error"] == 0).all() and (points["sweeps"] == 0).all()
 
 
-def mark_reference(ax, points, x, name):
+def mark_reference(ax, points, x):
     """The reference has a cost but no error: a star on the lower edge."""
     for place in points[x][points[x] > 0]:
-        ax.plot([place], [0], "*", color=BLACK, markersize=7, transform=ax.get_xaxis_transform(), clip_on=False, zorder=5,
-                label=f"{name}, the reference itself")
+        ax.plot([place], [0], clip_on=False, zorder=5, transform=ax.get_xaxis_transform(), **REFERENCE)
 
 
-def draw_methods(frame, x, label, by=None, name=method_name, look=method_style, columns=3):
-    """Error against work, one panel a scene, step, integrator and friction. A curve is what `by` tells apart,
-    outer iteration and relaxation if nothing else is asked."""
+def front(ax, points, x, look):
+    """Every run as a marker, crossed where it is not ok; a staircase through those that none beats in both work and
+    error."""
+    rows = good(points, x, "error").sort_values([x, "error"])
+    ax.plot(rows[x], on_log(rows["error"]), **look | {"linestyle": "none", "markerfacecolor": "white"})
+    best = rows[rows["error"] == rows["error"].cummin()]
+    ax.plot(best[x], on_log(best["error"]), drawstyle="steps-post", **look | {"marker": "none"})
+    draw_failed(ax, failed(points, x, "error"), x, "error", look)
+
+
+def families_legend(fig, frame, references):
+    """Outer iterations by colour and line, then relaxations by marker."""
+    entries = {}
+    for row in frame.drop_duplicates(["outer", "relaxation"]).to_dict("records"):
+        look, name = method_style(row), method_name(row)
+        if name in (f"judge {reference}" for reference in references):
+            entries[f"{name}, the reference itself"] = REFERENCE
+        elif row["outer"] in ("judge", "rival") or row["relaxation"] == "none":
+            entries[name] = look
+        else:
+            entries[row["outer"]] = look | {"marker": "none"}
+    for relaxation, marker in RELAXATION_MARKERS.items():
+        if relaxation in set(frame["relaxation"]):
+            entries[relaxation] = {"color": "#777777", "marker": marker, "linestyle": "none"}
+    handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
+    fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
+
+
+def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style, legend=families_legend):
+    """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work.
+    Curves are what the columns `by` tell apart."""
     judges = frame[frame["outer"] == "judge"]
     names = [judge for judge, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
     if x != "wall_s":
@@ -66,18 +93,18 @@ def draw_methods(frame, x, label, by=None, name=method_name, look=method_style, 
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.4)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
-        for _, points in rows.groupby(by or ["outer", "relaxation"], sort=False):
+        for _, points in rows.groupby(by, sort=False):
             first = points.iloc[0]
             if is_reference(points):
-                mark_reference(ax, points, x, name(first))
+                mark_reference(ax, points, x)
             else:
-                curve_points(ax, points, x, "error", name(first), look(first))
+                front(ax, points, x, look(first))
         extra = f", {friction}" if frame["friction"].nunique() > 1 else ""
-        ax.set(xscale="log", yscale="log", title=f"{scene}, {integrator}, h = {step_text(step)}{extra}")
+        ax.set(xscale="log", yscale="log", title=f"{scene_text(scene)}, {integrator}, h = {step_text(step)}{extra}")
         ax.title.set_fontsize(7)
     fig.supxlabel(label, fontsize=8)
     fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
-    shared_legend(fig, axes, columns=columns)
+    legend(fig, frame, names)
     bad = failed(frame, x, "error")
     beside = "Beside the right edge: methods that were skipped at tighter tolerances, or altogether. " if \
         bad["status"].eq("skipped").any() else ""

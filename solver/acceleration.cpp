@@ -46,7 +46,7 @@ bool Anderson::accelerate(const std::vector<double>& inverse_mass, Rows& rows, P
   flatten(rows, v, image_);
   residual_ = root_mass_.cwiseProduct((image_ - start_).head(v.size()));
   if (count_ > 0) {
-    if (image_change_.cols() == 0) {
+    if (image_change_.rows() != image_.size() || image_change_.cols() == 0) {  // contacts come and go
       image_change_.resize(image_.size(), memory_);
       residual_change_.resize(residual_.size(), memory_);
     }
@@ -59,7 +59,9 @@ bool Anderson::accelerate(const std::vector<double>& inverse_mass, Rows& rows, P
   combine(columns);
   constexpr double longest = 100;
   const double length = (start_ - image_).head(v.size()).cwiseProduct(root_mass_).norm();
-  if (!(length <= longest * residual_.norm())) return false;
+  if (!std::isfinite(length)) return false;
+  const double cap = longest * residual_.norm();
+  if (length > cap) start_ = image_ + cap / length * (start_ - image_);
   spread(start_, rows, v);
   return true;
 }

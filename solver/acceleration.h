@@ -24,7 +24,8 @@ class Anderson {
 
   /// With v and the rows' impulses the image of the noted iterate: replaces them by the accelerated iterate
   /// and returns true, or leaves them as they are: with nothing to combine yet, and where the step would be
-  /// non-finite or more than 100 times as long as the image's. `mass` (kg) weighs the nodes that can move.
+  /// non-finite. A step longer than 100 times the image's is shortened to that. The nodes that can move weigh
+  /// by their mass.
   bool accelerate(const std::vector<double>& inverse_mass, Rows& rows, Points& v);
 
   /// Undoes the last acceleration: v and the impulses are the image again. Forgets everything older.

@@ -7,15 +7,12 @@
 #include <Eigen/Dense>
 
 namespace pbd {
-namespace {
 
-Eigen::Matrix3d cross(const Vec3& a) {
+Eigen::Matrix3d cross_matrix(const Vec3& a) {
   Eigen::Matrix3d m;
   m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return m;
 }
-
-}  // namespace
 
 Eigen::Quaterniond rotation_by(const Vec3& angle) {
   const double half = angle.norm() / 2;
@@ -98,24 +95,32 @@ Vec3 Bodies::gyroscopic(int body, const Vec3& eta) const {
 Eigen::Matrix3d Bodies::gyroscopic_gradient(int body, const Vec3& eta) const {
   const Vec3& r = radius_[body];
   if (inverse_mass_[body] == 0) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d by_w = cross(r.cwiseProduct(eta)) * r.cwiseInverse().asDiagonal();
-  const Eigen::Matrix3d by_momentum = cross(eta.cwiseQuotient(r)) * r.asDiagonal();
+  const Eigen::Matrix3d by_w = cross_matrix(r.cwiseProduct(eta)) * r.cwiseInverse().asDiagonal();
+  const Eigen::Matrix3d by_momentum = cross_matrix(eta.cwiseQuotient(r)) * r.asDiagonal();
   return r.cwiseInverse().asDiagonal() * (by_w - by_momentum);
 }
 
-Vec3 Bodies::with_gyroscopic(int body, const Vec3& free, double s) const {
-  constexpr int most = 30;
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  Vec3 eta = free;
-  double last = 0;
-  for (int k = 0; k < most; ++k) {
-    const Vec3 missing = free + s * gyroscopic(body, eta) - eta;
-    const double left = missing.norm();
-    if (left <= rounding * eta.norm() || (k > 3 && !(left < last))) break;
-    last = left;
-    eta += (Eigen::Matrix3d::Identity() - s * gyroscopic_gradient(body, eta)).inverse() * missing;
+double Bodies::add_gyroscopic(int body, double s, Vec3& eta) const {
+  constexpr int most = 50;
+  constexpr double shortest = 1e-3, solved = 1e-13;  // rounding of the torque's terms
+  const Vec3 free = eta;
+  const auto missing = [&](const Vec3& at) -> Vec3 { return free + s * gyroscopic(body, at) - at; };
+  Vec3 rest = missing(eta);
+  for (int k = 0; k < most && rest.norm() > 0; ++k) {
+    const Vec3 step =
+        (Eigen::Matrix3d::Identity() - s * gyroscopic_gradient(body, eta)).fullPivLu().solve(rest);
+    double share = 1;
+    Vec3 next = missing(eta + step);
+    while (!(next.norm() < rest.norm()) && share > shortest) {
+      share /= 2;
+      next = missing(eta + share * step);
+    }
+    if (!(next.norm() < rest.norm())) break;
+    eta += share * step;
+    rest = next;
   }
-  return eta.allFinite() ? eta : free;
+  return rest.norm() <= solved * (1 + s * gyroscopic_gradient(body, eta).norm()) * eta.norm() ? 0
+                                                                                              : rest.norm();
 }
 
 double Bodies::contraction(const Points& v, double d, double s, bool implicit_gyroscopic) const {
@@ -123,7 +128,13 @@ double Bodies::contraction(const Points& v, double d, double s, bool implicit_gy
   for (int b = 0; b < count(); ++b) {
     if (inverse_mass_[b] == 0) continue;
     const Vec3 eta = v.col(column(b));
-    double own = d / 2 * eta.cwiseQuotient(radius_[b]).norm();
+    const Eigen::Matrix3d turned = radius_[b].asDiagonal() * cross_matrix(eta.cwiseQuotient(radius_[b])) *
+                                   radius_[b].cwiseInverse().asDiagonal();
+    const Eigen::Matrix3d squared = turned.transpose() * turned;
+    const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                               .computeDirect(squared, Eigen::EigenvaluesOnly)
+                               .eigenvalues()[2];
+    double own = d / 2 * std::sqrt(std::max(0.0, largest));
     if (implicit_gyroscopic) own += s * gyroscopic_gradient(b, eta).norm();
     bound = std::max(bound, own);
   }

@@ -6,7 +6,8 @@
 //   R(x) = R_l exp([x/r]x),
 // which leaves the integrators' affine map x = x0 + d v as it is, with x_l = 0 (the tangent space at the
 // frame's start; Simo, Wong 1991). Impulses act along dc/dphi R(x)/r, phi a rotation of the body as it
-// stands: the torque they give is the one at x, not the gradient by the arc, which differs by d w / 2.
+// stands: the torque they give is the one at x, not the gradient by the arc, which differs by d w / 2 times
+// the ratio of the radii that w mixes.
 #pragma once
 
 #include <vector>
@@ -28,6 +29,9 @@ struct Configuration {
   const std::vector<Pose>& pose;
   double time;  // s
 };
+
+/// [a]x b = a x b
+Eigen::Matrix3d cross_matrix(const Vec3& a);
 
 /// exp([angle]x) as a quaternion; angle a rotation vector in rad.
 Eigen::Quaterniond rotation_by(const Vec3& angle);
@@ -62,11 +66,13 @@ class Bodies {
   Vec3 gyroscopic(int body, const Vec3& eta) const;
   Eigen::Matrix3d gyroscopic_gradient(int body, const Vec3& eta) const;
 
-  /// eta = free + s gyroscopic(eta), by Newton's method from `free`; `free` where it finds none.
-  Vec3 with_gyroscopic(int body, const Vec3& free, double s) const;
+  /// Takes eta from `free` to eta = free + s gyroscopic(eta), by Newton's method with step halving; the
+  /// length of what eta misses of it is returned, 0 where that is rounding.
+  double add_gyroscopic(int body, double s, Vec3& eta) const;
 
   /// A bound of what an outer iteration leaves of an error, since it takes the directions at x and the
-  /// gyroscopic torque of the last iterate: d |w| / 2, and s times the norm of the torque's gradient.
+  /// gyroscopic torque of the last iterate: d/2 |r [w]x r^-1| to first order in d w, and s times the norm of
+  /// the torque's gradient.
   double contraction(const Points& v, double d, double s, bool implicit_gyroscopic) const;
 
  private:

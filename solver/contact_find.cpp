@@ -1,8 +1,6 @@
 // Which contacts a step has.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
 
 #include "contact/generate.h"
 #include "contact_group.h"
@@ -80,30 +78,12 @@ void ContactRows::place_colliders(const Contact& effect, const Bodies& bodies, c
   }
 }
 
-/// Sweep and prune along x.
-void ContactRows::find_pairs() {
-  order_.resize(boxes_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  const auto lowest = [&](int k) { return boxes_[static_cast<std::size_t>(k)].min().x(); };
-  std::sort(order_.begin(), order_.end(),
-            [&](int a, int b) { return std::tuple(lowest(a), a) < std::tuple(lowest(b), b); });
-  pairs_.clear();
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const auto& box = boxes_[static_cast<std::size_t>(order_[i])];
-    for (std::size_t j = i + 1; j < order_.size() && lowest(order_[j]) <= box.max().x(); ++j)
-      if (box.intersects(boxes_[static_cast<std::size_t>(order_[j])]))
-        pairs_.push_back({std::min(order_[i], order_[j]), std::max(order_[i], order_[j])});
-  }
-  std::sort(pairs_.begin(), pairs_.end());
-}
-
 void ContactRows::add_pair(const Contact& effect, int first, int second) {
   const Motion &one = motions_[static_cast<std::size_t>(first)],
                &two = motions_[static_cast<std::size_t>(second)];
-  if (!(one.moves || two.moves) || (one.is_node && two.is_node)) return;
   if (!one.is_node && !two.is_node) {
     const std::array<int, 2> bodies{std::min(one.carrier, two.carrier), std::max(one.carrier, two.carrier)};
-    if (bodies[0] == bodies[1] || std::binary_search(ignored_.begin(), ignored_.end(), bodies)) return;
+    if (std::binary_search(ignored_.begin(), ignored_.end(), bodies)) return;
   }
   found_.clear();
   generate(*one.shape, one.frame, *two.shape, two.frame, effect.margin + one.reach + two.reach, found_);
@@ -200,10 +180,10 @@ void ContactRows::fill(const Contact& effect, const Bodies& bodies, const Config
   for (const Motion& motion : motions_) {
     const Eigen::AlignedBox3d box = bounds_of(*motion.shape, motion.frame);
     const Vec3 slack = Vec3::Constant(motion.reach + effect.margin);
-    boxes_.emplace_back(box.min() - slack, box.max() + slack);
+    const int group = motion.is_node ? -1 : motion.carrier;  // nodes touch no nodes, bodies not themselves
+    boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
-  find_pairs();
-  for (const auto& [first, second] : pairs_) add_pair(effect, first, second);
+  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(effect, first, second);
   if (surfaces_) add_surfaces(effect, start.x);
 
   const Begin begin{effect, start, map, map.x0 + map.d * map.v_free - start.x, map.x0 - start.x, h};

@@ -98,6 +98,7 @@ void ContactRows::linearise_contact(const Linearisation& to, ActiveContact& cont
   constexpr double roundoff = 8 * std::numeric_limits<double>::epsilon();
   const double size = roundoff * largest(contact, found, to.at) / to.map.d;
   sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
+  sums.impulses_squared += block.squared_effect(to.inverse_mass, i);
 }
 
 BlockResidual ContactRows::linearise(const Configuration& at, const Configuration* directions,
@@ -130,9 +131,12 @@ void ContactRows::add_geometric_inertia(const StepMap& map, const Configuration&
           const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
           const Touching found = touching(features, a, b);
           const double normal = factor * block.impulse[i][0];
-          double tangential = 0;
+          Vec3 tangential = Vec3::Zero();
           if constexpr (Block::rows == 3)
-            tangential = std::abs(factor) * block.impulse[i].template tail<2>().norm();
+            tangential =
+                factor *
+                directions_in<Block>(contact, block.jacobian[i]).template bottomRows<2>().transpose() *
+                block.impulse[i].template tail<2>();
           const bool turns = features.kind != ContactPoint::Kind::face;  // n, as the points move apart
           const double distance = found.gap + features.radius_a + features.radius_b;
           const double apart = turns && distance > 0 ? std::max(0.0, -normal) * 2 / distance : 0.0;
@@ -147,11 +151,12 @@ void ContactRows::add_geometric_inertia(const StepMap& map, const Configuration&
             const Vec3 lever = own.rotation * (side == 0 ? features.point_a : features.point_b);
             const Vec3 arm = (found.point_a + found.point_b) / 2 - own.origin;
             const Vec3 push = (side == 0 ? normal : -normal) * found.normal;
-            const double turning = turning_squared(
-                at.pose[static_cast<std::size_t>(contact.carrier[static_cast<std::size_t>(side)])]);
-            inertia[node(1)] +=
-                map.d / 2 * turning *
-                (lever_bound(push, 1, lever) + tangential * arm.norm() + apart * lever.squaredNorm());
+            const Pose& pose =
+                at.pose[static_cast<std::size_t>(contact.carrier[static_cast<std::size_t>(side)])];
+            const Eigen::Matrix3d turn = cross_matrix(lever);
+            inertia[node(1)] += map.d / 2 *
+                                (largest_of(lever_form(push, lever) + apart * turn.transpose() * turn, pose) +
+                                 product_bound(pose, lever_form(tangential, arm), pose));
           }
         }
       });

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/bounds.h"
+#include "contact/broad_phase.h"
 #include "contact/contact_point.h"
 #include "contact/surface_contact.h"
 #include "linearise.h"
@@ -134,7 +135,6 @@ class ContactRows {
                       const Points& to) const;
   void fill(const Contact& effect, const Bodies& bodies, const Configuration& start, const StepMap& map,
             double h, Rows& rows);
-  void find_pairs();
   void add_surfaces(const Contact& effect, const Points& x);
   void add_pair(const Contact& effect, int first, int second);
 
@@ -145,9 +145,8 @@ class ContactRows {
   std::array<std::vector<ActiveContact>, groups> contacts_;
   std::vector<Seed> seeds_;
   std::vector<ContactPoint> found_;
-  std::vector<Eigen::AlignedBox3d> boxes_;
-  std::vector<std::array<int, 2>> pairs_;
-  std::vector<int> order_;
+  std::vector<MovingBox> boxes_;
+  BroadPhase broad_phase_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<double> reach_;  // m, of each node, where there are surfaces

@@ -120,7 +120,8 @@ void Direct::factorise(const Rows& rows) {
   last_residual_ = std::numeric_limits<double>::infinity();
 }
 
-/// Takes impulses to the bound that block Jacobi would leave them at; true if the set of such has changed.
+/// Takes impulses to the bound that a sweep of Gauss-Seidel leaves them at; true if the set of such has
+/// changed.
 bool Direct::find_held(Rows& rows, Points& v) {
   bool changed = false;
   for (std::size_t b = 0; b < rows.blocks.size(); ++b)

@@ -52,6 +52,7 @@ BlockResidual linearise_block(const E& effect, const StepMap& map, const Configu
     const double size = roundoff * largest(own) / map.d;
     sums.rounding_squared +=
         size * size * block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
+    sums.impulses_squared += block.squared_effect(inverse_mass, i);
   }
   return sums;
 }

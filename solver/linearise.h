@@ -11,15 +11,17 @@ namespace pbd {
 Rows allocate_rows(const Scene& scene, std::vector<std::size_t>& effect_of_block, bool hard_alone = false);
 
 /// Squared dual residual of a block, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
-/// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J. Both
-/// in J.
+/// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J; and
+/// what the rows' impulses p do each alone, sum_i |W J_i^T p_i|_M^2. All in J.
 struct BlockResidual {
   double squared = 0;
   double rounding_squared = 0;
+  double impulses_squared = 0;
 
   BlockResidual& operator+=(const BlockResidual& other) {
     squared += other.squared;
     rounding_squared += other.rounding_squared;
+    impulses_squared += other.impulses_squared;
     return *this;
   }
 };

@@ -32,7 +32,7 @@ BlockResidual StepData::evaluate_potential(const Scene& scene) {
   for (std::size_t node = 0; node < inverse_mass.size(); ++node)
     gradient.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
   apply_impulses(rows, rebuilt, eliminated);
-  add_gyroscopic(rebuilt);
+  torque_missed = add_gyroscopic(rebuilt);
   evaluated = on_potential;
   return sums;
 }

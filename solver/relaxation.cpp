@@ -88,7 +88,7 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
     std::vector<int> constraints(rows.inverse_mass.size(), 0);
     std::size_t row = 0;
     vector_.resize(static_cast<std::size_t>(row_count(rows)));
-    for (double& entry : vector_) entry = 1 + 0.5 * std::sin(12.9898 * static_cast<double>(row++));
+    for (double& entry : vector_) entry = 1 + 0.5 * irregular(row++);
     for_each_block(rows.blocks, [&](const auto& block) {
       for (const auto& nodes : block.node)
         for (const int node : nodes)

@@ -1,6 +1,12 @@
 #include "rows.h"
 
+#include <cmath>
+
 namespace pbd {
+
+double irregular(std::size_t k) {
+  return std::sin(12.9898 * static_cast<double>(k));  // no part of a turn
+}
 
 std::int64_t row_count(const AnyBlock& any) {
   return std::visit([](const auto& block) { return static_cast<std::int64_t>(block.size()) * block.rows; },

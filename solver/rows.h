@@ -3,9 +3,8 @@
 // where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do. Rows of
 // three with friction are a contact's, normal first, and obey its law instead (contact/friction.h).
 // Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
-// contiguous, one entry a constraint; a rigid body counts as
-// two nodes (bodies.h). Units: v m/s, p N s for lengths; b, J v in the constraint's unit per
-// second.
+// contiguous, one entry a constraint; a rigid body counts as two nodes (bodies.h). Units: v m/s, p N s for
+// lengths; b, J v in the constraint's unit per second.
 //
 // `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
 // singular; with friction one number for the three rows, 3/trace(N_ii), so that projections remain Euclidean.
@@ -148,6 +147,16 @@ struct RowBlock : ConstraintShape<R, K> {
     return inverse_diagonal[i](0, 0) > 0 ? change.squaredNorm() / inverse_diagonal[i](0, 0) : 0.0;
   }
 
+  /// |W J_i^T p|_M^2 of constraint i's impulse p, J.
+  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i) const {
+    const Velocities push = jacobian[i].transpose() * impulse[i];
+    double sum = 0;
+    for (int a = 0; a < K; ++a)
+      sum += inverse_mass[static_cast<std::size_t>(node[i][static_cast<std::size_t>(a)])] *
+             push.template segment<3>(3 * a).squaredNorm();
+    return sum;
+  }
+
   /// J_i v + b_i + Sigma_i p
   typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
     return bias[i] + compliance[i] * p + jacobian[i] * gather(v, i);
@@ -163,6 +172,9 @@ struct Rows {
   bool contacts = false;             // the last blocks are those of contacts
   int generation = 0;                // raised with each other set of contacts
 };
+
+/// Entry k of a start vector that no symmetry of a scene leaves out a mode of; in [-1, 1].
+double irregular(std::size_t k);
 
 /// f(block) for every block, in order.
 template <class Blocks, class F>

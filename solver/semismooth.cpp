@@ -66,10 +66,9 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
     const typename Block::Value step = -block.inverse_diagonal[i] * r;
     typename Block::Square by_p, by_step;
     derivative(block, i, step, by_p, by_step);
-    constexpr double relative_shift = 1e-10;
     const double weight = block.inverse_diagonal[i].trace() / Block::rows;  // about w
     typename Block::Square compliance = block.compliance[i];
-    compliance.diagonal().array() += weight > 0 ? relative_shift / weight : 1.0;
+    compliance.diagonal().array() += weight > 0 ? shift_ / weight : 1.0;
     typename Block::Square own = by_step * compliance;
     if (block.bounded()) own += (Block::Square::Identity() - by_p) / weight;
     const typename Block::Jacobian across = by_step * block.jacobian[i];
@@ -91,6 +90,31 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
   matrix_.setFromTriplets(entries_.begin(), entries_.end());
 }
 
+/// Solves the linear system and takes the longest step that ends below that residual; false, and nothing
+/// changed, where none does.
+bool SemismoothNewton::descend(Rows& rows, Points& v, double below) {
+  assemble(rows, v);
+  factor_->compute(matrix_);
+  if (factor_->info() != Eigen::Success) return false;
+  solution_ = factor_->solve(right_);
+  const int velocities = static_cast<int>(solution_.size() - row_count(rows));
+  keep_impulses_and_biases(rows, kept_);
+  start_ = v;
+  for (double length = 1; length > 0.1; length /= 2) {
+    each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, int first) {
+      const typename Block::Value target =
+          block.impulse[i] + length * solution_.segment<Block::rows>(velocities + first);
+      const typename Block::Value change = block.cut(i, target) - block.impulse[i];
+      block.impulse[i] += change;
+      block.apply(rows.inverse_mass, i, change, v);
+    });
+    if (natural_residual(rows, v) < below) return true;
+    restore_impulses_and_biases(kept_, rows);
+    v = start_;
+  }
+  return false;
+}
+
 double SemismoothNewton::iterate(Rows& rows, Points& v) {
   const double residual = natural_residual(rows, v);
   constexpr double enough = 0.9;
@@ -98,33 +122,16 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
   idle_ = residual < enough * lowest_ ? 0 : idle_ + 1;
   lowest_ = std::min(lowest_, residual);
   if (!(residual > 0) || idle_ > patience) return 0;
-  assemble(rows, v);
-  factor_->compute(matrix_);
-  bool better = false;
-  if (factor_->info() == Eigen::Success) {
-    solution_ = factor_->solve(right_);
-    const int velocities = static_cast<int>(solution_.size() - row_count(rows));
-    keep_impulses_and_biases(rows, kept_);
-    start_ = v;
-    for (double length = 1; !better && length > 0.1; length /= 2) {
-      restore_impulses_and_biases(kept_, rows);
-      v = start_;
-      each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, int first) {
-        const typename Block::Value target =
-            block.impulse[i] + length * solution_.segment<Block::rows>(velocities + first);
-        const typename Block::Value change = block.cut(i, target) - block.impulse[i];
-        block.impulse[i] += change;
-        block.apply(rows.inverse_mass, i, change, v);
-      });
-      better = natural_residual(rows, v) < enough * residual;
+  constexpr int attempts = 5, instead = 10;
+  constexpr double change = 100;
+  for (int k = 0; k < attempts; ++k) {
+    if (descend(rows, v, enough * residual)) {
+      shift_ = std::max(least_shift, shift_ / change);
+      return residual;
     }
-    if (!better) {
-      restore_impulses_and_biases(kept_, rows);
-      v = start_;
-    }
+    shift_ = std::min(1.0, shift_ * change);
   }
-  constexpr int instead = 10;
-  for (int sweep = 0; !better && sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
+  for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
   return residual;
 }
 

@@ -3,9 +3,10 @@
 // + b + Sigma p. Each iteration solves the linear system of (dv, dp)
 //   M dv - J^T dp = 0,  (1 - P_p) dp / w + P_step (J dv + Sigma dp) = (P(p, -w r) - p) / w
 // (rows without a law: J dv + Sigma dp = -r) by sparse LU, and takes the longest of four steps that reduces
-// the residual; where none does, sweeps of Gauss-Seidel. Redundant rows make the system singular: Sigma is
-// taken larger by 1e-10 J W J^T, a proximal term, which the iteration removes (semismooth Newton: Qi, Sun
-// 1993; for friction Alart, Curnier 1991).
+// the residual. Redundant rows make the system singular: Sigma is taken larger by a part of J W J^T, 1e-10 at
+// least, a proximal term, which the iteration removes; where no step reduces the residual the part grows, and
+// then shrinks again (Levenberg 1944). Where none of five does, sweeps of Gauss-Seidel (semismooth Newton:
+// Qi, Sun 1993; for friction Alart, Curnier 1991).
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -22,6 +23,7 @@ class SemismoothNewton {
   void begin() {
     lowest_ = infinity;
     idle_ = 0;
+    shift_ = least_shift;
   }
 
   /// Improves impulses and v by one iteration; returns the residual (sqrt(J)) it met, or 0 where that has not
@@ -29,7 +31,10 @@ class SemismoothNewton {
   double iterate(Rows& rows, Points& v);
 
  private:
+  static constexpr double least_shift = 1e-10;
+
   void assemble(const Rows& rows, const Points& v);
+  bool descend(Rows& rows, Points& v, double below);
 
   using Matrix = Eigen::SparseMatrix<double>;
   std::vector<Eigen::Triplet<double>> entries_;
@@ -40,7 +45,8 @@ class SemismoothNewton {
   Eigen::VectorXd right_, solution_;
   std::vector<double> kept_;
   double lowest_ = infinity;
-  int idle_ = 0;  // iterations since the residual was clearly lower than ever
+  int idle_ = 0;                // iterations since the residual was clearly lower than ever
+  double shift_ = least_shift;  // of Sigma, as a part of J W J^T
   Points start_;
 };
 

@@ -124,9 +124,9 @@ class StepIteration final : public OuterIteration {
   bool plain_contracts() override {
     constexpr double slow = 0.9;
     constexpr int patience = 2;
-    if (report_.outer_iterations >= 2)
+    if (report_.outer_iterations >= 2 && data_.slow_changes < patience)
       data_.slow_changes = data_.change > slow * data_.last_change ? data_.slow_changes + 1 : 0;
-    if (data_.slow_changes >= patience) data_.contraction = 1;  // whatever was predicted
+    if (data_.slow_changes >= patience) return false;  // for the rest of the step, whatever was predicted
     return data_.contraction <= slow_contraction ||
            (data_.direction_blend == 1 && data_.bound_contraction(scene_, 1) <= slow_contraction);
   }
@@ -181,16 +181,19 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
 
   Report report;
   const double free_change = w.distance(w.map.v_free, w.start_v);
-  const double velocity_rounding = 8 * rounding_unit * w.norm(w.map.v_free);
+  const double free_speed = w.norm(w.map.v_free);
   double first_residual = 0, last_residual = std::numeric_limits<double>::infinity();
   double lowest = std::numeric_limits<double>::infinity();
   int without_fall = 0;  // iterations since the primal residual was `lowest`
   StepIteration iteration(scene, method, w, report);
-  double rounding = velocity_rounding;  // of the residuals
+  double velocity_rounding = 0, rounding = 0;  // of the primal and of the dual residual
   const auto measure = [&](const BlockResidual& found) {
     report.dual = std::sqrt(found.squared);
-    report.primal = w.distance(w.v, w.rebuilt);
+    report.primal = std::hypot(w.distance(w.v, w.rebuilt), std::sqrt(w.torque_missed));
     report.scale = w.distance(w.v, w.start_v) + free_change;
+    const double impulses = std::sqrt(found.impulses_squared);
+    const bool balance = report.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
+    velocity_rounding = 8 * rounding_unit * (free_speed + (balance ? impulses : 0.0));
     rounding = velocity_rounding + std::sqrt(found.rounding_squared);
   };
 

@@ -10,8 +10,9 @@
 //
 // Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
 // N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
-// with scale = |v - v_old|_M + |v_free - v_old|_M. The first iterate is v = v_old. What rounding x makes of a
-// constraint's value counts as solved (BlockResidual in linearise.h).
+// with scale = |v - v_old|_M + |v_free - v_old|_M. The first iterate is v = v_old. What rounding makes of x in
+// a constraint's value counts as solved (BlockResidual in linearise.h); where impulses balance each other to
+// half of the digits, so that next to nothing moves, what it makes of their velocities does, too.
 #pragma once
 
 #include <array>

@@ -21,6 +21,7 @@ StepData::StepData(const Scene& scene, const Method& method)
       zero(Points::Zero(3, bodies.columns())),
       seconds(rows.blocks.size(), 0.0),
       inertia(rows.inverse_mass.size(), 0.0),
+      own_inertia(inertia),
       anderson(method.memory),
       quasi_newton(method.memory),
       krylov(most_krylov + 1, zero),
@@ -159,26 +160,30 @@ BlockResidual StepData::linearise_at(const Scene& scene, const Points& at) {
   }
   rebuilt = map.v_free;
   apply_impulses(rows, rebuilt);
-  add_gyroscopic(rebuilt);
+  torque_missed = add_gyroscopic(rebuilt);
   return sums;
 }
 
 double StepData::bound_contraction(const Scene& scene, int sign) {
   std::fill(inertia.begin(), inertia.end(), 0.0);
-  double bound = 0;
   const Configuration here{x, poses, x_time};
+  const auto bound_of = [&](const std::vector<double>& kg) {
+    double largest = 0;
+    for (std::size_t node = 0; node < kg.size(); ++node)
+      largest = std::max(largest, 2 * kg[node] * inverse_mass[node]);
+    return largest;
+  };
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
-    const double before = bound;
+    std::fill(own_inertia.begin(), own_inertia.end(), 0.0);
     if (contacts.owns(b))
-      contacts.add_geometric_inertia(map, here, sign * direction_blend, rows, b, inertia);
+      contacts.add_geometric_inertia(map, here, sign * direction_blend, rows, b, own_inertia);
     else
       add_geometric_inertia(scene.effects[effect_of_block[b]], map, here, sign * direction_blend,
-                            rows.blocks[b], inertia);
-    bound = 0;
-    for (std::size_t node = 0; node < inertia.size(); ++node)
-      bound = std::max(bound, 2 * inertia[node] * inverse_mass[node]);
-    costs[b].contraction = std::max(sign < 0 ? costs[b].contraction : 0.0, bound - before);
+                            rows.blocks[b], own_inertia);
+    costs[b].contraction = std::max(sign < 0 ? costs[b].contraction : 0.0, bound_of(own_inertia));
+    for (std::size_t node = 0; node < inertia.size(); ++node) inertia[node] += own_inertia[node];
   }
+  double bound = bound_of(inertia);
   if (bodies.count() > 0) bound += bodies.contraction(v, map.d, map.s, implicit_gyroscopic);
   return bound;
 }
@@ -245,7 +250,7 @@ std::int64_t StepData::estimate_contraction(const Scene& scene) {
   const int count = mode_known ? fewest : most;
   if (!mode_known) {
     for (Eigen::Index k = 0; k < v.size(); ++k)
-      krylov[0].reshaped()[k] = std::sin(12.9898 * static_cast<double>(k + 1));
+      krylov[0].reshaped()[k] = irregular(static_cast<std::size_t>(k) + 1);
     for (std::size_t node = 0; node < inverse_mass.size(); ++node)
       if (!(inverse_mass[node] > 0)) krylov[0].col(static_cast<Eigen::Index>(node)).setZero();
     krylov[0] /= norm(krylov[0]);

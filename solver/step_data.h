@@ -52,11 +52,12 @@ struct StepData {
   double x_time = 0;  // s, of x
   State ended;        // where the last step ended, kept where there are rigid bodies
   Points acceleration, zero, v, x, rebuilt, previous;
+  double torque_missed = 0;            // J, what `rebuilt` misses of its gyroscopic torques, squared
   double change = 0, last_change = 0;  // |v_k - v_k-1|_M, and the one before
   std::vector<double> seconds;         // per block, of the current outer iteration's first sweep
   std::vector<EffectCost> costs;
 
-  std::vector<double> inertia;  // kg, D of the proximal term
+  std::vector<double> inertia, own_inertia;  // kg, D of the proximal term, and an effect's share of it
   Anderson anderson;
   bool heavier = false;                   // D was added in this step
   std::vector<int> component;             // of each node, connected by rows; -1 if held from outside
@@ -136,8 +137,8 @@ struct StepData {
   void unsettle(const Scene& scene);
 
   /// Fills `inertia` by the effects' geometric bounds at v, of the impulses (sign 1: what stiffens) or their
-  /// opposites (-1: what softens). Returns the bound of plain's contraction that they give, the largest 2
-  /// D/M; each effect's own goes into `costs`.
+  /// opposites (-1: what softens). Returns the bound of plain's contraction that they give together, the
+  /// largest 2 D/M; each effect's alone goes into `costs`.
   double bound_contraction(const Scene& scene, int sign);
 
   /// Replaces M by M + D and v_free by (M + D)^-1 (M v_free + D v), D the `inertia`.
@@ -166,7 +167,8 @@ struct StepData {
   void begin_damping(const Scene& scene, double time);
   const Configuration* directions_for(const Points& at);
   Configuration placed(const Points& at, std::vector<Pose>& storage, double time);
-  void add_gyroscopic(Points& velocity) const;
+  /// Returns what the velocity misses of its gyroscopic torque, squared in J.
+  double add_gyroscopic(Points& velocity) const;
   void find_free_components();
   void factor_metric(const Scene& scene, MetricShape shape);
   bool start_low(const Scene& scene);

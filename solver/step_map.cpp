@@ -95,14 +95,19 @@ const Configuration* StepData::directions_for(const Points& at) {
   return &*directions;
 }
 
-void StepData::add_gyroscopic(Points& velocity) const {
-  if (!implicit_gyroscopic) return;
+double StepData::add_gyroscopic(Points& velocity) const {
+  double missed = 0;
+  if (!implicit_gyroscopic) return missed;
   for (int b = 0; b < bodies.count(); ++b) {
     const Eigen::Index column = bodies.column(b);
     const double weight = rows.inverse_mass[static_cast<std::size_t>(column)];  // of M, against M + D
     const double share = weight > 0 ? weight / inverse_mass[static_cast<std::size_t>(column)] : 0.0;
-    velocity.col(column) = bodies.with_gyroscopic(b, velocity.col(column), share * map.s);
+    Vec3 eta = velocity.col(column);
+    const double left = bodies.add_gyroscopic(b, share * map.s, eta);
+    if (weight > 0) missed += left * left / weight;
+    velocity.col(column) = eta;
   }
+  return missed;
 }
 
 void StepData::end(double h, State& state) {

@@ -126,9 +126,10 @@ def joints(results):
         figures=[
             Figure("joints_accuracy", "Error at the end, relative to the mechanism's size (squeezer: of angles modulo a turn, to "
                    "the largest one), and below it the largest error of a joint in any step. Triangles show the orders 1 and 2. "
-                   "Crossed: a step missed its tolerance, or a joint came apart. The motor fixes the slider at every step, so that "
+                   "Crossed: a step missed its tolerance, or a joint came apart; a thin line joins these, too. Dashed: the bound of "
+                   "the joints' error. The motor fixes the slider at every step, so that "
                    "only the solve's error is left."),
-            Figure("joints_lengths", "Wall time over the length of a chain, smallest of three repeats; the triangle is linear.")])
+            Figure("joints_lengths", "Processor time over the length of a chain, smallest of five repeats; the triangle is linear.")])
     section.tell(results.table("joints", "accuracy"), lambda frame: SINGULAR, accuracy_text, accuracy_table)
     return section.tell(results.table("joints", "lengths"), lengths_text, lengths_table)
 
@@ -165,9 +166,9 @@ def lengths_text(frame):
 
 def lengths_table(frame):
     longest = frame[frame["bodies"] == frame["bodies"].max()]
-    return Table(f"A chain of {longest['bodies'].iloc[0]:.0f} bodies: wall time (s) and exponents of the length.",
+    return Table(f"A chain of {longest['bodies'].iloc[0]:.0f} bodies: processor time (s) and exponents of the length.",
                  ["relaxation", "a step", "a sweep", "exponent, step", "exponent, sweep", "status"],
-                 [[f"`{r['relaxation']}`", number(r["wall_s_per_step"]), number(r["wall_s_per_sweep"]), f"{r['exponent_step']:.3f}",
+                 [[f"`{r['relaxation']}`", number(r["cpu_s_per_step"]), number(r["cpu_s_per_sweep"]), f"{r['exponent_step']:.3f}",
                    f"{r['exponent_sweep']:.3f}", f"`{r['status']}`"] for _, r in longest.iterrows()])
 
 
@@ -179,8 +180,8 @@ def redundant(results):
         "impulses? Steps are solved to 1e-12 of their scale.",
         figures=[Figure("redundant_motion", "Largest difference of positions and of net forces in the plane (of the largest force) "
                         "to the same relaxation without redundant joints, and largest difference of the impulses that joints of "
-                        "one place share (of their sum). Crossed: some step was not solved, or the run diverged; at the upper edge "
-                        "where there is no value.")])
+                        "one place share (of their sum). Dashed: the bounds. Crossed: some step was not solved, or the run "
+                        "diverged; at the lower edge the run without redundant joints.")])
     return section.tell(results.table("redundant", "motion"), lambda frame: MULTIPLIERS, redundant_text, redundant_table)
 
 

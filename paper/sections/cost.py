@@ -13,7 +13,8 @@ def work_precision(results):
         figures=[
             Figure("work_precision_seconds", "Error against the judge over wall time. The judge that errors are measured "
                    "against stands on the lower edge. Of each outer iteration, the relaxation "
-                   "that is quickest. Crossed: not solved to its tolerance."),
+                   "that is quickest. Each marker is a run to one tolerance; the stairs join those that no other run of the method "
+                   "beats in both time and error. Crossed: not solved to its tolerance."),
             Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine, without "
                    "`direct`, which factors."),
             Figure("work_precision_outer_iterations", "The same runs over outer iterations.")])

@@ -15,7 +15,8 @@ def point_hard_cases(results):
         figures=[
             Figure("point_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails, grey was "
                    "not asked."),
-            Figure("point_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold.")])
+            Figure("point_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold. Squares: cases "
+                   "that `quasi_newton` solves without a sweep.")])
     gates, frontier = results.table("point_hard_cases", "gates"), results.table("point_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))

@@ -7,10 +7,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The unit vector along `v`, or any across `axis` where v vanishes.
+/// The unit vector along `v`, which is across `axis`, or any across it where v is no more than rounding.
 Vector3d unit_across(const Vector3d& v, const Vector3d& axis) {
   const double length = v.norm();
-  return length > 0 ? Vector3d(v / length) : axis.unitOrthogonal();
+  if (!(length > 0)) return axis.unitOrthogonal();
+  Vector3d unit = v / length;
+  unit -= axis.dot(unit) * axis;
+  const double left = unit.norm();
+  return left > 0.5 ? Vector3d(unit / left) : axis.unitOrthogonal();
 }
 
 Vector3d across(const Vector3d& v, const Vector3d& axis) {
@@ -52,11 +56,14 @@ Touching touching(const ContactPoint& contact, const Frame& a, const Frame& b) {
     const double distance = direction.dot(y_a - y_b);
     return rounded(contact, distance, direction, y_a, y_a - distance * direction);
   }
-  const Vector3d apart =
-      contact.kind == ContactPoint::Kind::line ? across(y_a - y_b, direction) : Vector3d(y_a - y_b);
+  const bool line = contact.kind == ContactPoint::Kind::line;
+  const Vector3d apart = line ? across(y_a - y_b, direction) : Vector3d(y_a - y_b);
   const double distance = apart.norm();
-  const Vector3d normal = contact.kind == ContactPoint::Kind::line ? unit_across(apart, direction)
-                                                                   : unit_across(apart, Vector3d::UnitX());
+  Vector3d normal = Vector3d::UnitX();
+  if (line)
+    normal = unit_across(apart, direction);
+  else if (distance > 0)
+    normal = apart / distance;
   return rounded(contact, distance, normal, y_a, y_a - distance * normal);
 }
 

@@ -37,11 +37,14 @@ struct RoundedFrom {
 
 bool Core::place(const Shape& shape, const Frame& at) {
   const Rounded rounded = std::visit(RoundedFrom{}, shape);
-  solid = rounded.solid;
-  if (solid == nullptr) return false;
-  frame = at;
-  radius = rounded.radius;
-  own.clear();
+  if (rounded.solid == nullptr) return false;
+  place(*rounded.solid, rounded.scale, rounded.radius, at);
+  return true;
+}
+
+void Core::place(const Polyhedron& polyhedron, const Vec3& scale, double rounded, const Frame& at) {
+  solid = &polyhedron;
+  radius = rounded;
   x.clear();
   normal.clear();
   offset.clear();
@@ -49,10 +52,10 @@ bool Core::place(const Shape& shape, const Frame& at) {
   length.clear();
   Vec3 low = Vec3::Constant(infinity), high = -low;
   for (Eigen::Index i = 0; i < solid->x.cols(); ++i) {
-    own.push_back(rounded.scale.cwiseProduct(solid->x.col(i)));
-    x.push_back(at.place(own.back()));
-    low = low.cwiseMin(own.back());
-    high = high.cwiseMax(own.back());
+    const Vec3 own = scale.cwiseProduct(solid->x.col(i));
+    x.push_back(at.place(own));
+    low = low.cwiseMin(own);
+    high = high.cwiseMax(own);
   }
   size = (high - low).norm();
   for (const auto& face : solid->faces) {
@@ -65,7 +68,6 @@ bool Core::place(const Shape& shape, const Frame& at) {
     length.push_back(whole.norm());
     along.push_back(length.back() > 0 ? Vec3(whole / length.back()) : Vec3::Zero());
   }
-  return true;
 }
 
 bool Core::above(int f, const Vec3& point_, double slack) const {

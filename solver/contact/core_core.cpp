@@ -27,40 +27,39 @@ Axis face_axis(const Core& a, const Core& b) {
   return best;
 }
 
-/// That the edges' planes of support meet: the arcs between the faces' normals, b's turned round, cross. An
-/// edge without faces has the whole circle across it.
-bool support(const Core& a, const Polyhedron::Edge& of_a, const Vec3& along_a, const Core& b,
-             const Polyhedron::Edge& of_b, const Vec3& along_b) {
-  const bool solid_a = of_a.face[0] >= 0, solid_b = of_b.face[0] >= 0;
-  double first_b = 0, first_a = 0;
-  if (solid_b) {
-    first_b = b.face_normal(of_b.face[0]).dot(along_a);
-    if (first_b * b.face_normal(of_b.face[1]).dot(along_a) >= 0) return false;
-  }
-  if (solid_a) {
-    first_a = a.face_normal(of_a.face[1]).dot(along_b);
-    if (first_a * a.face_normal(of_a.face[0]).dot(along_b) >= 0) return false;
-  }
-  return !solid_a || !solid_b || first_b * first_a < 0;
+/// Faces' normals times edges' directions, row by row of edges.
+void slopes(const Core& of_edges, const Core& of_faces, std::vector<double>& table) {
+  table.clear();
+  for (const Vec3& along : of_edges.along)
+    for (const Vec3& normal : of_faces.normal) table.push_back(along.dot(normal));
 }
 
+/// Of pairs of edges whose planes of support meet: the arcs between the faces' normals, b's turned round,
+/// cross. An edge without faces has the whole circle across it.
 Axis edge_axis(const Core& a, const Core& b) {
   constexpr double parallel = 1e-12;
+  thread_local std::vector<double> b_on_a, a_on_b;
+  slopes(a, b, b_on_a);
+  slopes(b, a, a_on_b);
+  const auto at = [](const std::vector<double>& table, int edge, const Core& faces, int face) {
+    return table[static_cast<Index>(edge) * faces.normal.size() + static_cast<Index>(face)];
+  };
   Axis best;
   for (int i = 0; i < a.edge_count(); ++i)
     for (int j = 0; j < b.edge_count(); ++j) {
-      const auto &of_a = a.edge(i), &of_b = b.edge(j);
-      const Vec3 &along_a = a.along[static_cast<Index>(i)], &along_b = b.along[static_cast<Index>(j)];
-      if (!support(a, of_a, along_a, b, of_b, along_b)) continue;
-      Vec3 normal = along_a.cross(along_b);
+      const auto &of_a = a.edge(i).face, &of_b = b.edge(j).face;
+      const bool solid_a = of_a[0] >= 0, solid_b = of_b[0] >= 0;
+      const double first_b = solid_b ? at(b_on_a, i, b, of_b[0]) : 0;
+      if (solid_b && first_b * at(b_on_a, i, b, of_b[1]) >= 0) continue;
+      const double first_a = solid_a ? at(a_on_b, j, a, of_a[1]) : 0;
+      if (solid_a && first_a * at(a_on_b, j, a, of_a[0]) >= 0) continue;
+      if (solid_a && solid_b && first_b * first_a >= 0) continue;
+      Vec3 normal = a.along[static_cast<Index>(i)].cross(b.along[static_cast<Index>(j)]);
       if (!(normal.squaredNorm() > parallel)) continue;
       normal.normalize();
-      const Vec3 apart = a.node(of_a.node[0]) - b.node(of_b.node[0]);
-      double outward = normal.dot(apart);
-      if (of_b.face[0] >= 0)
-        outward = normal.dot(b.face_normal(of_b.face[0]) + b.face_normal(of_b.face[1]));
-      else if (of_a.face[0] >= 0)
-        outward = -normal.dot(a.face_normal(of_a.face[0]) + a.face_normal(of_a.face[1]));
+      const Vec3 apart = a.node(a.edge(i).node[0]) - b.node(b.edge(j).node[0]);
+      const double outward = solid_b ? normal.dot(b.face_normal(of_b[0]) + b.face_normal(of_b[1]))
+                                     : -normal.dot(a.face_normal(of_a[0]) + a.face_normal(of_a[1]));
       if (outward < 0) normal = -normal;
       const double distance = normal.dot(apart);
       if (distance > best.apart) best = {distance, i, j, normal};
@@ -110,7 +109,8 @@ struct Pair {
   }
 
   /// Points y_a and y_b of edges that are `apart`: kinds whose distance cannot be negative only where the
-  /// radii keep it from zero, else the plane between the points.
+  /// radii keep it from zero, else the plane between the points. A face's manifold may have the same edges,
+  /// which are nearer here.
   void write_edges(int i, int j, const Nearest& at) const {
     const Segment of_a = segment(a, i), of_b = segment(b, j);
     const Vec3 y_a = of_a.at(at.s), y_b = of_b.at(at.t);
@@ -119,15 +119,15 @@ struct Pair {
     const bool a_ends = end_a >= 0, b_ends = end_b >= 0;
     const auto key = roles.key(a_ends ? Feature::node : Feature::edge, a_ends ? end_a : i,
                                b_ends ? Feature::node : Feature::edge, b_ends ? end_b : j);
-    roles.drop(key);  // of a face's manifold: the same features, not as near
     if (!a_ends && !b_ends && of_a.along.cross(of_b.along).norm() >= crossing_sine)
-      return roles.write(on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, at.apart), key, gap);
+      return roles.rewrite(on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, at.apart), key,
+                           gap);
     if (radii == 0 && distance > 0)
-      return roles.write(on_face(y_a, 0, y_b, at.apart / distance, 0), key, gap);
+      return roles.rewrite(on_face(y_a, 0, y_b, at.apart / distance, 0), key, gap);
     if (a_ends && b_ends)
-      return roles.write(features(ContactPoint::Kind::point, y_a, a.radius, y_b, b.radius), key, gap);
-    if (b_ends) return roles.exchanged().write(on_line(y_b, b.radius, y_a, of_a.along, a.radius), key, gap);
-    roles.write(on_line(y_a, a.radius, y_b, of_b.along, b.radius), key, gap);
+      return roles.rewrite(features(ContactPoint::Kind::point, y_a, a.radius, y_b, b.radius), key, gap);
+    if (b_ends) return roles.exchanged().rewrite(on_line(y_b, b.radius, y_a, of_a.along, a.radius), key, gap);
+    roles.rewrite(on_line(y_a, a.radius, y_b, of_b.along, b.radius), key, gap);
   }
 
   /// That no face of the edge is nearer to a point `apart` from it.
@@ -179,16 +179,6 @@ struct Pair {
                    in_order.key(Feature::node, deepest, Feature::face, flat.j), flat.apart - radii);
   }
 
-  double least() const {
-    double gap = infinity;
-    for (std::size_t i = roles.begin; i < roles.out.size(); ++i) {
-      const auto& contact = roles.out[i];
-      const bool same = contact.swapped == roles.swapped;
-      gap = std::min(gap, touching(contact, same ? roles.a : roles.b, same ? roles.b : roles.a).gap);
-    }
-    return gap;
-  }
-
   void write() const {
     const Axis of_b = face_axis(a, b);
     if (of_b.apart > limit) return;
@@ -210,7 +200,7 @@ struct Pair {
       else
         face_manifold(b, a, flat.j, floor, roles.exchanged());
     }
-    if (axis.j >= 0 && least() <= axis.apart - radii + tiny) return;
+    if (axis.j >= 0 && roles.least() <= axis.apart - radii + tiny) return;
     // Points that coincide have no direction: what touches an edge or a node does so on the best plane.
     if (axis.j >= 0 && axis.apart <= tiny) return write_deepest(flat, b_refers);
     int i = 0, j = 0;

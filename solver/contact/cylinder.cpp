@@ -1,45 +1,43 @@
 // Cylinders against half spaces and cylinders.
 #include "contact/pairs.h"
 #include "contact/round.h"
-#include "contact/segments.h"
 
 namespace pbd {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The angle of a's rim that is nearest to (or deepest in) b: the best of 16, then golden sections.
+/// The angle of a's rim that is nearest to (or deepest in) b: about the least of 16
+/// samples, where the distance's slope changes its sign.
 double nearest_angle(const Round& a, int end, const Round& b) {
-  constexpr int samples = 16, sections = 45;
+  constexpr int samples = 16, halvings = 52;
+  constexpr double part = 2 * pi / samples;
   const auto distance = [&](double angle) { return b.place(a.on_rim(end, angle)).distance; };
+  std::array<double, samples> sampled{};
+  for (int k = 0; k < samples; ++k) sampled[static_cast<std::size_t>(k)] = distance(k * part);
   double best = 0, least = infinity;
   for (int k = 0; k < samples; ++k) {
-    const double angle = 2 * pi * k / samples, here = distance(angle);
-    if (here < least) {
+    const double here = sampled[static_cast<std::size_t>(k)];
+    const double before = sampled[static_cast<std::size_t>((k + samples - 1) % samples)];
+    const double after = sampled[static_cast<std::size_t>((k + 1) % samples)];
+    const bool level = std::max(before, after) - here < rounding * a.radius;
+    if (level && here < least) {
       least = here;
-      best = angle;
+      best = k * part;
     }
-  }
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double low = best - 2 * pi / samples, high = best + 2 * pi / samples;
-  double x = high - golden * (high - low), y = low + golden * (high - low), at_x = distance(x),
-         at_y = distance(y);
-  for (int k = 0; k < sections; ++k) {
-    if (at_x < at_y) {
-      high = y;
-      y = x;
-      at_y = at_x;
-      x = high - golden * (high - low);
-      at_x = distance(x);
-    } else {
-      low = x;
-      x = y;
-      at_x = at_y;
-      y = low + golden * (high - low);
-      at_y = distance(y);
+    if (level || here > before || here > after || here - part * a.radius > least) continue;
+    double low = (k - 1) * part, high = (k + 1) * part;
+    for (int halving = 0; halving < halvings; ++halving) {
+      const double middle = (low + high) / 2;
+      const Vec3 y = a.on_rim(end, middle), along = a.axis.cross(y - a.cap(end));
+      (b.place(y).normal.dot(along) < 0 ? low : high) = middle;
     }
+    const double found = distance(low);
+    if (found >= least) continue;
+    least = found;
+    best = low;
   }
-  return (low + high) / 2;
+  return best;
 }
 
 /// a's rims and the points of its caps against b's caps and sides.
@@ -54,26 +52,24 @@ void rims_on_cylinder(const Round& a, const Round& b, double floor, const Roles&
   }
 }
 
-double least_gap(const Roles& roles) {
-  double gap = infinity;
-  for (std::size_t i = roles.begin; i < roles.out.size(); ++i) {
-    const bool same = roles.out[i].swapped == roles.swapped;
-    gap = std::min(gap, touching(roles.out[i], same ? roles.a : roles.b, same ? roles.b : roles.a).gap);
-  }
-  return gap;
-}
-
-/// A plane against a's rim that is deepest along its normal.
-void write_deepest_rim(const Round& a, const Vec3& on_plane, const Vec3& normal, Feature feature, int j,
-                       const Roles& roles) {
-  const int end = a.axis.dot(normal) > 0 ? -1 : 1;
-  ContactPoint contact = on_face(a.cap(end), 0, on_plane, normal, 0);
-  contact.direction_a = a.axis;
-  contact.rim_a = a.radius;
-  roles.write(contact, roles.key(Feature::rim, 9 * (end + 1) + 8, feature, j), touching(contact, {}, {}).gap);
-}
-
 }  // namespace
+
+double nearest_arc(const Segment& edge, const Round& b) {
+  const auto slope = [&](double s) {
+    const Round::Place at = b.place(edge.at(s));
+    return at.distance > 0 ? edge.along.dot(at.normal) : 0.0;
+  };
+  double low = 0, high = edge.length;
+  if (slope(low) >= 0) return low;
+  if (slope(high) <= 0) return high;
+  constexpr int halvings = 60;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2, here = slope(middle);
+    if (here == 0) return middle;
+    (here < 0 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
 
 void write_point(const Vec3& y, double radius, Feature feature, int i, const Round& b, const Roles& roles) {
   const Round::Place at = b.place(y);
@@ -91,6 +87,15 @@ void write_point(const Vec3& y, double radius, Feature feature, int i, const Rou
                 gap);
 }
 
+void write_deepest_rim(const Round& a, const Vec3& on_plane, const Vec3& normal, Feature feature, int j,
+                       const Roles& roles) {
+  const int end = a.axis.dot(normal) > 0 ? -1 : 1;
+  ContactPoint contact = on_face(a.cap(end), 0, on_plane, normal, 0);
+  contact.direction_a = a.axis;
+  contact.rim_a = a.radius;
+  roles.write(contact, roles.key(Feature::rim, 9 * (end + 1) + 8, feature, j), touching(contact, {}, {}).gap);
+}
+
 void cylinder_plane(const Cylinder& a, const Roles& roles) {
   write_rims(Round(a, roles.a), roles.b.origin, roles.b.rotation.col(2), 0, Feature::face, 0, -infinity,
              roles, [](const Vec3&) { return true; });
@@ -103,25 +108,34 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Role
   // The caps' planes and the plane along both axes.
   const double over_b = std::abs(apart.dot(b.axis)) - a.support(b.axis) - b.half;
   const double over_a = std::abs(apart.dot(a.axis)) - b.support(a.axis) - a.half;
-  const Vec3 normal =
-      cross.norm() > rounding ? Vec3(cross / cross.norm() * (cross.dot(apart) < 0 ? -1 : 1)) : Vec3::Zero();
-  const double beside = cross.norm() > rounding ? normal.dot(apart) - a.radius - b.radius : -infinity;
+  const Vec3 from_a = a.cap(-1), from_b = b.cap(-1);
+  const Nearest axes = nearest(Segment{from_a, a.axis, 2 * a.half}, Segment{from_b, b.axis, 2 * b.half});
+  const bool inside = axes.s > 0 && axes.s < 2 * a.half && axes.t > 0 && axes.t < 2 * b.half;
+  constexpr double parallel = 1e-5;
+  const double sine = cross.norm();
+  const bool crossed = sine >= crossing_sine;
+  Vec3 normal = sine >= parallel ? cross : inside ? axes.apart : Vec3(apart - apart.dot(b.axis) * b.axis);
+  normal = normal.norm() > 0 ? Vec3(normal / normal.norm()) : b.axis.unitOrthogonal();
+  if (normal.dot(apart) < 0) normal = -normal;
+  const double beside = normal.dot(apart) - a.support(normal) - b.support(normal);
   const double most = std::max({over_a, over_b, beside});
   if (most >= roles.margin) return;
   rims_on_cylinder(a, b, most - tiny, roles);
   rims_on_cylinder(b, a, most - tiny, roles.exchanged());
-  const Vec3 from_a = a.cap(-1), from_b = b.cap(-1);
-  const Nearest axes = nearest(Segment{from_a, a.axis, 2 * a.half}, Segment{from_b, b.axis, 2 * b.half});
-  const ContactPoint sides = on_edges(from_a + axes.s * a.axis, a.axis, a.radius, from_b + axes.t * b.axis,
-                                      b.axis, b.radius, normal.isZero() ? axes.apart : normal);
+  const Vec3 y_a = from_a + axes.s * a.axis;
+  const ContactPoint edges =
+      on_edges(y_a, a.axis, a.radius, from_b + axes.t * b.axis, b.axis, b.radius, normal);
+  const ContactPoint line = on_line(y_a, a.radius, b.centre, b.axis, b.radius);
   const auto sides_key = roles.key(Feature::axis, 0, Feature::axis, 0);
-  const bool inside = axes.s > 0 && axes.s < 2 * a.half && axes.t > 0 && axes.t < 2 * b.half;
-  if (inside && cross.norm() >= crossing_sine && beside >= most - tiny)
-    roles.write(sides, sides_key, beside);
-  else if (inside && beside > 0)
-    roles.write(on_line(from_a + axes.s * a.axis, a.radius, b.centre, b.axis, b.radius), sides_key, beside);
-  if (most > 0 || least_gap(roles) <= most + tiny || least_gap(roles) > 0) return;
-  if (most == beside) return roles.write(sides, sides_key, beside);
+  const double along_line = axes.apart.norm() - a.radius - b.radius;
+  if (inside && crossed && beside >= most - tiny) roles.write(edges, sides_key, beside);
+  if (inside && !crossed && along_line > 0) roles.write(line, sides_key, along_line);
+  const double least = roles.least();
+  // Without a rim in the other, they overlap where their sides cross or one goes through the other.
+  const bool crossing = (inside && along_line < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
+                        a.place(from_b + axes.t * b.axis).distance <= tiny;
+  if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
+  if (most == beside) return roles.write(sine >= parallel ? edges : line, sides_key, most);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, roles);

@@ -1,7 +1,6 @@
 // Cylinders against spheres, capsules, boxes and hulls.
 #include "contact/pairs.h"
 #include "contact/round.h"
-#include "contact/segments.h"
 
 namespace pbd {
 namespace {
@@ -30,12 +29,17 @@ struct Pair {
     return low;
   }
 
-  Axis flat_axis() const {
+  Axis cap_axis() const {
     Axis best;
     for (const int end : {-1, 1}) {
       const double apart = lowest(end * b.axis) - b.half;
       if (apart > best.apart) best = {apart, Axis::Of::cap, end, end * b.axis};
     }
+    return best;
+  }
+
+  Axis face_axis() const {
+    Axis best;
     for (int f = 0; f < a.face_count(); ++f) {
       const Vec3& normal = a.face_normal(f);
       const double apart = normal.dot(b.centre) - a.offset[static_cast<Index>(f)] - b.support(normal);
@@ -44,23 +48,26 @@ struct Pair {
     return best;
   }
 
-  /// Normals across the side through edges and nodes of a.
+  /// Normals across the side whose farthest feature of a is the edge or the node they go through.
   void side_axes(Axis& best) const {
-    const auto look = [&](Axis::Of of, int i, Vec3 normal) {
+    const auto look = [&](Axis::Of of, int i, int node, Vec3 normal) {
       if (!(normal.norm() > rounding)) return;
       normal.normalize();
       for (const int sign : {-1, 1}) {
-        const double apart = lowest(sign * normal) - b.radius;
-        if (apart > best.apart + tiny) best = {apart, of, i, sign * normal};
+        const double low = lowest(sign * normal), apart = low - b.radius;
+        const bool farthest = sign * normal.dot(a.node(node) - b.centre) <= low + tiny;
+        if (farthest && apart > best.apart + tiny) best = {apart, of, i, sign * normal};
       }
     };
     for (int e = 0; e < a.edge_count(); ++e)
-      look(Axis::Of::edge, e, a.along[static_cast<Index>(e)].cross(b.axis));
+      look(Axis::Of::edge, e, a.edge(e).node[0], a.along[static_cast<Index>(e)].cross(b.axis));
     for (int i = 0; i < static_cast<int>(a.x.size()); ++i) {
       const Vec3 from = a.node(i) - b.centre;
-      look(Axis::Of::node, i, from - from.dot(b.axis) * b.axis);
+      look(Axis::Of::node, i, i, from - from.dot(b.axis) * b.axis);
     }
   }
+
+  Vec3 point(int e, double s) const { return a.node(a.edge(e).node[0]) + s * a.along[static_cast<Index>(e)]; }
 
   int end(int e, double s) const {
     if (s <= 0) return a.edge(e).node[0];
@@ -80,7 +87,7 @@ struct Pair {
   /// The edge's point at arc s against the cylinder's nearest part.
   void write_edge_point(int e, double s) const {
     const Vec3& along = a.along[static_cast<Index>(e)];
-    const Vec3 y = a.node(a.edge(e).node[0]) + s * along;
+    const Vec3 y = point(e, s);
     const int node = end(e, s);
     if (node >= 0) return write_point(y, a.radius, Feature::node, node, b, roles);
     const Round::Place at = b.place(y);
@@ -104,21 +111,13 @@ struct Pair {
                  along_across = along - cosine * b.axis;
       const double sine_squared = along_across.squaredNorm();
       const auto inside = [&](double s) { return s > 0 && s < length; };
-      if (sine_squared < 0.25 && std::abs(cosine) > 0)
-        for (const int at_end : {-1, 1}) {
-          const double s = (at_end * b.half - from.dot(b.axis)) / cosine;
-          if (!inside(s)) continue;
-          const Vec3 y = a.node(a.edge(e).node[0]) + s * along;
-          const double outside = (y - b.cap(at_end)).norm() - b.radius;
-          if (outside >= 0 && faces_farther(e, y - b.cap(at_end)))
-            roles.write(on_line(y, a.radius, b.centre, b.axis, b.radius),
-                        roles.key(Feature::edge, e, Feature::rim, 2 * at_end + 4), outside - a.radius);
-        }
+      write_where_it_leaves({a.node(a.edge(e).node[0]), along, length}, a.radius, e, b, roles,
+                            [&](const Vec3& apart) { return faces_farther(e, apart); });
       if (!(sine_squared > rounding)) continue;
       const double middle = -across.dot(along_across) / sine_squared;
       const double least_squared = (across + middle * along_across).squaredNorm();
       if (inside(middle)) {
-        const Vec3 y = a.node(a.edge(e).node[0]) + middle * along;
+        const Vec3 y = point(e, middle);
         const Round::Place at = b.place(y);
         if (at.part == Round::Part::side && faces_farther(e, at.normal)) write_edge_point(e, middle);
       }
@@ -130,39 +129,16 @@ struct Pair {
         const int at_end = z < 0 ? -1 : 1;
         const bool deepest = best.of == Axis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
-        const Vec3 y = a.node(a.edge(e).node[0]) + s * along;
+        const Vec3 y = point(e, s);
         roles.write(on_face(y, a.radius, b.cap(at_end), at_end * b.axis, 0),
                     roles.key(Feature::edge, e, Feature::cap, 10 + 2 * at_end + sign), above - a.radius);
       }
     }
   }
 
-  /// The arc of an edge's point nearest to the cylinder: the distance is convex, its slope is bisected.
-  double nearest_arc(int e) const {
-    const Vec3 &from = a.node(a.edge(e).node[0]), &along = a.along[static_cast<Index>(e)];
-    const auto slope = [&](double s) {
-      const Round::Place at = b.place(from + s * along);
-      return at.distance > 0 ? along.dot(at.normal) : 0.0;
-    };
-    double low = 0, high = a.length[static_cast<Index>(e)];
-    if (slope(low) >= 0) return low;
-    if (slope(high) <= 0) return high;
-    constexpr int halvings = 60;
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = (low + high) / 2, here = slope(middle);
-      if (here == 0) return middle;
-      (here < 0 ? low : high) = middle;
-    }
-    return (low + high) / 2;
-  }
-
-  double least() const {
-    double gap = infinity;
-    for (std::size_t i = roles.begin; i < roles.out.size(); ++i) {
-      const bool same = roles.out[i].swapped == roles.swapped;
-      gap = std::min(gap, touching(roles.out[i], same ? roles.a : roles.b, same ? roles.b : roles.a).gap);
-    }
-    return gap;
+  double nearest_arc_of(int e) const {
+    const auto i = static_cast<Index>(e);
+    return nearest_arc({a.node(a.edge(e).node[0]), a.along[i], a.length[i]}, b);
   }
 
   void rims(int f, double floor) const {
@@ -172,56 +148,58 @@ struct Pair {
 
   /// What the best direction says, wherever its features end.
   void write_axis(const Axis& axis) const {
+    const double gap = axis.apart - a.radius;
     if (axis.of == Axis::Of::face) {
-      const Roles exchanged = roles.exchanged();
       ContactPoint contact = on_face(b.cap(b.axis.dot(axis.normal) > 0 ? 1 : -1), 0,
                                      a.node(a.corner(axis.i, 0)), -axis.normal, a.radius);
       contact.direction_a = b.axis;
       contact.rim_a = b.radius;
-      return exchanged.write(contact, exchanged.key(Feature::rim, 0, Feature::face, axis.i),
-                             axis.apart - a.radius);
+      return roles.exchanged().rewrite(contact, roles.key(Feature::face, axis.i, Feature::rim, 0), gap);
     }
     if (axis.of == Axis::Of::edge)
-      return roles.write(on_edges(a.node(a.edge(axis.i).node[0]), a.along[static_cast<Index>(axis.i)],
-                                  a.radius, b.centre, b.axis, b.radius, axis.normal),
-                         roles.key(Feature::edge, axis.i, Feature::axis, 0), axis.apart - a.radius);
+      return roles.rewrite(on_edges(a.node(a.edge(axis.i).node[0]), a.along[static_cast<Index>(axis.i)],
+                                    a.radius, b.centre, b.axis, b.radius, axis.normal),
+                           roles.key(Feature::edge, axis.i, Feature::axis, 0), gap);
     int deepest = 0;
     for (int i = 1; i < static_cast<int>(a.x.size()); ++i)
       if (axis.normal.dot(a.node(i)) < axis.normal.dot(a.node(deepest))) deepest = i;
-    const bool cap = axis.of == Axis::Of::cap;
-    roles.write(cap ? on_face(a.node(deepest), a.radius, b.cap(axis.i), axis.normal, 0)
-                    : on_line(a.node(deepest), a.radius, b.centre, b.axis, b.radius),
-                roles.key(Feature::node, deepest, cap ? Feature::cap : Feature::axis, cap ? axis.i + 1 : 0),
-                axis.apart - a.radius);
+    if (axis.of == Axis::Of::cap)
+      roles.rewrite(on_face(a.node(deepest), a.radius, b.cap(axis.i), axis.normal, 0),
+                    roles.key(Feature::node, deepest, Feature::cap, axis.i + 1), gap);
+    else
+      roles.rewrite(on_line(a.node(deepest), a.radius, b.centre, b.axis, b.radius),
+                    roles.key(Feature::node, deepest, Feature::axis, 0), gap);
   }
 
   void write() const {
-    const Axis flat = flat_axis();
-    if (flat.apart >= limit) return;
-    Axis best = flat;
-    if (flat.apart <= 0) side_axes(best);
+    const Axis cap = cap_axis(), face = face_axis();
+    Axis best = face.apart > cap.apart ? face : cap;
+    if (best.apart >= limit) return;
+    if (best.apart <= 0) side_axes(best);
     if (best.apart >= limit) return;
     for (int i = 0; i < static_cast<int>(a.x.size()); ++i) {
       const auto part = b.place(a.node(i)).part;
       if (part != Round::Part::rim) write_point(a.node(i), a.radius, Feature::node, i, b, roles);
     }
-    if (flat.of == Axis::Of::face) rims(flat.i, best.apart - a.radius - tiny);
+    if (face.apart > -infinity) rims(face.i, best.apart - a.radius - tiny);
     edges(best);
-    if (least() <= best.apart - a.radius + tiny) return;
+    if (roles.least() <= best.apart - a.radius + tiny) return;
     double nearest = infinity, arc = 0;
     int edge = 0;
     for (int e = 0; e < a.edge_count(); ++e) {
-      const double s = nearest_arc(e);
-      const double distance =
-          b.place(a.node(a.edge(e).node[0]) + s * a.along[static_cast<Index>(e)]).distance;
+      const double s = nearest_arc_of(e);
+      const double distance = b.place(point(e, s)).distance;
       if (distance >= nearest) continue;
       nearest = distance;
       edge = e;
       arc = s;
     }
-    if (nearest > tiny)
+    // Apart if the plane between the nearest points is between the shapes; else a face cuts the cylinder.
+    const Vec3 normal = b.place(point(edge, arc)).normal;
+    const bool apart = nearest > tiny && lowest(normal) - b.support(normal) > tiny;
+    if (apart || best.apart > tiny)
       write_edge_point(edge, arc);
-    else if (best.apart <= tiny)
+    else
       write_axis(best);
   }
 };

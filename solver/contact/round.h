@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "contact/segments.h"
 #include "contact/writer.h"
 
 namespace pbd {
@@ -44,15 +45,41 @@ struct Round {
     if (above > 0 && outside > 0) {
       const Vec3 nearest = cap(end) + radius * radial;
       const double distance = std::hypot(above, outside);
-      return {distance, Part::rim, nearest, (x - nearest) / distance, end};
+      return {distance, Part::rim, nearest, (outside * radial + above * end * axis) / distance, end};
     }
     if (above > outside) return {above, Part::cap, x - above * end * axis, end * axis, end};
     return {outside, Part::side, x - outside * radial, radial, end};
   }
 };
 
+/// The arc of an edge's point nearest to the cylinder (m): the distance is convex, its slope is bisected.
+double nearest_arc(const Segment& edge, const Round& b);
+
+/// Of an edge e beside the cylinder, within 30 degrees of its axis, the points over the caps' planes, if
+/// `minimum` of the direction from the axis.
+template <class Minimum>
+void write_where_it_leaves(const Segment& edge, double radius, int e, const Round& b, const Roles& roles,
+                           Minimum&& minimum) {
+  const double cosine = edge.along.dot(b.axis), from = (edge.from - b.centre).dot(b.axis);
+  constexpr double steep = 0.75;
+  if (cosine * cosine <= steep) return;
+  for (const int end : {-1, 1}) {
+    const double s = (end * b.half - from) / cosine;
+    if (s <= 0 || s >= edge.length) continue;
+    const Vec3 y = edge.at(s), apart = y - b.cap(end);
+    const double outside = apart.norm() - b.radius;
+    if (outside >= 0 && minimum(apart))
+      roles.write(on_line(y, radius, b.centre, b.axis, b.radius),
+                  roles.key(Feature::edge, e, Feature::rim, end + 11), outside - radius);
+  }
+}
+
 /// Writes a's point y (rounded by `radius`, feature i of its kind) against the cylinder's nearest part.
 void write_point(const Vec3& y, double radius, Feature feature, int i, const Round& b, const Roles& roles);
+
+/// Cylinder a's rim that is deepest along the plane's normal, against that plane.
+void write_deepest_rim(const Round& a, const Vec3& on_plane, const Vec3& normal, Feature feature, int j,
+                       const Roles& roles);
 
 /// Cylinder a's rim at `end` and, where that disc faces the plane, eight of its points against b's plane,
 /// where `above` says that a point is over b's face, gaps at least `floor` (m).

@@ -39,12 +39,6 @@ struct Roles {
     return false;
   }
 
-  void drop(std::uint32_t key) const {
-    const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
-    out.erase(std::remove_if(from, out.end(), [&](const auto& contact) { return contact.key == key; }),
-              out.end());
-  }
-
   /// Features in the world's frame. Nothing is written twice, nor what is not below the margin.
   void write(ContactPoint contact, std::uint32_t key_, double gap) const {
     if (!(gap < margin) || written(key_)) return;
@@ -55,6 +49,24 @@ struct Roles {
     contact.direction_a = a.rotation.transpose() * contact.direction_a;
     contact.direction_b = b.rotation.transpose() * contact.direction_b;
     out.push_back(contact);
+  }
+
+  /// In the place of what has the key already.
+  void rewrite(const ContactPoint& contact, std::uint32_t key_, double gap) const {
+    const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+    out.erase(std::remove_if(from, out.end(), [&](const auto& other) { return other.key == key_; }),
+              out.end());
+    write(contact, key_, gap);
+  }
+
+  /// Of what is written (m).
+  double least() const {
+    double gap = infinity;
+    for (std::size_t i = begin; i < out.size(); ++i) {
+      const bool same = out[i].swapped == swapped;
+      gap = std::min(gap, touching(out[i], same ? a : b, same ? b : a).gap);
+    }
+    return gap;
   }
 };
 

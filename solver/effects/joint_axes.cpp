@@ -5,6 +5,14 @@
 #include "effects/joints.h"
 
 namespace pbd {
+namespace {
+
+/// Bounds of u . w, u a direction of body a times the impulse, w one of b.
+Eigen::RowVector4d product_of_directions(const Vec3& u, const Vec3& w, const Pose& a, const Pose& b) {
+  return rotation_bound(lever_form(u, w), w.cross(u), a, b);
+}
+
+}  // namespace
 
 void Constraint<AxisJoint>::evaluate(const AxisJoint& effect, std::size_t i, const Positions& at,
                                      Value& value, Jacobian& jacobian) {
@@ -19,10 +27,12 @@ void Constraint<AxisJoint>::evaluate(const AxisJoint& effect, std::size_t i, con
   }
 }
 
-Constraint<AxisJoint>::NodeBounds Constraint<AxisJoint>::geometric_bound(const AxisJoint&, std::size_t,
-                                                                         const Positions& at,
+Constraint<AxisJoint>::NodeBounds Constraint<AxisJoint>::geometric_bound(const AxisJoint& effect,
+                                                                         std::size_t i, const Positions& at,
                                                                          const Value& impulse) {
-  return directions_bound(impulse.norm(), *at.body[0], *at.body[1]);
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  return product_of_directions(a.rotation * normals_of(effect.axis[i][0]) * impulse,
+                               b.rotation * effect.axis[i][1], a, b);
 }
 
 void Constraint<PerpendicularJoint>::evaluate(const PerpendicularJoint& effect, std::size_t i,
@@ -35,48 +45,90 @@ void Constraint<PerpendicularJoint>::evaluate(const PerpendicularJoint& effect, 
 }
 
 Constraint<PerpendicularJoint>::NodeBounds Constraint<PerpendicularJoint>::geometric_bound(
-    const PerpendicularJoint&, std::size_t, const Positions& at, const Value& impulse) {
-  return directions_bound(std::abs(impulse[0]), *at.body[0], *at.body[1]);
+    const PerpendicularJoint& effect, std::size_t i, const Positions& at, const Value& impulse) {
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  return product_of_directions(impulse[0] * (a.rotation * effect.axis[i][0]), b.rotation * effect.axis[i][1],
+                               a, b);
 }
+
+namespace {
+
+/// Rotation error of b, and dc/dphi_b of c = 2 vec(error).
+struct Turned {
+  Eigen::Quaterniond error;
+  Eigen::Matrix3d by_phi;
+
+  Turned(const RotationJoint& effect, std::size_t i, const Pose& a, const Pose& b)
+      : error(Eigen::Matrix3d(effect.rest[i].toRotationMatrix().transpose() * a.rotation.transpose() *
+                              b.rotation)) {
+    if (error.w() < 0) error.coeffs() *= -1;
+    by_phi = (error.w() * Eigen::Matrix3d::Identity() + cross_matrix(error.vec())) * b.rotation.transpose();
+  }
+};
+
+}  // namespace
 
 void Constraint<RotationJoint>::evaluate(const RotationJoint& effect, std::size_t i, const Positions& at,
                                          Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
-  Eigen::Quaterniond error(
-      Eigen::Matrix3d(effect.rest[i].toRotationMatrix().transpose() * a.rotation.transpose() * b.rotation));
-  if (error.w() < 0) error.coeffs() *= -1;
-  value = 2 * error.vec();
-  const Square turn = (error.w() * Square::Identity() + cross_matrix(error.vec())) * b.rotation.transpose();
-  jacobian << Square::Zero(), -turn * a.turning, Square::Zero(), turn * b.turning;
+  const Turned turned(effect, i, a, b);
+  value = 2 * turned.error.vec();
+  jacobian << Square::Zero(), -turned.by_phi * a.turning, Square::Zero(), turned.by_phi * b.turning;
 }
 
-Constraint<RotationJoint>::NodeBounds Constraint<RotationJoint>::geometric_bound(const RotationJoint&,
-                                                                                 std::size_t,
+/// Of b's rotation alone 2 vec(q) has the second derivative -vec(q) |phi|^2 / 2.
+Constraint<RotationJoint>::NodeBounds Constraint<RotationJoint>::geometric_bound(const RotationJoint& effect,
+                                                                                 std::size_t i,
                                                                                  const Positions& at,
                                                                                  const Value& impulse) {
-  return directions_bound(impulse.norm(), *at.body[0], *at.body[1]);
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  const Turned turned(effect, i, a, b);
+  return rotation_bound(impulse.dot(turned.error.vec()) / 2 * Square::Identity(),
+                        turned.by_phi.transpose() * impulse, a, b);
 }
+
+namespace {
+
+/// The angle of b's reference `to` about a's axis from a's reference, and its derivative by `to`.
+struct Twist {
+  Vec3 to, across;  // across: to without its part along the axis
+  double squared;   // |across|^2
+  Vec3 gradient;    // axis x across / |across|^2
+  double angle;
+
+  Twist(const AngleJoint& effect, std::size_t i, const Pose& a, const Pose& b)
+      : to(b.rotation * effect.reference[i][1]) {
+    const Vec3 axis = a.rotation * effect.axis[i], from = a.rotation * effect.reference[i][0];
+    angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+    across = to - axis.dot(to) * axis;
+    squared = across.squaredNorm();
+    gradient = squared > 0 ? Vec3(axis.cross(across) / squared) : Vec3(Vec3::Zero());
+  }
+};
+
+}  // namespace
 
 void Constraint<AngleJoint>::evaluate(const AngleJoint& effect, std::size_t i, const Positions& at,
                                       Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
-  const Vec3 axis = a.rotation * effect.axis[i], from = a.rotation * effect.reference[i][0];
-  const Vec3 to = b.rotation * effect.reference[i][1];
-  const double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
-  value[0] = std::remainder(angle - effect.rest_angle[i] - effect.rate[i] * at.time, 2 * std::numbers::pi);
-  const Vec3 across = to - axis.dot(to) * axis;
-  const double squared = across.squaredNorm();
-  const Vec3 turn = squared > 0 ? Vec3(to.cross(axis.cross(across)) / squared) : axis;
+  const Twist twist(effect, i, a, b);
+  value[0] =
+      std::remainder(twist.angle - effect.rest_angle[i] - effect.rate[i] * at.time, 2 * std::numbers::pi);
+  const Vec3 turn = twist.squared > 0 ? twist.to.cross(twist.gradient) : Vec3(a.rotation * effect.axis[i]);
   jacobian << Row3::Zero(), -turn.transpose() * a.turning, Row3::Zero(), turn.transpose() * b.turning;
 }
 
+/// With g = across and t = gradient the angle's second derivative by `to` is -(g t^T + t g^T) / |g|^2.
 Constraint<AngleJoint>::NodeBounds Constraint<AngleJoint>::geometric_bound(const AngleJoint& effect,
                                                                            std::size_t i, const Positions& at,
                                                                            const Value& impulse) {
-  const double along =
-      (at.body[0]->rotation * effect.axis[i]).dot(at.body[1]->rotation * effect.reference[i][1]);
-  const double squared = std::max(1 - along * along, 1e-12);  // |g|^2; the axes are to be parallel: g = f
-  return directions_bound(std::abs(impulse[0]) / squared, *at.body[0], *at.body[1]);
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  const Twist twist(effect, i, a, b);
+  if (!(twist.squared > 0)) return NodeBounds::Zero();
+  const Eigen::Matrix3d product = twist.across * twist.gradient.transpose(), turn = cross_matrix(twist.to);
+  const Eigen::Matrix3d by_turn = turn.transpose() * (product + product.transpose()) * turn / twist.squared;
+  return rotation_bound(impulse[0] * by_turn + lever_form(impulse[0] * twist.gradient, twist.to),
+                        impulse[0] * twist.to.cross(twist.gradient), a, b);
 }
 
 }  // namespace pbd

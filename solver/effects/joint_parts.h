@@ -2,7 +2,7 @@
 // body as it stands, and bounds of their second derivatives.
 //   lever      s = R p,  ds/dphi = -[s]x,  phi^T s'' phi = phi x (phi x s)
 //   direction  u = R u0, likewise
-// Bounds are by the columns (dx, r w) of constraint.h: |phi| <= |turning| |arc|.
+// Bounds are by the columns (dx, r w) of constraint.h, with phi = turning arc.
 #pragma once
 
 #include <Eigen/Dense>
@@ -15,12 +15,6 @@ namespace pbd {
 
 using Row3 = Eigen::RowVector3d;
 
-inline Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 /// Two unit vectors at right angles to the unit vector `axis` and each other.
 inline Eigen::Matrix<double, 3, 2> normals_of(const Vec3& axis) {
   Eigen::Matrix<double, 3, 2> normals;
@@ -29,21 +23,33 @@ inline Eigen::Matrix<double, 3, 2> normals_of(const Vec3& axis) {
   return normals;
 }
 
-/// Largest |phi|^2 of an arc of 1 m, 1/m^2.
-inline double turning_squared(const Pose& pose) {
-  return pose.turning.colwise().squaredNorm().maxCoeff();
+/// S with phi^T S phi = -p . (phi x (phi x s)), p an impulse (or its opposite) on the lever s.
+inline Eigen::Matrix3d lever_form(const Vec3& p, const Vec3& s) {
+  const Eigen::Matrix3d product = p * s.transpose();
+  return p.dot(s) * Eigen::Matrix3d::Identity() - (product + product.transpose()) / 2;
 }
 
-/// Bound (times |phi|^2) of -impulse . sign (phi x (phi x s)): the largest eigenvalue of
-/// sign ((p.s) I - (p s^T + s p^T)/2).
-inline double lever_bound(const Vec3& impulse, double sign, const Vec3& lever) {
-  return (impulse.norm() * lever.norm() + sign * impulse.dot(lever)) / 2;
+/// Largest of phi^T S phi, S symmetric, for an arc of 1 m; 0 if all are negative.
+inline double largest_of(const Eigen::Matrix3d& form, const Pose& pose) {
+  const Eigen::Matrix3d by_arcs = pose.turning.transpose() * form * pose.turning;
+  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                           .computeDirect(by_arcs, Eigen::EigenvaluesOnly)
+                           .eigenvalues()[2]);
 }
 
-/// Bounds of p times a function of two directions' product, whose second derivative by (phi_a, phi_b) is at
-/// most (|phi_a| + |phi_b|)^2 <= 2 |phi_a|^2 + 2 |phi_b|^2.
-inline Eigen::RowVector4d directions_bound(double impulse, const Pose& a, const Pose& b) {
-  return 2 * impulse * Eigen::RowVector4d(0, turning_squared(a), 0, turning_squared(b));
+/// Bound of phi_a^T C phi_b for arcs of 1 m.
+inline double product_bound(const Pose& a, const Eigen::Matrix3d& product, const Pose& b) {
+  return (a.turning.transpose() * product * b.turning).norm();
+}
+
+/// Bounds of a constraint of the rotation between two bodies, whose impulses give b the torque m (a its
+/// opposite) and have the form S of b's rotations alone. A rotation of b by phi_b and of a by phi_a is one
+/// of b by phi_b - phi_a - phi_a x phi_b / 2, so that the form of both is
+///   (phi_b - phi_a)^T S (phi_b - phi_a) + m . (phi_a x phi_b)
+inline Eigen::RowVector4d rotation_bound(const Eigen::Matrix3d& form, const Vec3& torque, const Pose& a,
+                                         const Pose& b) {
+  const double across = product_bound(a, form, b) + product_bound(a, cross_matrix(torque), b) / 2;
+  return {0, largest_of(form, a) + across, 0, largest_of(form, b) + across};
 }
 
 /// c = t . (y - x_a), t a direction of body a, y = x_b + R_b p_b: value, row of the Jacobian, bound.
@@ -64,13 +70,14 @@ struct Slide {
     return row;
   }
 
-  /// |phi_a|^2 |gap| + 2 |phi_a| (|dx_a| + |dx_b| + |phi_b| |lever|) + |phi_b|^2 |lever|, products split by
-  /// the length l.
-  Eigen::RowVector4d bound(double impulse, const Pose& a, const Pose& b) const {
-    const double ta = turning_squared(a), tb = turning_squared(b);
-    const double l = gap.norm() + lever.norm() + 1 / std::sqrt(ta);
-    return std::abs(impulse) *
-           Eigen::RowVector4d(1 / l, ta * (gap.norm() + 2 * l + lever.norm()), 1 / l, 2 * tb * lever.norm());
+  /// Forms of a's rotation of t and of b's of its lever, and -2 p (phi_a x t) . (dx_b - dx_a + phi_b x lever)
+  /// split evenly.
+  Eigen::RowVector4d bound(double p, const Pose& a, const Pose& b) const {
+    const Eigen::Matrix3d turn = cross_matrix(direction);
+    const double along = std::abs(p) * (turn * a.turning).norm();
+    const double across = std::abs(p) * product_bound(a, turn.transpose() * cross_matrix(lever), b);
+    return {along, largest_of(lever_form(p * gap, direction), a) + 2 * along + across, along,
+            largest_of(lever_form(p * direction, lever), b) + across};
   }
 };
 

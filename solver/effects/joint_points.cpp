@@ -17,8 +17,8 @@ Constraint<PointJoint>::NodeBounds Constraint<PointJoint>::geometric_bound(const
                                                                            std::size_t i, const Positions& at,
                                                                            const Value& impulse) {
   const Pose &a = *at.body[0], &b = *at.body[1];
-  return {0, turning_squared(a) * lever_bound(impulse, -1, a.rotation * effect.point[i][0]), 0,
-          turning_squared(b) * lever_bound(impulse, 1, b.rotation * effect.point[i][1])};
+  return {0, largest_of(lever_form(-impulse, a.rotation * effect.point[i][0]), a), 0,
+          largest_of(lever_form(impulse, b.rotation * effect.point[i][1]), b)};
 }
 
 void Constraint<LineJoint>::evaluate(const LineJoint& effect, std::size_t i, const Positions& at,
@@ -91,7 +91,8 @@ Constraint<BodyDistance>::NodeBounds Constraint<BodyDistance>::geometric_bound(c
   const double tension = link.length > 0 ? std::max(0.0, -impulse[0]) * 4 / link.length : 0.0;
   const Vec3 push = impulse[0] * link.direction;
   const auto arc = [&](const Pose& pose, double sign, const Vec3& lever) {
-    return turning_squared(pose) * (tension * lever.squaredNorm() + lever_bound(push, sign, lever));
+    const Eigen::Matrix3d turn = cross_matrix(lever);
+    return largest_of(tension * turn.transpose() * turn + lever_form(sign * push, lever), pose);
   };
   return {tension, arc(a, -1, link.lever_a), tension, arc(b, 1, link.lever_b)};
 }
@@ -108,7 +109,7 @@ Constraint<Attachment>::NodeBounds Constraint<Attachment>::geometric_bound(const
                                                                            std::size_t i, const Positions& at,
                                                                            const Value& impulse) {
   const Pose& body = *at.body[0];
-  return {0, turning_squared(body) * lever_bound(impulse, -1, body.rotation * effect.point[i]), 0};
+  return {0, largest_of(lever_form(-impulse, body.rotation * effect.point[i]), body), 0};
 }
 
 }  // namespace pbd

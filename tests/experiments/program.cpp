@@ -236,7 +236,7 @@ TEST_CASE("what the command line does not allow is refused with option, value an
       {{"compare", scenes / "incline.toml", "--method", "rival=newton", "--reference", "ipopt"},
        "--reference ipopt: got a scene with contact"},
       {{"compare", chain, "--method", "outer=plain", "--at-step", "100000"},
-       "--at-step: got 100000; allowed: 0 to 399: the scene has 400 steps"},
+       "--at-step: got 100000; allowed: 0 to 499: the scene has 500 steps"},
       {{"compare", chain, "--method", "outer=plain", "--set", "method.integrator=bdf2"},
        "--set method.integrator: got `bdf2`; allowed: implicit_euler"},
       {{"compare", chain, "--method", "outer=plain integrator=bdf2"},

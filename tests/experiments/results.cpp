@@ -154,7 +154,7 @@ TEST_CASE("ids of verdicts are lower case letters, digits, dots and single _") {
 
 TEST_CASE("the record counts the rows of each table that is complete") {
   const TemporaryFolder folder;
-  run({.experiments = {"thrown", "stopped", "bad"}, .directory = folder.path}, samples);
+  run({.experiments = {"bad", "thrown", "stopped"}, .directory = folder.path}, samples);
   CHECK(run_record(folder.path / "bad")["rows"].dump() == "{\"verdicts\":1}");
   CHECK(run_record(folder.path / "thrown")["rows"].dump() == "{\"verdicts\":0}");
   CHECK(run_record(folder.path / "stopped")["rows"].dump() == "{\"first\":2,\"verdicts\":0}");

@@ -31,6 +31,45 @@ TEST_CASE(
   CHECK(error_after(8, 0) > 1e9);  // 20^8
 }
 
+// What one iteration multiplies by 0.999 would be extrapolated by 999 changes: 100 of them are taken.
+TEST_CASE("an acceleration that is too long is shortened") {
+  Rows rows;
+  rows.inverse_mass = {1};
+  Points v = Points::Ones(3, 1);
+  Anderson anderson(5);
+  for (int k = 0; k < 2; ++k) {
+    anderson.begin(rows, v);
+    v *= 0.999;
+    CHECK(anderson.accelerate(rows.inverse_mass, rows, v) == (k == 1));
+  }
+  CHECK(v(0, 0) == Approx(0.999 * 0.999 - 100 * 0.001 * 0.999).epsilon(1e-9));
+}
+
+TEST_CASE("an acceleration follows when rows come and go") {
+  const auto accelerated = [](Anderson& anderson, std::size_t constraints) {
+    Rows rows;
+    rows.inverse_mass = {1};
+    RowBlock<1, 2> block;
+    block.resize(constraints);
+    rows.blocks.emplace_back(block);
+    Points v = Points::Ones(3, 1);
+    anderson.forget();
+    for (int k = 0; k < 3; ++k) {
+      anderson.begin(rows, v);
+      v = Vec3(0.5, -2, 3).cwiseProduct(Vec3(v.col(0)));
+      for (auto& impulse : std::get<RowBlock<1, 2>>(rows.blocks[0]).impulse) impulse[0] = v(2, 0);
+      anderson.accelerate(rows.inverse_mass, rows, v);
+    }
+    const auto& impulses = std::get<RowBlock<1, 2>>(rows.blocks[0]).impulse;
+    return Vec3(v(0, 0), impulses.front()[0], impulses.back()[0]);
+  };
+  Anderson used(5);
+  for (const std::size_t constraints : {2U, 100U, 1U}) {
+    Anderson fresh(5);
+    CHECK(accelerated(used, constraints) == accelerated(fresh, constraints));
+  }
+}
+
 TEST_CASE("a rejected acceleration leaves the image") {
   Rows rows;
   rows.inverse_mass = {1};

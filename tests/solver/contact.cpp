@@ -3,41 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact_runs.h"
 #include "error.h"
 #include "relaxation.h"
 #include "scenes/contacts.h"
-#include "step.h"
 
 using namespace pbd;
+using namespace pbd::test;
 using namespace pbdcheck;
 
 namespace {
-
-constexpr double gravity = 9.81;
-
-Method method_of(std::string_view relaxation, std::string_view friction = "coulomb") {
-  Method method;
-  method.relaxation = relaxation;
-  method.friction = friction;
-  method.tolerance = 1e-12;
-  return method;
-}
-
-/// The state after `steps` steps that all say ok.
-State run(const Scene& scene, const Method& method, double h, int steps, Workspace& workspace) {
-  State state = scene.initial;
-  for (int k = 0; k < steps; ++k) {
-    const Report report = step(scene, method, h, state, workspace);
-    INFO(method.relaxation << " " << method.friction << " step " << k << " residual " << report.residual());
-    REQUIRE(report.status == Status::ok);
-  }
-  return state;
-}
-
-State run(const Scene& scene, const Method& method, double h, int steps) {
-  Workspace workspace(scene, method);
-  return run(scene, method, h, steps, workspace);
-}
 
 /// v_k+1 = max(0, v_k - h deceleration), x_k+1 = x_k + h v_k+1
 double sliding_distance(double v, double deceleration, double h, int steps) {
@@ -47,23 +22,6 @@ double sliding_distance(double v, double deceleration, double h, int steps) {
     x += h * v;
   }
   return x;
-}
-
-double weight(const Scene& scene) {
-  double mass = 0;
-  for (const double own : scene.mass)
-    if (std::isfinite(own)) mass += own;
-  return mass * gravity;
-}
-
-/// N, what the ground (collider 0) carries.
-Vec3 ground_force(const Workspace& workspace) {
-  Vec3 sum = Vec3::Zero();
-  for (const ContactForce& contact : workspace.contacts()) {
-    if (contact.collider[1] == 0) sum += contact.force;
-    if (contact.collider[0] == 0) sum -= contact.force;
-  }
-  return sum;
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ inline Shape random_shape(const std::string& kind, Random& random) {
   return HalfSpace{};
 }
 
-/// In the world; cylinders, meshes and half spaces are none.
+/// In the world, meshes as if convex; cylinders and half spaces are none.
 inline Convex convex(const Shape& shape, const Frame& at) {
   Convex made;
   const auto surface = [&](const TriangleMesh& mesh) {
@@ -80,8 +80,43 @@ inline Convex convex(const Shape& shape, const Frame& at) {
     surface(box_surface(box->size));
   } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
     surface(hull->surface);
+  } else if (const auto* mesh = std::get_if<ClosedMesh>(&shape)) {
+    surface(mesh->surface);
   }
   return made;
+}
+
+/// Of the shape's point farthest along the unit vector n, in the world (m).
+inline double support(const Shape& shape, const Frame& at, const Vec3& n) {
+  if (std::holds_alternative<HalfSpace>(shape)) {
+    const Vec3 up = at.rotation.col(2);
+    return (n - up).norm() < 1e-12 ? up.dot(at.origin) : infinity;
+  }
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    const double along = n.dot(at.rotation.col(2));
+    return n.dot(at.origin) + std::abs(along) * cylinder->length / 2 +
+           cylinder->radius * n.cross(at.rotation.col(2)).norm();
+  }
+  const Convex of = convex(shape, at);
+  double most = -infinity;
+  for (const Vec3& x : of.x) most = std::max(most, n.dot(x));
+  return most + of.radius;
+}
+
+/// How far a is from b along the unit vector n from b to a: never more than their distance.
+inline double apart_along(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b,
+                          const Vec3& n) {
+  return -support(a, at_a, -n) - support(b, at_b, n);
+}
+
+/// How far outside the shape a point is; not negative (m).
+inline double outside(const Shape& shape, const Frame& at, const Vec3& x) {
+  const Vec3 own = at.rotation.transpose() * (x - at.origin);
+  if (std::holds_alternative<HalfSpace>(shape)) return std::max(own.z(), 0.0);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    return std::hypot(std::max(own.head<2>().norm() - cylinder->radius, 0.0),
+                      std::max(std::abs(own.z()) - cylinder->length / 2, 0.0));
+  return std::max(signed_distance(Convex{{x}, {}, 0}, convex(shape, at)), 0.0);
 }
 
 /// Of contact points, as the shapes stand.

@@ -1,0 +1,39 @@
+// Contact problems with friction on disk: FCLIB's HDF5 files (local and global) and Siconos' text (dense, or
+// blocks of 3 x 3). The format is told by the content.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cone_problem.h"
+
+namespace pbdcheck {
+
+struct ConeFile {
+  pbd::reference::ConeProblem problem;  // with the symmetric part of the stored W
+  std::string form;                     // what the file was, and how it was read
+  double asymmetry = 0;                 // |W - W^T| / |W| (Frobenius) as stored
+};
+
+/// Global problems are condensed: W = H^T M^-1 H, q = w + H^T M^-1 f. Throws SetupError naming the file and
+/// what is allowed; W's symmetric part has to be positive semidefinite to 1e-10, or to its asymmetry,
+/// which may be 0.01 at most.
+ConeFile read_cone_file(const std::filesystem::path& path);
+
+/// The problem as FCLIB's local one with its solution (u, r), complete or not there.
+void write_cone_file(const std::filesystem::path& path, const pbd::reference::ConeProblem& problem,
+                     const pbd::reference::ConeSolution& solution);
+
+// The parts, one source each.
+
+/// A problem as it is stored. `transposed` is W with each block read row by row where that is in doubt.
+struct StoredCone {
+  Eigen::SparseMatrix<double> delassus, transposed;
+  Eigen::VectorXd free_velocity, friction;
+  std::string form;
+};
+bool is_hdf5(const std::filesystem::path& path);
+StoredCone read_fclib(const std::filesystem::path& path);
+StoredCone read_siconos(const std::filesystem::path& path);
+
+}  // namespace pbdcheck

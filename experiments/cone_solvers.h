@@ -1,0 +1,31 @@
+// What can solve a contact problem with friction, as `cone --relaxation` and the experiments name it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cone_problem.h"
+
+namespace pbdcheck {
+
+struct ConeSolver {
+  std::string name;
+  std::vector<std::string> laws;
+  std::function<pbd::reference::ConeSolution(const pbd::reference::ConeProblem&, pbd::reference::FrictionLaw,
+                                             double tolerance)>
+      solve;
+};
+
+/// All of them; the first is the default.
+const std::vector<ConeSolver>& cone_solvers();
+
+/// coulomb, cone, box.
+std::vector<std::string> cone_laws();
+
+/// The solver of that name for that law. Throws SetupError naming those there are.
+const ConeSolver& find_cone_solver(const std::string& name, const std::string& law);
+
+pbd::reference::FrictionLaw friction_law(const std::string& name);
+
+}  // namespace pbdcheck

@@ -1,0 +1,182 @@
+"""Tests of reading and of keeping failures visible:  python3 -m unittest discover -s plots"""
+
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import common
+import judges
+import reading
+import sample
+
+
+class Reading(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = Path(self.folder.name) / "table.csv"
+
+    def read(self, text, columns=()):
+        self.path.write_text(text, encoding="utf-8")
+        return reading.read_table(self.path, columns)
+
+    def assert_refused(self, text, *words, columns=()):
+        with self.assertRaises(reading.InputError) as caught:
+            self.read(text, columns)
+        for word in (str(self.path), *words):
+            self.assertIn(word, str(caught.exception))
+
+    def test_all_17_digits_survive(self):
+        self.assertEqual(self.read("error\n0.10000000000000001\n1.0000000000000002\n")["error"].tolist(),
+                         [0.1, 1.0000000000000002])
+
+    def test_nan_infinities_and_nothing_are_numbers(self):
+        values = self.read("error,status\nnan,ok\ninf,ok\n-inf,ok\n,skipped\n")["error"]
+        self.assertTrue(math.isnan(values[0]) and math.isnan(values[3]))
+        self.assertEqual(values[1:3].tolist(), [math.inf, -math.inf])
+
+    def test_words_that_look_like_missing_values_stay_words(self):
+        self.assertEqual(self.read("scene,reason\nnan,NA\n").loc[0].tolist(), ["nan", "NA"])
+
+    def test_missing_column(self):
+        self.assert_refused("scene,sweep\nchain,1\n", "'error'", "needed: scene, error", "found: scene, sweep",
+                            columns=["scene", "error"])
+
+    def test_not_a_number(self):
+        self.assert_refused("scene,error\nchain,1\nchain,much\n", "line 3", "'error'", "'much'", "allowed",
+                            columns=["error"])
+
+    def test_words_in_a_column_nobody_asked_for(self):
+        self.assertEqual(self.read("error,colour\n1,red\n", ["error"])["colour"].tolist(), ["red"])
+
+    def test_unknown_status(self):
+        self.assert_refused("error,status\n1,fine\n", "line 2", "'fine'", "not_converged")
+
+    def test_unknown_behaviour(self):
+        self.assert_refused("behaviour\nfalling\n", "line 2", "'falling'", "converged")
+
+    def test_too_few_and_too_many_cells(self):
+        self.assert_refused("scene,error\nchain\n", "line 2", "got 1 cells")
+        self.assert_refused("scene,error\nchain,1,2\n", "line 2", "got 3 cells")
+
+    def test_column_twice(self):
+        self.assert_refused("error,error\n1,2\n", "'error'", "twice")
+
+    def test_control_characters_and_binary_garbage(self):
+        self.assert_refused("scene\na\x00b\n", "line 2", r"'a\x00b'", "printable")
+        self.path.write_bytes(bytes(range(256)))
+        with self.assertRaises(reading.InputError):
+            reading.read_table(self.path)
+
+    def test_settings_that_cannot_be(self):
+        for value in ("0", "-1", "nan", "inf", "1e308"):
+            self.assert_refused(f"step_s\n{value}\n", "line 2", "'step_s'", "allowed", columns=["step_s"])
+        self.assert_refused("sweep\nnan\n", "line 2", "'sweep'", columns=["sweep"])
+        self.assertEqual(self.read("sweep\n0\n", ["sweep"])["sweep"].tolist(), [0])
+
+    def verdicts(self, measured, bound, word):
+        self.path.write_text(f"measured,bound,verdict\n{measured},{bound},{word}\n", encoding="utf-8")
+        return reading.read_verdicts(self.path, ["measured", "bound", "verdict"])["verdict"].tolist()
+
+    def test_verdicts_are_what_their_numbers_say(self):
+        for measured, bound, word in ((1, 1, "holds"), (2, 1, "fails"), ("nan", 1, "fails"), ("inf", 1, "fails"), ("", 1, "fails")):
+            self.assertEqual(self.verdicts(measured, bound, word), [word])
+        for measured, bound, word, allowed in ((2, 1, "holds", "'fails'"), (1, 1, "fails", "'holds'"), ("nan", 1, "holds", "'fails'"),
+                                               (1, "nan", "fails", "a finite number"), (1, "inf", "holds", "a finite number"),
+                                               (1, 2, "passes", "holds, fails"), (1, 2, "", "holds, fails")):
+            with self.assertRaisesRegex(reading.InputError, f"table.csv: line 2: .*allowed: {allowed}"):
+                self.verdicts(measured, bound, word)
+
+    def test_empty_and_absent_file(self):
+        self.assert_refused("", "header")
+        with self.assertRaises(reading.InputError):
+            reading.read_table(self.path.with_name("absent.csv"))
+
+    def run_json(self, text):
+        (self.path.parent / "run.json").write_text(text, encoding="utf-8")
+        return reading.read_run(self.path.parent)
+
+    def test_bad_runs(self):
+        for text, said in (("{", "JSON"), ("[" * 99999, "JSON"), ('{"status": "\\ud800"}', "JSON"), ("[1]", r"got \[1\]"),
+                           ('"x"', 'got "x"'), ("{}", "'status': got nothing"), ('{"status": 1}', "'status': got 1")):
+            with self.assertRaisesRegex(reading.InputError, f"run.json: .*{said}"):
+                self.run_json(text)
+
+    def test_a_complete_run_has_every_fact(self):
+        sample.write_run(self.path.parent, ".")
+        run = reading.read_run(self.path.parent)
+        self.assertEqual(reading.shortfall(run), "")
+        for key in reading.RUN:
+            for value in (None, [1]):
+                with self.assertRaisesRegex(reading.InputError, f"'{key}': got .*; allowed: "):
+                    self.run_json(json.dumps(run | {key: value}))
+        for key, value in (("wall_s", True), ("wall_s", math.nan), ("dirty", 1)):
+            with self.assertRaisesRegex(reading.InputError, f"'{key}': got "):
+                self.run_json(json.dumps(run | {key: value}))
+
+    def test_a_table_has_the_rows_that_its_run_counted(self):
+        for counted, said in ((2, None), (1, "got 2 rows; allowed: 1"), (3, "got 2 rows; allowed: 3"), ("x", 'allowed: "x"')):
+            sample.write_run(self.path.parent, ".")
+            self.run_json(json.dumps(reading.read_run(self.path.parent) | {"rows": {"table": counted, "other": 7}}))
+            if said:
+                self.assert_refused("error\n1\n2\n", said, "run.json")
+            else:
+                self.assertEqual(len(self.read("error\n1\n2\n")), 2)
+        self.run_json('{"status": "interrupted", "rows": [2]}')
+        with self.assertRaisesRegex(reading.InputError, "run.json: key 'rows': got"):
+            self.read("error\n1\n2\n")
+
+    def test_runs_that_are_not_complete(self):
+        self.assertIn("no run.json", reading.shortfall(reading.read_run(self.path.parent)))
+        self.assertEqual(reading.shortfall(self.run_json('{"status": "interrupted"}')), "interrupted")
+        self.assertEqual(reading.shortfall(self.run_json('{"status": "failed", "reason": "why"}')), "failed: why")
+
+
+class Failures(unittest.TestCase):
+    def test_every_row_is_good_or_failed(self):
+        frame = reading.pd.DataFrame({"error": [1.0, np.nan, 1e308, -1.0, 0.0, 2.0],
+                                     "status": ["ok", "ok", "ok", "ok", "ok", "diverged"], "reason": [""] * 5 + ["far"]})
+        self.assertEqual(reading.good(frame, "error").index.tolist(), [0, 4])
+        self.assertEqual(reading.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
+
+    def test_reasons_are_counted(self):
+        frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
+        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
+
+    def test_a_long_reason_is_cut_with_a_mark(self):
+        frame = reading.pd.DataFrame({"status": ["diverged"], "reason": ["far away " * 30]})
+        self.assertRegex(reading.reasons_note(frame), r"far away \.\.\.$")
+
+    def test_traces_that_fail_are_crossed(self):
+        for values, place in (([1.0, np.nan], (0.1, 1.0)), ([1.0, 3.0], (0.2, 2.0)), ([np.nan, np.nan], (0.2, 0.97))):
+            rows = reading.pd.DataFrame({"time_s": [0.1, 0.2], "status": ["ok", "diverged"]})
+            figure, (ax,) = common.panels(1)
+            common.trace(ax, rows, np.array(values), "bdf2", high=2.0)
+            crosses = [line for line in ax.lines if line.get_marker() == "x"]
+            self.assertEqual([(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses], [place])
+            common.plt.close(figure)
+
+    def test_scenes_read_with_short_numbers(self):
+        for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
+                            ("chain20 tip x100", "chain20 tip x100")):
+            self.assertEqual(reading.scene_text(scene), text)
+
+    def test_families_of_scenes(self):
+        for scene, family in (("contraction: triangle_strain  1e+06 Pa, -2 N", "contraction: triangle_strain"),
+                              ("contraction: bending  100 N m/rad, -50 N", "contraction: bending"),
+                              ("contraction: point_joint  inf N/m, 50 N", "contraction: point_joint"),
+                              ("stability_map: cantilever8 corotational E=10000 Pa", "stability_map: cantilever corotational"),
+                              ("inner_convergence: chain20 hanging, tip x100", "inner_convergence: chain hanging"),
+                              ("joints: A01 pendulum", "joints: A01 pendulum")):
+            self.assertEqual(judges.family(scene), family)
+
+    def test_steps_read_as_fractions(self):
+        self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,123 @@
+// Points of two convex shapes are as near as the shapes can be if a plane's gap along some direction is as
+// wide as the points are apart: each pose brings its own proof.
+#include <catch2/catch.hpp>
+
+#include "contact_shapes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double accuracy = 1e-10;  // m, of shapes of 1 m
+
+struct Worst {
+  double proof = 0, a = 0, b = 0, normal = 0;  // m
+  int apart = 0, missed = 0, overlapping = 0, unproved = 0, shallow = 0, ghosts = 0;
+};
+
+void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, Random& random,
+          Worst& worst) {
+  const auto found = contacts(a, at_a, b, at_b, 1.0);
+  Touching nearest;
+  nearest.gap = infinity;
+  bool swapped = false;
+  for (const auto& contact : found) {
+    const Touching t = touch(contact, at_a, at_b);
+    worst.normal = std::max(worst.normal, std::abs(t.normal.norm() - 1));
+    if (t.gap >= nearest.gap) continue;
+    nearest = t;
+    swapped = contact.swapped;
+  }
+  double seen = -infinity;  // a lower bound of the distance
+  for (const auto& contact : found) {
+    const Vec3 n = touch(contact, at_a, at_b).normal;
+    seen = std::max(seen, apart_along(a, at_a, b, at_b, contact.swapped ? Vec3(-n) : n));
+  }
+  for (int k = 0; k < 30; ++k)
+    seen = std::max(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
+  if (found.empty()) {
+    for (int k = 0; k < 3000 && seen < 0.9; ++k)  // enough to tell that shapes are 1 m apart
+      seen = std::max(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
+    if (seen < 0.9) ++worst.missed;
+    return;
+  }
+  const Vec3 normal = swapped ? Vec3(-nearest.normal) : nearest.normal;
+  const double proved = apart_along(a, at_a, b, at_b, normal);
+  if (nearest.gap > 0) {
+    ++worst.apart;
+    worst.proof = std::max(worst.proof, std::abs(nearest.gap - proved));
+    worst.a = std::max(worst.a, outside(a, at_a, swapped ? nearest.point_b : nearest.point_a));
+    worst.b = std::max(worst.b, outside(b, at_b, swapped ? nearest.point_a : nearest.point_b));
+  } else {
+    ++worst.overlapping;
+    if (std::abs(nearest.gap - proved) > accuracy) ++worst.unproved;
+    if (seen > nearest.gap + accuracy) ++worst.shallow;
+    if (seen > accuracy) ++worst.ghosts;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("contacts of cylinders are nearest points, with a proof") {
+  const auto kind =
+      GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "cylinder", "mesh");
+  const bool first = GENERATE(true, false);
+  Random random(11);
+  Worst worst;
+  for (int number = 0; number < 10000; ++number) {
+    const Shape a = random_shape(kind, random), b = random_shape("cylinder", random);
+    const Frame at_b{random.vector(), random.rotation()};
+    Frame at_a;
+    at_a.rotation = at_b.rotation * (number % 4 == 0 ? random.quarter_turns() : random.rotation());
+    at_a.origin = at_b.place(random.uniform(0, 2) * random.vector().normalized());
+    if (first)
+      look(a, at_a, b, at_b, random, worst);
+    else
+      look(b, at_b, a, at_a, random, worst);
+  }
+  INFO(kind << " apart " << worst.apart << " overlapping " << worst.overlapping << " unproved "
+            << worst.unproved << " shallow " << worst.shallow << " proof " << worst.proof << " points "
+            << worst.a << " " << worst.b << " missed " << worst.missed);
+  CHECK(worst.apart > 1000);
+  CHECK(worst.missed == 0);
+  CHECK(worst.proof < accuracy);
+  CHECK(worst.a < accuracy);
+  CHECK(worst.b < accuracy);
+  CHECK(worst.normal < 1e-12);
+  CHECK(worst.ghosts == 0);
+  if (kind != "mesh") CHECK(worst.unproved == 0);
+  if (kind == "node" || kind == "sphere") CHECK(worst.shallow == 0);
+}
+
+TEST_CASE("the least gap over a half space is the height of the lowest point") {
+  const auto kind =
+      GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "cylinder", "mesh");
+  Random random(13);
+  double worst = 0;
+  int missed = 0, ghosts = 0;
+  for (int number = 0; number < 10000; ++number) {
+    const Shape shape = random_shape(kind, random);
+    const Frame ground{random.vector(), random.rotation()};
+    Frame at{ground.place(random.vector()), ground.rotation};
+    at.rotation *= number % 4 == 0 ? random.quarter_turns() : random.rotation();
+    const double margin = random.uniform(0, 1);
+    const double expected = apart_along(shape, at, HalfSpace{}, ground, ground.rotation.col(2));
+    double least = infinity;
+    for (const auto& contact : contacts(shape, at, HalfSpace{}, ground, margin)) {
+      const Touching t = touch(contact, at, ground);
+      least = std::min(least, t.gap);
+      worst = std::max(worst, std::abs(t.gap - ground.rotation.col(2).dot(t.point_a - ground.origin)));
+    }
+    if (expected >= margin) {
+      ghosts += least < infinity;
+      continue;
+    }
+    missed += !(least < infinity);
+    worst = std::max(worst, std::abs(least - expected));
+  }
+  INFO(kind << " off by " << worst);
+  CHECK(missed == 0);
+  CHECK(ghosts == 0);
+  CHECK(worst < 1e-13);
+}

@@ -1,0 +1,56 @@
+#include <catch2/catch.hpp>
+
+#include "contact_shapes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+Frame moved(const Frame& at, const Vec3& velocity, const Vec3& spin, double time) {
+  const double angle = spin.norm() * time;
+  return {at.origin + time * velocity,
+          Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix() * at.rotation};
+}
+
+Vec3 velocity_at(const Frame& at, const Vec3& velocity, const Vec3& spin, const Vec3& point) {
+  return velocity + spin.cross(point - at.origin);
+}
+
+}  // namespace
+
+TEST_CASE("a gap changes by n . (v_a - v_b) at the touching points") {
+  using Kind = ContactPoint::Kind;
+  const auto kind = GENERATE(Kind::face, Kind::point, Kind::line, Kind::edges);
+  const bool rim = GENERATE(false, true);
+  if (rim && kind != Kind::face) return;
+  Random random(17);
+  constexpr double h = 1e-5;
+  for (int number = 0; number < 1000; ++number) {
+    ContactPoint contact;
+    contact.kind = kind;
+    contact.point_a = random.vector();
+    contact.point_b = random.vector();
+    contact.direction_a = random.vector().normalized();
+    contact.direction_b = random.vector().normalized();
+    contact.radius_a = random.uniform(0, 0.5);
+    contact.radius_b = random.uniform(0, 0.5);
+    contact.rim_a = rim ? random.uniform(0.1, 0.5) : 0;
+    contact.side = number % 2 == 0 ? 1 : -1;
+    const Frame a{3 * random.vector(), random.rotation()}, b{3 * random.vector(), random.rotation()};
+    const Vec3 v_a = random.vector(), w_a = random.vector(), v_b = random.vector(), w_b = random.vector();
+    const Touching t = touching(contact, a, b);
+    // Where lines are nearly parallel, or a disc nearly flat, the gap's curvature is large.
+    const Vec3 e_b = b.rotation * contact.direction_b;
+    if ((kind == Kind::edges || rim) && (a.rotation * contact.direction_a).cross(e_b).norm() < 0.3) continue;
+    if (t.gap + contact.radius_a + contact.radius_b < 0.3 && kind != Kind::face && kind != Kind::edges)
+      continue;
+    const double after = touching(contact, moved(a, v_a, w_a, h), moved(b, v_b, w_b, h)).gap;
+    const double before = touching(contact, moved(a, v_a, w_a, -h), moved(b, v_b, w_b, -h)).gap;
+    const double rate =
+        t.normal.dot(velocity_at(a, v_a, w_a, t.point_a) - velocity_at(b, v_b, w_b, t.point_b));
+    CHECK((after - before) / (2 * h) == Approx(rate).margin(1e-6));
+    CHECK(t.normal.norm() == Approx(1).epsilon(1e-14));
+    CHECK(t.normal.dot(t.point_a - t.point_b) == Approx(t.gap).margin(1e-12));
+  }
+}

@@ -1,0 +1,86 @@
+// Contact of cloth with itself and with other cloth.
+#include "contact_runs.h"
+#include "mesh.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double thickness = 2e-3;
+
+struct Sheets {
+  Scene scene;
+  Contact contact;
+
+  explicit Sheets(double friction = 0.3) {
+    contact.thickness = thickness;
+    contact.law[0].friction = friction;
+  }
+
+  /// Returns the first node. Fixed sheets have no links.
+  int add(const TriangleMesh& mesh, bool fixed = false) {
+    const int first = add_sheet_nodes(scene, mesh, 0.5);
+    for (auto [a, b, c] : mesh.triangles) contact.triangle.push_back({first + a, first + b, first + c});
+    if (fixed)
+      for (Eigen::Index i = 0; i < mesh.x.cols(); ++i)
+        scene.mass[static_cast<std::size_t>(first + i)] = infinity;
+    else
+      scene.effects.emplace_back(sheet_links(mesh, first, 1e-5));
+    return first;
+  }
+
+  Scene finish() {
+    scene.effects.emplace_back(Gravity{});
+    scene.effects.emplace_back(contact);
+    return scene;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("cloth that falls freely feels nothing of itself, flat or bent") {
+  for (const double radius : {infinity, 0.2, 0.05}) {
+    TriangleMesh mesh = grid_sheet({12, 4}, {0.3, 0.1});
+    for (Eigen::Index i = 0; i < mesh.x.cols() && std::isfinite(radius); ++i) {
+      const double angle = mesh.x(0, i) / radius;  // up to six: a tube that does not close
+      mesh.x(0, i) = radius * std::sin(angle);
+      mesh.x(2, i) = radius * std::cos(angle);
+    }
+    Sheets sheets;
+    sheets.add(mesh);
+    const Scene scene = sheets.finish();
+    const Method method = method_of("direct");
+    constexpr double h = 0.01;
+    constexpr int steps = 10;
+    const State end = run(scene, method, h, steps);
+    Points expected = scene.initial.x;
+    expected.row(2).array() -= gravity * h * h * steps * (steps + 1) / 2;
+    INFO("radius " << radius);
+    CHECK((end.x - expected).cwiseAbs().maxCoeff() <= 1e-11);
+  }
+}
+
+TEST_CASE("a sheet on another is carried, a thickness above it") {
+  Sheets sheets;
+  TriangleMesh table = grid_sheet({4, 4}, {0.4, 0.4}), cloth = grid_sheet({6, 6}, {0.2, 0.2});
+  const auto centre = [](TriangleMesh& mesh) { mesh.x.colwise() -= mesh.x.rowwise().mean().eval(); };
+  centre(table);
+  centre(cloth);
+  cloth.x = (Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix() * cloth.x).eval();
+  cloth.x.row(2).array() += 0.004;
+  sheets.add(table, true);
+  const int first = sheets.add(cloth);
+  const Scene scene = sheets.finish();
+  const Method method = method_of("direct");
+  Workspace workspace(scene, method);
+  const State end = run(scene, method, 0.005, 20, workspace);
+  const Points x = end.x.middleCols(first, cloth.x.cols());
+  CHECK(x.row(2).minCoeff() >= thickness - 1e-9);
+  CHECK(x.row(2).maxCoeff() <= thickness + 1e-9);
+  Vec3 carried = Vec3::Zero();
+  for (const ContactForce& contact : workspace.contacts())
+    carried += contact.normal.z() * contact.force.z() > 0 && contact.force.z() > 0 ? contact.force
+                                                                                   : Vec3(-contact.force);
+  CHECK(std::abs(carried.z() / weight(scene) - 1) <= 1e-8);
+}

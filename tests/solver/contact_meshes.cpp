@@ -1,0 +1,99 @@
+// Contact of closed meshes in a step, against boxes, balances and all pairs.
+#include <random>
+
+#include "contact_runs.h"
+#include "refined.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using namespace pbdcheck;
+
+namespace {
+
+/// An octahedron's triangles cut into four, `times` times, and the nodes moved onto a sphere.
+TriangleMesh ball_surface(double radius, int times) {
+  TriangleMesh mesh{(Points(3, 6) << 1, -1, 0, 0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, -1).finished(),
+                    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  for (int k = 0; k < times; ++k) mesh = refined(mesh);
+  mesh.x = radius * mesh.x.colwise().normalized();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a closed mesh of a cube rests as the box does") {
+  const Vec3 size = Vec3::Constant(0.2);
+  for (const bool on_mesh : {false, true}) {
+    const auto scene_of = [&](bool mesh) {
+      BodyScene build({.friction = 0.5});
+      const Vec3 slab(1, 1, 0.1);
+      if (on_mesh)
+        build.fixed(mesh ? Shape(ClosedMesh(refined(box_surface(slab)))) : Shape(Box{slab}),
+                    {Vec3(0, 0, -0.05)});
+      else
+        build.ground();
+      build.box(size, 8, {Vec3(0.01, 0.02, 0.1), Eigen::Quaterniond::Identity(), Vec3(0.3, 0.1, 0)});
+      if (mesh) build.contact().collider.back().shape = ClosedMesh(box_surface(size));
+      return build.finish();
+    };
+    const Scene box = scene_of(false), mesh = scene_of(true);
+    const Method method = method_of("direct");
+    Workspace of_box(box, method), of_mesh(mesh, method);
+    const State end = run(box, method, 0.01, 30, of_box), mesh_end = run(mesh, method, 0.01, 30, of_mesh);
+    INFO((on_mesh ? "on a mesh" : "on a half space"));
+    CHECK(std::abs(ground_force(of_mesh).z() / weight(mesh) - 1) <= 1e-9);
+    CHECK((end.x - mesh_end.x).cwiseAbs().maxCoeff() <= 1e-9);
+    CHECK(end.x(0, 1) > 0.015);  // it has slid
+    CHECK(of_mesh.contacts().size() >= of_box.contacts().size());
+  }
+}
+
+TEST_CASE("a ball of triangles on a plate of triangles gets the impulse that stops it") {
+  constexpr double h = 0.005, mass = 2, radius = 0.1;
+  BodyScene build({.friction = 0.5});
+  build.fixed(ClosedMesh(refined(refined(box_surface({1, 1, 0.1})))), {Vec3(0, 0, -0.05)});
+  build.ball(radius, mass, {Vec3(0.013, 0.027, 0.12), Eigen::Quaterniond(0.9, 0.3, 0.1, 0.2).normalized()});
+  build.contact().collider.back().shape = ClosedMesh(ball_surface(radius, 2));
+  const Scene scene = build.finish();
+  const Method method = method_of("direct");
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  int touching = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double before = state.v(2, 1);
+    REQUIRE(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(std::abs(mass * (state.v(2, 1) - before) / h + mass * gravity - ground_force(workspace).z()) <=
+          1e-8 * mass * gravity);
+    for (const ContactForce& contact : workspace.contacts()) CHECK(contact.gap >= -1e-9);
+    touching += ground_force(workspace).z() > 0;
+  }
+  CHECK(touching > 30);
+  CHECK(state.x(2, 1) <= radius + 1e-9);  // no higher than a ball that touches with a node
+  CHECK(state.x(2, 1) >= 0.93 * radius);  // no lower than one on a face of a twice refined octahedron
+}
+
+TEST_CASE("of a cloud of balls no pair overlaps after a step") {
+  constexpr double radius = 0.1;
+  constexpr int count = 150;
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  BodyScene build({.friction = 0}, 0);
+  std::vector<Vec3> centres;
+  while (centres.size() < count) {
+    const Vec3 centre = 0.8 * Vec3(uniform(engine), uniform(engine), uniform(engine));
+    if (std::any_of(centres.begin(), centres.end(),
+                    [&](const Vec3& c) { return (c - centre).norm() < 2.01 * radius; }))
+      continue;
+    centres.push_back(centre);
+    build.ball(radius, 1, {centre, Eigen::Quaterniond::Identity(), -3 * centre});
+  }
+  const Scene scene = build.finish();
+  Workspace workspace(scene, method_of("direct"));
+  const State end = run(scene, method_of("direct"), 0.02, 3, workspace);
+  double nearest = infinity;
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < i; ++j) nearest = std::min(nearest, (end.x.col(i) - end.x.col(j)).norm());
+  CHECK(nearest >= 2 * radius - 1e-9);
+  CHECK(workspace.contacts().size() > count / 2);
+}

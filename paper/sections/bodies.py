@@ -177,7 +177,7 @@ def redundant(results):
         "Does a mechanism move as before when joints hold what others hold already?",
         "A chain of two four-bars with up to three hinges more, each on the axis of one that is there already. Does it move as "
         "without them, and is the net force that a leg and a coupler exchange the same, whatever the relaxation makes of the "
-        "impulses?",
+        "impulses? Steps are solved to 1e-12 of their scale.",
         figures=[Figure("redundant_motion", "Largest difference of positions and of net forces in the plane (of the largest force) "
                         "to the same relaxation without redundant joints, and largest difference of the impulses that joints of "
                         "one place share (of their sum). Dashed: the bounds. Crossed: some step was not solved, or the run "

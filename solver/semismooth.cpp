@@ -66,16 +66,22 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
     const typename Block::Value step = -block.inverse_diagonal[i] * r;
     typename Block::Square by_p, by_step;
     derivative(block, i, step, by_p, by_step);
-    constexpr double relative_shift = 1e-10;
     const double weight = block.inverse_diagonal[i].trace() / Block::rows;  // about w
     typename Block::Square compliance = block.compliance[i];
-    compliance.diagonal().array() += weight > 0 ? relative_shift / weight : 1.0;
+    compliance.diagonal().array() += weight > 0 ? shift_ / weight : 1.0;
     typename Block::Square own = by_step * compliance;
     if (block.bounded()) own += (Block::Square::Identity() - by_p) / weight;
     const typename Block::Jacobian across = by_step * block.jacobian[i];
     right_.segment<Block::rows>(row) =
         block.bounded() ? typename Block::Value(block.allowed(i, block.impulse[i], step) / weight)
                         : typename Block::Value(-r);
+    if constexpr (is_local<Block>)
+      for (const auto& [contact, w] : block.column[i]) {  // J dv = W dp
+        const typename Block::Square coupled = by_step * w.transpose();
+        const int other = row + Block::rows * (contact - static_cast<int>(i));
+        for (int k = 0; k < Block::rows; ++k)
+          for (int l = 0; l < Block::rows; ++l) entries_.emplace_back(row + k, other + l, coupled(k, l));
+      }
     for (int k = 0; k < Block::rows; ++k) {
       for (int l = 0; l < Block::rows; ++l) entries_.emplace_back(row + k, row + l, own(k, l));
       for (int a = 0; a < Block::nodes; ++a) {
@@ -98,15 +104,16 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
   idle_ = residual < enough * lowest_ ? 0 : idle_ + 1;
   lowest_ = std::min(lowest_, residual);
   if (!(residual > 0) || idle_ > patience) return 0;
-  assemble(rows, v);
-  factor_->compute(matrix_);
+  keep_impulses_and_biases(rows, kept_);
+  start_ = v;
   bool better = false;
-  if (factor_->info() == Eigen::Success) {
-    solution_ = factor_->solve(right_);
-    const int velocities = static_cast<int>(solution_.size() - row_count(rows));
-    keep_impulses_and_biases(rows, kept_);
-    start_ = v;
-    for (double length = 1; !better && length > 0.1; length /= 2) {
+  constexpr int factorisations = 3;
+  for (int tried = 0; !better && tried < factorisations; ++tried) {
+    assemble(rows, v);
+    factor_->compute(matrix_);
+    if (factor_->info() == Eigen::Success) solution_ = factor_->solve(right_);
+    const int velocities = static_cast<int>(right_.size() - row_count(rows));
+    for (double length = 1; !better && length > 0.1 && factor_->info() == Eigen::Success; length /= 2) {
       restore_impulses_and_biases(kept_, rows);
       v = start_;
       each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, int first) {
@@ -118,6 +125,8 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
       });
       better = natural_residual(rows, v) < enough * residual;
     }
+    constexpr double change = 100, most_shift = 1e-2;
+    shift_ = better ? std::max(least_shift, shift_ / change) : std::min(most_shift, shift_ * change);
     if (!better) {
       restore_impulses_and_biases(kept_, rows);
       v = start_;

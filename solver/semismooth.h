@@ -3,9 +3,10 @@
 // + b + Sigma p. Each iteration solves the linear system of (dv, dp)
 //   M dv - J^T dp = 0,  (1 - P_p) dp / w + P_step (J dv + Sigma dp) = (P(p, -w r) - p) / w
 // (rows without a law: J dv + Sigma dp = -r) by sparse LU, and takes the longest of four steps that reduces
-// the residual; where none does, sweeps of Gauss-Seidel. Redundant rows make the system singular: Sigma is
-// taken larger by 1e-10 J W J^T, a proximal term, which the iteration removes (semismooth Newton: Qi, Sun
-// 1993; for friction Alart, Curnier 1991).
+// the residual. Redundant rows make the system singular: Sigma is taken larger by a part of J W J^T, a
+// proximal term, which the iteration removes: 1e-10, or, until steps reduce the residual again, up to 1e-2
+// where none of the four does (Levenberg, Marquardt); after three such in a row sweeps of Gauss-Seidel
+// (semismooth Newton: Qi, Sun 1993; for friction Alart, Curnier 1991).
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -22,6 +23,7 @@ class SemismoothNewton {
   void begin() {
     lowest_ = infinity;
     idle_ = 0;
+    shift_ = least_shift;
   }
 
   /// Improves impulses and v by one iteration; returns the residual (sqrt(J)) it met, or 0 where that has not
@@ -30,6 +32,9 @@ class SemismoothNewton {
 
  private:
   void assemble(const Rows& rows, const Points& v);
+
+  static constexpr double least_shift = 1e-10;
+  double shift_ = least_shift;  // of Sigma, as part of J W J^T
 
   using Matrix = Eigen::SparseMatrix<double>;
   std::vector<Eigen::Triplet<double>> entries_;

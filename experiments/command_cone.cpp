@@ -15,6 +15,8 @@ namespace {
 
 using pbd::reference::ConeSolution;
 
+constexpr int most_sweeps = 100000;
+
 std::vector<double> list_of(const Eigen::VectorXd& numbers) {
   return {numbers.begin(), numbers.end()};
 }
@@ -64,7 +66,8 @@ int cone(const ConeOptions& options) {
   if (file.asymmetry > 1e-12)
     warn(fmt::format("{}: W is unsymmetric by {:.2g} of its size; solved with its symmetric part",
                      options.problem.string(), file.asymmetry));
-  const ConeSolution solution = solver.solve(file.problem, friction_law(options.law), options.tolerance);
+  const ConeSolution solution =
+      solver.solve({file.problem, friction_law(options.law), options.tolerance, most_sweeps});
   if (!options.output.empty()) write_cone_file(options.output, file.problem, solution);
   if (options.json) {
     fmt::print("{}", json_text(solution_json(options, solution)));

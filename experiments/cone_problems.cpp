@@ -1,11 +1,18 @@
 // How well are contact problems with friction solved whose answer was planted?
 #include "cone_solvers.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "experiments.h"
 #include "measure.h"
 #include "planted_cones.h"
+#include "relaxation.h"
 
 namespace pbdcheck {
 namespace {
@@ -13,25 +20,52 @@ namespace {
 using namespace pbd::reference;
 using Eigen::VectorXd;
 
-constexpr double tolerance = 1e-8;
-constexpr double agreement = 1e-6;  // m/s; planted velocities are of 1 m/s
+constexpr double tolerance = 1e-8, loose = 1e-4;  // a relaxation is timed to both
+constexpr double agreement = 1e-6;                // m/s; planted velocities are of 1 m/s
 
 double largest(const VectorXd& v) {
   return v.allFinite() ? v.cwiseAbs().maxCoeff() : std::nan("");
+}
+
+/// Largest over smallest eigenvalue of W, its contacts equilibrated, and whether W is regular; where it is
+/// not, of the eigenvalues that are not zero.
+struct Conditioning {
+  double condition = std::nan("");
+  bool regular = false;
+};
+
+Conditioning conditioning(const ConeProblem& problem) {
+  const Eigen::MatrixXd w = equilibrate(problem).problem.delassus;
+  const VectorXd all =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
+  const double zero = std::numeric_limits<double>::epsilon() * static_cast<double>(w.rows()) * all.maxCoeff();
+  const auto smallest = std::find_if(all.begin(), all.end(), [&](double value) { return value > zero; });
+  return {all.maxCoeff() / *smallest, smallest == all.begin()};
 }
 
 struct Problem {
   std::string family;
   int number;
   PlantedCone planted;
+  double condition = std::nan("");
+  bool demanded = false;  // that relaxations solve it
+
+  bool large() const { return planted.problem.contacts() > 20; }
 };
 
-/// The 200 small ones.
+/// The 200 small ones. Relaxations are to solve those whose W is well-conditioned; under Coulomb's law, whose
+/// solution is not unique elsewhere, if W is regular, too.
 std::vector<Problem> small_problems(FrictionLaw law) {
+  const bool convex = law == FrictionLaw::cone;
   std::vector<Problem> all;
   for (const auto& family : planted_families())
-    for (int i = 1; i <= planted_seeds; ++i)
-      all.push_back({std::string(family.name), i, family.draw(law, static_cast<std::uint64_t>(i))});
+    for (int i = 1; i <= planted_seeds; ++i) {
+      const PlantedCone planted = family.draw(law, static_cast<std::uint64_t>(i));
+      const auto [condition, regular] = conditioning(planted.problem);
+      constexpr double good = 1e3;
+      all.push_back(
+          {std::string(family.name), i, planted, condition, condition <= good && (convex || regular)});
+    }
   return all;
 }
 
@@ -41,90 +75,120 @@ std::vector<Problem> large_problems(FrictionLaw law, bool full) {
   for (const int contacts : full ? std::vector{150, 450, 900, 3000} : std::vector{150, 450, 900})
     for (int i = 1; i <= each; ++i) {
       const auto drawn = static_cast<std::uint64_t>(i);
-      all.push_back({"regular", i, planted_regular(law, contacts, drawn)});
+      all.push_back(
+          {"regular", i, planted_regular(law, contacts, drawn), std::nan(""), law == FrictionLaw::cone});
       all.push_back({"hard", i, planted_hard(law, contacts, drawn)});
     }
   return all;
 }
 
 std::vector<std::string> columns() {
-  return {"family",           "number", "contacts",    "law",           "relaxation",
-          "natural_residual", "gap",    "feasibility", "error_m_per_s", "difference_m_per_s",
-          "sweeps",           "wall_s", "status",      "reason"};
-}
-
-/// A row: the error is to the planted velocity, the difference to the first judge's.
-void add_row(Table& table, const Problem& p, const std::string& law, const std::string& name,
-             const ConeSolution& found, const VectorXd& judged) {
-  const auto& m = found.measures;
-  table.row({p.family, std::int64_t{p.number}, std::int64_t{p.planted.problem.contacts()}, law, name,
-             m.natural_residual, m.gap, m.feasibility(), largest(found.velocity - p.planted.velocity),
-             largest(found.velocity - judged), std::int64_t{found.iterations}, found.seconds,
-             std::string(outcome_names[static_cast<std::size_t>(found.outcome)]), found.reason});
+  return {"family",    "number",           "contacts", "condition",   "law",           "relaxation",
+          "tolerance", "natural_residual", "gap",      "feasibility", "error_m_per_s", "difference_m_per_s",
+          "sweeps",    "wall_s",           "status",   "reason"};
 }
 
 struct Found {
-  Worst residual, error;
-  int compared = 0, apart = 0;
+  Worst residual, error;                 // of the first judge
+  int compared = 0, apart = 0;           // of cone_ipopt
+  std::map<std::string, Worst> relaxed;  // natural residuals on the problems demanded
 };
 
 /// Under Coulomb's law Ipopt is slow, as it solves a sequence of problems: it takes the first of each family,
-/// or five.
-bool taken(const ConeSolver& solver, FrictionLaw law, int number, bool full) {
-  return law == FrictionLaw::cone || solver.name != "cone_ipopt" || number <= (full ? 5 : 1);
+/// or five. Of large problems the judge takes the convex ones.
+bool taken(const ConeSolver& solver, FrictionLaw law, const Problem& p, bool full) {
+  const bool convex = law == FrictionLaw::cone, ipopt = solver.name == "cone_ipopt";
+  if (!solver.judge) return true;
+  if (p.large()) return convex && !ipopt;
+  return convex || !ipopt || p.number <= (full ? 5 : 1);
 }
 
-Found solve_all(Context& context, Table& table, const std::vector<Problem>& problems, const std::string& law,
-                bool judge_only) {
-  Found all;
-  for (const Problem& p : problems) {
-    VectorXd judged;
+/// Solves a problem by all; the first judge's velocity is what the others are compared with.
+class Solves {
+ public:
+  Solves(Context& context, std::string_view table)
+      : context_(context), table_(context.table(table, columns())) {}
+
+  void solve(const Problem& p, FrictionLaw law) {
+    const int most_sweeps = p.demanded || (context_.full() && !p.large()) ? 20000 : 2000;
+    judged_.resize(0);
     for (const ConeSolver& solver : cone_solvers()) {
-      if (!taken(solver, friction_law(law), p.number, context.full()) || (judge_only && judged.size() > 0))
-        continue;
-      const ConeSolution found = solver.solve(p.planted.problem, friction_law(law), tolerance);
-      const bool first = judged.size() == 0;
-      if (first) judged = found.velocity;
-      add_row(table, p, law, solver.name, found, judged);
-      if (first) {
-        all.residual.add(found.measures.natural_residual);
-        all.error.add(largest(found.velocity - p.planted.velocity));
+      if (!taken(solver, law, p, context_.full())) continue;
+      if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, most_sweeps});
+      const ConeSolution last = add(p, law, solver, {p.planted.problem, law, tolerance, most_sweeps});
+      if (!solver.judge && p.demanded) found.relaxed[solver.name].add(last.measures.natural_residual);
+      if (solver.name == "cone_interior_point") {
+        found.residual.add(last.measures.natural_residual);
+        found.error.add(largest(last.velocity - p.planted.velocity));
       } else if (solver.name == "cone_ipopt") {
-        ++all.compared;
-        all.apart += !(largest(found.velocity - judged) <= agreement);
+        ++found.compared;
+        found.apart += !(largest(last.velocity - judged_) <= agreement);
       }
     }
-    context.advance(p.family + " " + law);
+    context_.advance(fmt::format("{} {}", p.family, friction_law_names[static_cast<std::size_t>(law)]));
   }
-  return all;
-}
+  void close() { table_.close(); }
+
+  Found found;
+
+ private:
+  /// A row: the error is to the planted velocity.
+  ConeSolution add(const Problem& p, FrictionLaw law, const ConeSolver& solver, const ConeTask& task) {
+    const ConeSolution now = solver.solve(task);
+    if (solver.name == "cone_interior_point") judged_ = now.velocity;
+    const auto& m = now.measures;
+    table_.row({p.family, std::int64_t{p.number}, std::int64_t{p.planted.problem.contacts()}, p.condition,
+                std::string(friction_law_names[static_cast<std::size_t>(law)]), solver.name, task.tolerance,
+                m.natural_residual, m.gap, m.feasibility(), largest(now.velocity - p.planted.velocity),
+                judged_.size() > 0 ? largest(now.velocity - judged_) : std::nan(""),
+                std::int64_t{now.iterations}, now.seconds,
+                std::string(outcome_names[static_cast<std::size_t>(now.outcome)]), now.reason});
+    return now;
+  }
+
+  Context& context_;
+  Table table_;
+  VectorXd judged_;
+};
 
 }  // namespace
 
 void cone_problems(Context& context) {
-  const auto cones = small_problems(FrictionLaw::cone), coulombs = small_problems(FrictionLaw::coulomb);
-  const auto large = large_problems(FrictionLaw::cone, context.full());
-  context.begin(std::ssize(cones) + std::ssize(coulombs) + std::ssize(large));
-  Table small = context.table("solves", columns()), big = context.table("large", columns());
-  const Found cone = solve_all(context, small, cones, "cone", false);
-  const Found coulomb = solve_all(context, small, coulombs, "coulomb", false);
-  const Found many = solve_all(context, big, large, "cone", true);
-  small.close();
-  big.close();
   constexpr double certain = 1e-10;
   const char* residual = "largest natural residual, |r - P_K(r - u)| / |q|";
-  context.verdict("cone_problems.cone", "cone_interior_point solves every planted problem of the convex law",
-                  residual, cone.residual.value(), certain);
-  context.verdict("cone_problems.velocity", "cone_interior_point finds the planted velocity (convex law)",
-                  "largest error, m/s", cone.error.value(), 1e-9);
-  context.verdict("cone_problems.coulomb",
-                  "cone_interior_point solves every planted problem of Coulomb's law", residual,
-                  coulomb.residual.value(), certain);
-  context.verdict("cone_problems.ipopt", "cone_ipopt finds the same velocities within 1e-6 m/s (convex law)",
-                  "share of problems where it does not",
-                  cone.compared > 0 ? static_cast<double>(cone.apart) / cone.compared : std::nan(""), 0.1);
-  context.verdict("cone_problems.large", "cone_interior_point solves every large problem of the convex law",
-                  residual, many.residual.value(), certain);
+  Solves small(context, "solves"), large(context, "large");
+  context.begin(2 * std::ssize(planted_families()) * planted_seeds + 4 * (context.full() ? 12 : 3));
+  for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
+    const bool convex = law == FrictionLaw::cone;
+    small.found = large.found = {};
+    for (const Problem& p : small_problems(law)) small.solve(p, law);
+    for (const Problem& p : large_problems(law, context.full())) large.solve(p, law);
+    const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
+    const char* of = convex ? "of the convex law" : "of Coulomb's law";
+    context.verdict("cone_problems." + name,
+                    fmt::format("cone_interior_point solves every planted problem {}", of), residual,
+                    small.found.residual.value(), certain);
+    for (const auto relaxation : pbd::relaxation_names())
+      context.verdict(fmt::format("cone_problems.{}.{}", name, relaxation),
+                      fmt::format("{} solves every well-conditioned problem {}", relaxation, of), residual,
+                      small.found.relaxed[std::string(relaxation)].value(), tolerance);
+    if (!convex) continue;
+    context.verdict("cone_problems.velocity", "cone_interior_point finds the planted velocity (convex law)",
+                    "largest error, m/s", small.found.error.value(), 1e-9);
+    const double apart =
+        small.found.compared > 0 ? 1.0 * small.found.apart / small.found.compared : std::nan("");
+    context.verdict("cone_problems.ipopt",
+                    "cone_ipopt finds the same velocities within 1e-6 m/s (convex law)",
+                    "share of problems where it does not", apart, 0.1);
+    context.verdict("cone_problems.large", "cone_interior_point solves every large problem of the convex law",
+                    residual, large.found.residual.value(), certain);
+    for (const auto relaxation : pbd::relaxation_names())
+      context.verdict(fmt::format("cone_problems.large.{}", relaxation),
+                      fmt::format("{} solves every large regular problem of the convex law", relaxation),
+                      residual, large.found.relaxed[std::string(relaxation)].value(), tolerance);
+  }
+  small.close();
+  large.close();
 }
 
 }  // namespace pbdcheck

@@ -6,16 +6,25 @@
 #include "cone_interior_point.h"
 #include "cone_ipopt.h"
 #include "error.h"
+#include "relaxation.h"
 
 namespace pbdcheck {
 
-using pbd::reference::FrictionLaw;
+using namespace pbd::reference;
 
 const std::vector<ConeSolver>& cone_solvers() {
-  static const std::vector<ConeSolver> list{
-      {"cone_interior_point", {"coulomb", "cone"}, pbd::reference::cone_interior_point},
-      {"cone_ipopt", {"coulomb", "cone"}, pbd::reference::cone_ipopt},
-  };
+  static const std::vector<ConeSolver> list = [] {
+    const auto judge = [](auto solve) {
+      return [=](const ConeTask& task) { return solve(task.problem, task.law, task.tolerance); };
+    };
+    const std::vector<std::string> laws{"coulomb", "cone"};
+    std::vector<ConeSolver> all{{"cone_interior_point", laws, judge(cone_interior_point), true},
+                                {"cone_ipopt", laws, judge(cone_ipopt), true}};
+    for (const auto name : pbd::relaxation_names())
+      all.push_back(
+          {std::string(name), laws, [name](const ConeTask& task) { return relax_cone(name, task); }, false});
+    return all;
+  }();
   return list;
 }
 

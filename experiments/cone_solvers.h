@@ -5,19 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "cone_problem.h"
+#include "cone_relaxations.h"
 
 namespace pbdcheck {
 
 struct ConeSolver {
   std::string name;
   std::vector<std::string> laws;
-  std::function<pbd::reference::ConeSolution(const pbd::reference::ConeProblem&, pbd::reference::FrictionLaw,
-                                             double tolerance)>
-      solve;
+  std::function<pbd::reference::ConeSolution(const ConeTask&)> solve;
+  bool judge;  // shares no code with the solver; knows no sweeps
 };
 
-/// All of them; the first is the default.
+/// Judges, and the solver's relaxations; the first is the default.
 const std::vector<ConeSolver>& cone_solvers();
 
 /// coulomb, cone, box.

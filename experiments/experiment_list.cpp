@@ -48,6 +48,7 @@ const std::vector<Experiment>& experiments() {
        simbenchmark},
       {"contact_hard_cases", "Does one method without settings survive the contacts that solvers fail on?",
        contact_hard_cases},
+      {"friction_cone", "Do the impulses of a step's contacts obey the law of friction?", friction_cone},
       {"cone_problems", "Are contact problems with friction solved whose answer was planted?", cone_problems},
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},

@@ -30,6 +30,7 @@ void stack(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
 void cone_problems(Context& context);
+void friction_cone(Context& context);
 void work_precision(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);

@@ -119,7 +119,9 @@ void add_cone(CLI::App& app, ConeOptions& options) {
   command->add_option("--law", options.law, joined(cone_laws()))
       ->check(one_of(cone_laws()))
       ->capture_default_str();
-  command->add_option("--relaxation", options.relaxation, "Solver, as of `list references`")
+  command
+      ->add_option("--relaxation", options.relaxation,
+                   "A judge of contact problems (`list references`), or a relaxation (`list relaxations`)")
       ->capture_default_str();
   command->add_option("--tolerance", options.tolerance, "Largest natural residual, |r - P_K(r - u)| / |q|")
       ->capture_default_str();

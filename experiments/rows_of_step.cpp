@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "contact_rows.h"
 #include "linearise.h"
 
 namespace pbdcheck {
@@ -40,10 +41,11 @@ void stir(Scene& scene) {
       scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
 }
 
-LinearStep linear_step(const Scene& scene, const State& state, double h) {
+LinearStep linear_step(const Scene& scene, const State& state, double h, Friction law) {
   LinearStep step;
   std::vector<std::size_t> effect_of_block;
   step.rows = allocate_rows(scene, effect_of_block);
+  ContactRows contacts(scene, law, step.rows, effect_of_block);
   Bodies bodies(scene);
   Points x, v, acceleration;
   std::vector<Pose> poses;
@@ -53,9 +55,14 @@ LinearStep linear_step(const Scene& scene, const State& state, double h) {
   step.v_free = v + h * acceleration;
   const StepMap map{x, step.v_free, h, h};
   const Points at_rest = Points::Zero(3, bodies.columns());
+  const Configuration start{x, poses, state.time};
+  const auto& inverse_mass = step.rows.inverse_mass;
+  if (contacts.listed()) contacts.find(scene, bodies, start, v, map, h, false, inverse_mass, step.rows);
   for (std::size_t b = 0; b < step.rows.blocks.size(); ++b)
-    linearise(scene.effects[effect_of_block[b]], map, {x, poses, state.time}, at_rest, step.rows.inverse_mass,
-              1, step.rows.blocks[b]);
+    if (contacts.owns(b))
+      contacts.linearise(start, nullptr, map, at_rest, inverse_mass, b, step.rows);
+    else
+      linearise(scene.effects[effect_of_block[b]], map, start, at_rest, inverse_mass, 1, step.rows.blocks[b]);
   return step;
 }
 

@@ -15,8 +15,9 @@ struct LinearStep {
 /// Adds smooth velocities that excite every mode.
 void stir(pbd::Scene& scene);
 
-/// Implicit Euler rows of h seconds from `state`, linearised at its positions.
-LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h);
+/// Implicit Euler rows of h seconds from `state`, linearised at its positions; those of contacts by `law`.
+LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h,
+                       pbd::Friction law = pbd::Friction::coulomb);
 
 /// Velocities (m/s) that solve the rows exactly, by Eigen's dense LDL^T of N = J W J^T + Sigma.
 pbd::Points dense_solution(const LinearStep& step);

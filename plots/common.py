@@ -25,7 +25,7 @@ STYLES = {
     "gauss_seidel": (BLUE, "o", "-"), "jacobi": (ORANGE, "s", "--"), "nesterov_jacobi": (GREEN, "^", "-."),
     "conjugate_gradients": (PURPLE, "P", (0, (5, 1))),
     "direct": (BLACK, "D", ":"),
-    "cone_interior_point": (BLACK, "*", ":"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),
+    "cone_interior_point": (SKY, "*", "-"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
     "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),

@@ -3,9 +3,14 @@
 import numpy as np
 
 from common import curve_points, figure, footnote, panels, shared_legend, style
-from reading import drawable, failed, reasons_note, text_number
+from reading import drawable, failed, text_number
 
 TOLERANCES = (1e-4, 1e-8)
+
+
+def at_tolerance(frame):
+    """The solves to the smallest tolerance."""
+    return frame[frame["tolerance"] == frame["tolerance"].min()]
 
 
 def performance(frame, tolerance):
@@ -49,11 +54,18 @@ def profiles(frame):
 
 @figure("cone_problems", "large", table="large")
 def large(frame):
-    """Seconds over the number of contacts, a marker a problem."""
-    fig, (ax,) = panels(1, height=2.4)
-    for family, rows in frame.groupby("family", sort=False):
-        curve_points(ax, rows, "contacts", "wall_s", family, style(family) | {"linestyle": "none"})
-    ax.set(xscale="log", yscale="log", xlabel="contacts", ylabel="wall time (s)")
-    shared_legend(fig, [ax])
-    footnote(fig, reasons_note(failed(frame, "wall_s")))
+    """Seconds to the smaller tolerance over the number of contacts, a panel a law and family, a marker a problem."""
+    groups = list(at_tolerance(frame).groupby(["law", "family"], sort=False))
+    fig, axes = panels(len(groups), columns=2, height=2.0, sharex=True, sharey=True)
+    for ax, ((law, family), rows) in zip(axes, groups):
+        for name, solves in rows.groupby("relaxation", sort=False):
+            curve_points(ax, solves, "contacts", "wall_s", name, style(name) | {"linestyle": "none"})
+        ax.set(xscale="log", yscale="log", title=f"law {law}, {family}")
+        ax.set_xticks(sorted(set(frame["contacts"])), [f"{n:.0f}" for n in sorted(set(frame["contacts"]))])
+        ax.minorticks_off()
+    fig.supxlabel("contacts", fontsize=8)
+    fig.supylabel("wall time (s)", fontsize=8)
+    shared_legend(fig, axes)
+    missed = len(failed(at_tolerance(frame), "wall_s"))
+    footnote(fig, f"Crossed: {missed} solves that missed their tolerance." if missed else "")
     return fig

@@ -13,6 +13,7 @@ import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
 import friction  # noqa: F401
+import friction_cone  # noqa: F401
 import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401

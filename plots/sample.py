@@ -9,7 +9,7 @@ from command import command
 from reading import InputError
 from sample_bodies import joints, redundant, rotation
 from sample_bench import contact_hard_cases, simbenchmark
-from sample_cones import cone_problems
+from sample_cones import cone_problems, friction_cone
 from sample_contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
 from sample_files import write, write_run
 from sample_motion import damping, direction
@@ -299,7 +299,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 def write_all(directory):
     for experiment in (outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
                        mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
-                       friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, cone_problems,
+                       friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,
                        effects_cost, point_hard_cases, generated_scenes, judges):
         experiment(directory)

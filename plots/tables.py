@@ -6,8 +6,8 @@ METHOD = "scene step_s integrator outer relaxation friction outer_iterations swe
 ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
-CONES = ("family number contacts law relaxation natural_residual gap feasibility error_m_per_s difference_m_per_s sweeps wall_s "
-         "status reason")
+CONES = ("family number contacts condition law relaxation tolerance natural_residual gap feasibility error_m_per_s "
+         "difference_m_per_s sweeps wall_s status reason")
 
 TABLES = {
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
@@ -78,6 +78,10 @@ TABLES = {
     ("contact_hard_cases", "gates"): "scene step_s integrator outer relaxation friction steps steps_ok sweeps gate measured "
                                      "bound holds status reason",
     ("contact_hard_cases", "frontier"): "scene outer relaxation friction largest_step_s fewest_sweeps status reason",
+    ("friction_cone", "contacts"): "law relaxation contact coefficient normal_n_s tangent1_n_s tangent2_n_s slip_m_per_s "
+                                   "complementarity_j dissipation_j allowed_j",
+    ("friction_cone", "solves"): "law relaxation contacts natural_residual complementarity_share dissipation_share "
+                                 "velocity_share sweeps wall_s status reason",
     ("cone_problems", "solves"): CONES,
     ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",

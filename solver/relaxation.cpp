@@ -97,6 +97,9 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
     });
     constraints_at_a_node_ =
         constraints.empty() ? 1 : *std::max_element(constraints.begin(), constraints.end());
+    for_each_block(rows.blocks, [&]<class Block>(const Block&) {
+      if (is_local<Block>) constraints_at_a_node_ = infinity;
+    });
   }
   double estimate = 0;
   for (int k = 0; k < most_steps; ++k) {
@@ -111,6 +114,7 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
 
 void Jacobi::begin(Rows& rows, const Points& v, bool) {
   omega_ = std::min(1.0, 2 / bound_.update(rows, v));
+  least_omega_ = omega_ / 2;
   last_residual_ = std::numeric_limits<double>::infinity();
 }
 
@@ -129,7 +133,7 @@ double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   v.swap(next_);
   const double residual = std::sqrt(squared);
   constexpr double rounding = 1e-9;
-  if (residual > (1 + rounding) * last_residual_) omega_ *= 0.9;
+  if (residual > (1 + rounding) * last_residual_) omega_ = std::max(least_omega_, 0.9 * omega_);
   last_residual_ = residual;
   return residual;
 }
@@ -191,6 +195,9 @@ double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       const typename Block::Value change = block.allowed(i, start, -omega_ * (block.inverse_diagonal[i] * r));
       squared += block.squared_residual(i, r, change) / (block.bounded() ? omega_ * omega_ : omega_);
       compliant += change.dot(block.compliance[i] * change);
+      if constexpr (is_local<Block>)  // its share of q^T W q, W symmetric
+        compliant += change.dot(2 * (v.col(block.node[i][0]) - extrapolated_.col(block.node[i][0])) +
+                                block.delassus[i] * change);
       previous = block.impulse[i];
       block.impulse[i] = start + change;
       gradient_along_step += r.dot(block.impulse[i] - previous);
@@ -282,6 +289,7 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       auto direction = entries(direction_, block, first_row, i);
       direction = beta * direction - entries(last_, block, first_row, i);
       curvature += direction.dot(block.compliance[i] * direction);
+      if constexpr (is_local<Block>) curvature += direction.dot(velocity_.col(block.node[i][0]));
     }
   });
   last_product_ = product;

@@ -3,8 +3,8 @@
 // where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do. Rows of
 // three with friction are a contact's, normal first, and obey its law instead (contact/friction.h).
 // Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
-// contiguous, one entry a constraint; a rigid body counts as two nodes (bodies.h). Units: v m/s, p N s for
-// lengths; b, J v in the constraint's unit per second.
+// contiguous, one entry a constraint; a rigid body counts as two nodes (bodies.h), a local problem's contact
+// as one. Units: v m/s, p N s for lengths; b, J v in the constraint's unit per second.
 //
 // `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
 // singular; with friction one number for the three rows, 3/trace(N_ii), so that projections remain Euclidean.
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -163,8 +164,25 @@ struct RowBlock : ConstraintShape<R, K> {
   }
 };
 
+/// Contacts of a local problem, u = W p + q: node i is the relative velocity u of contact i, and has no mass.
+/// What an impulse does to velocities is a column of the Delassus matrix W.
+struct LocalContacts : RowBlock<3, 1> {
+  struct Coupling {
+    int contact;
+    Square block;  // 1/kg
+  };
+  std::vector<std::vector<Coupling>> column;  // of W, its blocks that are not zero
+
+  void apply(const std::vector<double>&, std::size_t i, const Value& p, Points& v) const {
+    for (const auto& [contact, block] : column[i]) v.col(contact) += block * p;
+  }
+};
+
+template <class Block>
+inline constexpr bool is_local = std::is_same_v<Block, LocalContacts>;
+
 using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
-                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>>;
+                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>, LocalContacts>;
 
 struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass

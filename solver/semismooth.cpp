@@ -75,6 +75,13 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
     right_.segment<Block::rows>(row) =
         block.bounded() ? typename Block::Value(block.allowed(i, block.impulse[i], step) / weight)
                         : typename Block::Value(-r);
+    if constexpr (is_local<Block>)
+      for (const auto& [contact, w] : block.column[i]) {  // J dv = W dp
+        const typename Block::Square coupled = by_step * w.transpose();
+        const int other = row + Block::rows * (contact - static_cast<int>(i));
+        for (int k = 0; k < Block::rows; ++k)
+          for (int l = 0; l < Block::rows; ++l) entries_.emplace_back(row + k, other + l, coupled(k, l));
+      }
     for (int k = 0; k < Block::rows; ++k) {
       for (int l = 0; l < Block::rows; ++l) entries_.emplace_back(row + k, row + l, own(k, l));
       for (int a = 0; a < Block::nodes; ++a) {
@@ -122,14 +129,14 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
   idle_ = residual < enough * lowest_ ? 0 : idle_ + 1;
   lowest_ = std::min(lowest_, residual);
   if (!(residual > 0) || idle_ > patience) return 0;
-  constexpr int attempts = 5, instead = 10;
+  constexpr int attempts = 3, instead = 10;
   constexpr double change = 100;
   for (int k = 0; k < attempts; ++k) {
     if (descend(rows, v, enough * residual)) {
       shift_ = std::max(least_shift, shift_ / change);
       return residual;
     }
-    shift_ = std::min(1.0, shift_ * change);
+    shift_ = std::min(1e-2, shift_ * change);
   }
   for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
   return residual;

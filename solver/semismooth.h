@@ -5,7 +5,7 @@
 // (rows without a law: J dv + Sigma dp = -r) by sparse LU, and takes the longest of four steps that reduces
 // the residual. Redundant rows make the system singular: Sigma is taken larger by a part of J W J^T, 1e-10 at
 // least, a proximal term, which the iteration removes; where no step reduces the residual the part grows, and
-// then shrinks again (Levenberg 1944). Where none of five does, sweeps of Gauss-Seidel (semismooth Newton:
+// then shrinks again (Levenberg 1944). Where none of three does, sweeps of Gauss-Seidel (semismooth Newton:
 // Qi, Sun 1993; for friction Alart, Curnier 1991).
 #pragma once
 

@@ -7,7 +7,7 @@ from content import Section
 from sections.accuracy import dual_vs_primal, judges, mesh_refinement
 from sections.bodies import joints, redundant, rotation
 from sections.bench import contact_hard_cases, simbenchmark
-from sections.cones import cone_problems
+from sections.cones import cone_problems, friction_cone
 from sections.contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
 from sections.cost import effects_cost, rival_newton, work_precision
 from sections.energy import energy
@@ -22,7 +22,7 @@ NO_TABLE = "The run left no table."
 SECTIONS = {function.__name__: function for function in (
     judges, outer_convergence, stability_map, contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
     mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
-    friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, cone_problems,
+    friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
     work_precision, rival_newton,
     effects_cost, point_hard_cases, generated_scenes)}
 

@@ -10,6 +10,7 @@
 #include "mistakes.h"
 #include "planted_cones.h"
 #include "program.h"
+#include "relaxation.h"
 
 using namespace pbdcheck;
 using namespace pbdcheck::test;
@@ -170,6 +171,20 @@ TEST_CASE("cone fails with exit code 1 where no impulse is within the tolerance"
   const auto ran = run_program({"cone", fixed.string()});
   CHECK(ran.exit_code == 1);
   CHECK_THAT(ran.err, Catch::Contains("fixed.dat: ") && Catch::Contains("asked for 1e-08"));
+}
+
+TEST_CASE("each of the solver's relaxations solves a problem from a file") {
+  const auto cube = (std::filesystem::path(PBDCHECK_PROBLEMS) / "sliding_cube.dat").string();
+  for (const auto relaxation : pbd::relaxation_names())
+    for (const auto* law : {"cone", "coulomb"}) {
+      const auto ran =
+          run_program({"cone", cube, "--law", law, "--relaxation", std::string(relaxation), "--json"});
+      CHECK(ran.exit_code == 0);
+      const auto json = nlohmann::json::parse(ran.out);
+      CHECK(json["relaxation"] == std::string(relaxation));
+      CHECK(json["natural_residual"].get<double>() <= 1e-8);
+      CHECK(json["sweeps"].get<int>() > 0);
+    }
 }
 
 TEST_CASE("the problems that come with the program are solved by every law") {

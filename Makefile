@@ -81,9 +81,11 @@ format-check: ## fail if a C++ source is not formatted (needs clang-format 14)
 	@if $(CLANG_FORMAT) --version | grep -q 'version 14\.'; then $(CLANG_FORMAT) --dry-run --Werror $(SOURCES); \
 	else echo "format-check skipped: needs clang-format 14, found $$($(CLANG_FORMAT) --version)"; fi
 
-tidy: build ## run clang-tidy over the C++ sources
+tidy: deps ## run clang-tidy over the C++ sources
 	@$(INSTALL) tidy
-	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/release -extra-arg=-Wno-unknown-warning-option "^$(CURDIR)/(solver|reference|experiments|tests)/"
+	cmake --preset debug
+	cmake --build --preset debug --target build_info
+	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/debug -extra-arg=-Wno-unknown-warning-option "^$(CURDIR)/(solver|reference|experiments|tests)/"
 
 bench: build ## measure times, one thread, nothing else should run
 	$(PBDCHECK) run work_precision effects_cost --tier $(TIER) --threads 1 -o $(RESULTS)

@@ -73,24 +73,12 @@ void take_directions(const E& effect, const Configuration& at, std::size_t i, co
 
 /// Inverse of a symmetric positive semidefinite N; its pseudo-inverse, and `singular` set, if it is not
 /// definite.
-template <class Square>
-Square invert(const Square& n, bool& singular) {
-  singular = false;
-  if constexpr (Square::RowsAtCompileTime == 1) {
-    singular = !(n(0, 0) > 0);
-    return Square(singular ? 0.0 : 1 / n(0, 0));
-  } else {
-    const Eigen::LLT<Square> factor(n);
-    constexpr double definite = 1e-14;  // smallest pivot against the largest entry
-    if (factor.info() == Eigen::Success &&
-        factor.matrixLLT().diagonal().array().square().minCoeff() > definite * n.diagonal().maxCoeff())
-      return factor.solve(Square::Identity());
-    singular = true;
-    const Eigen::SelfAdjointEigenSolver<Square> eigen(n);
-    const double cut = definite * eigen.eigenvalues().cwiseAbs().maxCoeff();
-    const auto inverse = (eigen.eigenvalues().array() > cut).select(1 / eigen.eigenvalues().array(), 0.0);
-    return eigen.eigenvectors() * inverse.matrix().asDiagonal() * eigen.eigenvectors().transpose();
-  }
+Eigen::Matrix2d invert(const Eigen::Matrix2d& n, bool& singular);
+Eigen::Matrix3d invert(const Eigen::Matrix3d& n, bool& singular);
+Eigen::Matrix<double, 6, 6> invert(const Eigen::Matrix<double, 6, 6>& n, bool& singular);
+inline Eigen::Matrix<double, 1, 1> invert(const Eigen::Matrix<double, 1, 1>& n, bool& singular) {
+  singular = !(n(0, 0) > 0);
+  return Eigen::Matrix<double, 1, 1>(singular ? 0.0 : 1 / n(0, 0));
 }
 
 /// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.

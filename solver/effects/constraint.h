@@ -8,7 +8,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -47,14 +46,8 @@ struct BodyConstraintShape : ConstraintShape<R, 2 * B + P> {
 
 /// Row sums of |Y P Y^T|, P the positive part of the symmetric matrix `stress`: where a constraint's value is
 /// F^T F contracted with -stress, F = X Y, this is its geometric bound.
-template <class Gradients, class Square>
-Eigen::Matrix<double, 1, Gradients::RowsAtCompileTime> stress_bound(const Gradients& y,
-                                                                    const Square& stress) {
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(stress);
-  const Gradients directions = y * eigen.eigenvectors();
-  const auto tension = eigen.eigenvalues().cwiseMax(0.0).eval();
-  return (directions * tension.asDiagonal() * directions.transpose()).cwiseAbs().rowwise().sum().transpose();
-}
+Eigen::Matrix<double, 1, 3> stress_bound(const Eigen::Matrix<double, 3, 2>& y, const Eigen::Matrix2d& stress);
+Eigen::Matrix<double, 1, 4> stress_bound(const Eigen::Matrix<double, 4, 3>& y, const Eigen::Matrix3d& stress);
 
 /// Specialised by each effect with rows, derived from its ConstraintShape.
 template <class Effect>

@@ -30,12 +30,7 @@ inline Eigen::Matrix3d lever_form(const Vec3& p, const Vec3& s) {
 }
 
 /// Largest of phi^T S phi, S symmetric, for an arc of 1 m; 0 if all are negative.
-inline double largest_of(const Eigen::Matrix3d& form, const Pose& pose) {
-  const Eigen::Matrix3d by_arcs = pose.turning.transpose() * form * pose.turning;
-  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
-                           .computeDirect(by_arcs, Eigen::EigenvaluesOnly)
-                           .eigenvalues()[2]);
-}
+double largest_of(const Eigen::Matrix3d& form, const Pose& pose);
 
 /// Bound of phi_a^T C phi_b for arcs of 1 m.
 inline double product_bound(const Pose& a, const Eigen::Matrix3d& product, const Pose& b) {

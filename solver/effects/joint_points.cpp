@@ -1,8 +1,17 @@
 // Joints that hold points of bodies.
+#include <Eigen/Eigenvalues>
+
 #include "effects/joint_parts.h"
 #include "effects/joints.h"
 
 namespace pbd {
+
+double largest_of(const Eigen::Matrix3d& form, const Pose& pose) {
+  const Eigen::Matrix3d by_arcs = pose.turning.transpose() * form * pose.turning;
+  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                           .computeDirect(by_arcs, Eigen::EigenvaluesOnly)
+                           .eigenvalues()[2]);
+}
 
 void Constraint<PointJoint>::evaluate(const PointJoint& effect, std::size_t i, const Positions& at,
                                       Value& value, Jacobian& jacobian) {

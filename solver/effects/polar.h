@@ -1,30 +1,13 @@
 // Rotation R of the polar decomposition F = R S, R always proper (det R = 1), S symmetric.
 #pragma once
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 
 namespace pbd {
 
 /// Nearest proper rotation to F (3 x 3). Newton's iteration R <- (R + R^-T)/2 (Higham 1986) where F keeps its
 /// orientation and is well conditioned; otherwise the singular value decomposition with the sign of the
 /// smallest singular value turned, which also serves flat, collapsed and mirrored F.
-inline Eigen::Matrix3d polar_rotation(const Eigen::Matrix3d& f) {
-  constexpr int max_iterations = 20;
-  constexpr double well_conditioned = 1e-3;  // of det F against |F|^3
-  if (f.determinant() > well_conditioned * f.squaredNorm() * f.norm()) {
-    Eigen::Matrix3d rotation = f;
-    for (int k = 0; k < max_iterations; ++k) {
-      const Eigen::Matrix3d next = 0.5 * (rotation + rotation.inverse().transpose());
-      const double change = (next - rotation).squaredNorm();
-      rotation = next;
-      if (change < 1e-30) return rotation;
-    }
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-  return u * svd.matrixV().transpose();
-}
+Eigen::Matrix3d polar_rotation(const Eigen::Matrix3d& f);
 
 }  // namespace pbd

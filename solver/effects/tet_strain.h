@@ -33,11 +33,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   }
 
   /// C^-1 C_d
-  static Square retardation(const TetStrain& effect, std::size_t) {
-    return inverse_elasticity(effect.material.poisson) *
-           inverse_elasticity(effect.damping->poisson).inverse() *
-           (effect.damping->young / effect.material.young);
-  }
+  static Square retardation(const TetStrain& effect, std::size_t);
 
   /// Dm^-1, F and T at positions x, and from them c and J^T p without J.
   struct Deformation {
@@ -94,27 +90,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   /// t_a]/(s_a + s_b), of norm (t_a + t_b + sqrt(2 (t_a^2 + t_b^2)))/(2 (s_a + s_b)). The smallest s_a + s_b,
   /// at least 0.1, serves for all pairs.
   static NodeBounds geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
-                                    const Value& impulse) {
-    if (effect.strain == Strain::linear) return NodeBounds::Zero();
-    const Eigen::Matrix3d stress = symmetric(impulse);
-    const Eigen::Matrix3d inverse = inverse_rest(effect, i);
-    if (effect.strain == Strain::green) return stress_bound(gradients(inverse), Eigen::Matrix3d(-stress));
-    const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
-    const Eigen::Matrix3d stretch = polar_rotation(f).transpose() * f;
-    using Eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
-    const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
-    const double pair =
-        symmetric.trace() - Eigenvalues(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    constexpr double least_pair = 0.1;
-    const Vec3 tension = Eigenvalues(-stress, Eigen::EigenvaluesOnly).eigenvalues();
-    double largest = 0;
-    for (int a = 0; a < 3; ++a) {
-      const double one = tension[a], other = tension[(a + 1) % 3];
-      largest = std::max(largest, (one + other + std::sqrt(2 * (one * one + other * other))) / 2);
-    }
-    return stress_bound(gradients(inverse),
-                        Eigen::Matrix3d(largest / std::max(pair, least_pair) * Eigen::Matrix3d::Identity()));
-  }
+                                    const Value& impulse);
 
  private:
   /// Y C^-1 at Poisson's ratio nu

@@ -27,11 +27,7 @@ struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
   }
 
   /// C^-1 C_d
-  static Square retardation(const TriangleStrain& effect, std::size_t) {
-    return inverse_elasticity(effect.material.poisson) *
-           inverse_elasticity(effect.damping->poisson).inverse() *
-           (effect.damping->young / effect.material.young);
-  }
+  static Square retardation(const TriangleStrain& effect, std::size_t);
 
   static void evaluate(const TriangleStrain& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian) {

@@ -7,6 +7,7 @@
 #include "experiments.h"
 #include "relaxation.h"
 #include "rows_of_step.h"
+#include "scenes/contacts.h"
 #include "scenes/standard.h"
 #include "step.h"
 
@@ -94,6 +95,7 @@ void absent_is_free(Context& context) {
   padded.effects.insert(padded.effects.begin(), {Bending{}, TetStrain{}});
   padded.effects.emplace_back(TriangleStrain{});
   padded.effects.emplace_back(ExternalForce{});
+  padded.effects.emplace_back(Contact{});
   const State a = simulate(scene).state, b = simulate(padded).state;
   context.verdict(
       "effects.empty.bitwise", "effects that are present and empty change no bit of the result",
@@ -114,6 +116,37 @@ void absent_is_free(Context& context) {
   context.verdict("effects.removed.cheaper", "removing the solid's strain takes its cost away",
                   "share of its attributed seconds that stays", 1 - (heavy - light) / strain->seconds, 0.5);
   context.advance("absent effects");
+}
+
+/// Layers of balls that touch each other and the ground.
+Scene balls(double friction) {
+  BodyScene build({.friction = friction});
+  build.ground();
+  constexpr double radius = 0.1;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j)
+      for (int k = 0; k < 5; ++k) build.ball(radius, 4, {radius * Vec3(2 * i, 2 * j, 2 * k + 1)});
+  return build.finish();
+}
+
+void frictionless_is_cheap(Context& context, Table& table) {
+  const std::vector<Scene> scenes{balls(0), balls(0.5)};
+  std::vector<double> rows;
+  for (const Scene& scene : scenes) {
+    const std::string name = rows.empty() ? "balls, no friction" : "balls, friction 0.5";
+    const auto costs = simulate(scene).costs;
+    const auto contact = std::find_if(costs.begin(), costs.end(),
+                                      [](const EffectCost& cost) { return cost.effect == Contact::name; });
+    table.row({name, std::string(contact->effect), contact->rows, contact->bytes, contact->seconds,
+               contact->seconds / frames});
+    rows.push_back(static_cast<double>(contact->rows));
+  }
+  context.verdict("effects.frictionless.rows", "contacts without friction have one row, not three",
+                  "|rows without / rows with friction - 1/3|", std::abs(rows[0] / rows[1] - 1.0 / 3), 1e-15);
+  const auto [without, with] = in_turns(scenes[0], scenes[1]);
+  context.verdict("effects.frictionless.cheaper", "and cost less", "time without / time with friction",
+                  without / with, 1);
+  context.advance("friction");
 }
 
 /// Seconds a sweep of `relaxation` over the rows of a step, the smallest of several.
@@ -194,12 +227,13 @@ void scaling(Context& context, Table& table) {
 }  // namespace
 
 void effects_cost(Context& context) {
-  context.begin(2 + 8);
+  context.begin(3 + 8);
   Table costs = context.table("costs", {"scene", "effect", "rows", "bytes", "wall_s", "wall_s_per_step"});
   Table growth = context.table("scaling", {"scene", "relaxation", "rows", "elements", "wall_s_per_sweep",
                                            "exponent", "status", "reason"});
   costs_per_effect(context, costs);
   absent_is_free(context);
+  frictionless_is_cheap(context, costs);
   scaling(context, growth);
   costs.close();
   growth.close();

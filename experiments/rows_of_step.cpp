@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 
-#include "contact_rows.h"
 #include "linearise.h"
 
 namespace pbdcheck {
@@ -41,29 +40,51 @@ void stir(Scene& scene) {
       scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
 }
 
-LinearStep linear_step(const Scene& scene, const State& state, double h, Friction law) {
-  LinearStep step;
-  std::vector<std::size_t> effect_of_block;
-  step.rows = allocate_rows(scene, effect_of_block);
-  ContactRows contacts(scene, law, step.rows, effect_of_block);
-  Bodies bodies(scene);
-  Points x, v, acceleration;
-  std::vector<Pose> poses;
-  bodies.begin(state, x, v);
-  bodies.place(x, poses);
-  accelerations(scene, {bodies, poses, v, false}, acceleration);
-  step.v_free = v + h * acceleration;
-  const StepMap map{x, step.v_free, h, h};
-  const Points at_rest = Points::Zero(3, bodies.columns());
-  const Configuration start{x, poses, state.time};
-  const auto& inverse_mass = step.rows.inverse_mass;
-  if (contacts.listed()) contacts.find(scene, bodies, start, v, map, h, false, inverse_mass, step.rows);
-  for (std::size_t b = 0; b < step.rows.blocks.size(); ++b)
-    if (contacts.owns(b))
-      contacts.linearise(start, nullptr, map, at_rest, inverse_mass, b, step.rows);
+StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law)
+    : scene_(scene),
+      h_(h),
+      rows_(allocate_rows(scene, effect_of_block_)),
+      contacts_(scene, law, rows_, effect_of_block_),
+      bodies_(scene),
+      time_(state.time) {
+  Points v, acceleration;
+  bodies_.begin(state, start_x_, v);
+  bodies_.place(start_x_, start_poses_);
+  accelerations(scene, {bodies_, start_poses_, v, false}, acceleration);
+  v_free_ = v + h * acceleration;
+  const Configuration start{start_x_, start_poses_, time_};
+  if (contacts_.listed())
+    contacts_.find(scene, bodies_, start, v, {start_x_, v_free_, h, h}, h, false, rows_.inverse_mass, rows_);
+}
+
+void StepRows::linearise(const Points& v) {
+  const StepMap map{start_x_, v_free_, h_, h_};
+  const Points x = start_x_ + h_ * v;
+  const Configuration start{start_x_, start_poses_, time_};
+  if (contacts_.listed()) contacts_.widen(scene_, bodies_, start, x, map, h_, rows_);
+  bodies_.place(x, poses_);
+  const Configuration at{x, poses_, time_ + h_};
+  for_each_block(rows_.blocks, [](auto& block) {
+    for (auto& impulse : block.impulse) impulse.setZero();
+  });
+  for (std::size_t b = 0; b < rows_.blocks.size(); ++b)
+    if (contacts_.owns(b))
+      contacts_.linearise(at, nullptr, map, v, rows_.inverse_mass, b, rows_);
     else
-      linearise(scene.effects[effect_of_block[b]], map, start, at_rest, inverse_mass, 1, step.rows.blocks[b]);
-  return step;
+      pbd::linearise(scene_.effects[effect_of_block_[b]], map, at, v, rows_.inverse_mass, 1, rows_.blocks[b]);
+}
+
+State StepRows::end(const Points& v) const {
+  State state = scene_.initial;
+  state.time = time_ + h_;
+  bodies_.end(start_x_ + h_ * v, v, state);
+  return state;
+}
+
+LinearStep linear_step(const Scene& scene, const State& state, double h, Friction law) {
+  StepRows step(scene, state, h, law);
+  step.linearise(Points::Zero(3, step.v_free().cols()));
+  return {step.rows(), step.v_free()};
 }
 
 Points dense_solution(const LinearStep& step) {

@@ -1,7 +1,7 @@
-// The linear rows of a step, linearised once where the step begins, and their exact solution by a dense
-// factorisation.
+// The linear rows of a step, and their exact solution by a dense factorisation.
 #pragma once
 
+#include "contact_rows.h"
 #include "rows.h"
 #include "scene.h"
 
@@ -10,6 +10,32 @@ namespace pbdcheck {
 struct LinearStep {
   pbd::Rows rows;      // impulses zero
   pbd::Points v_free;  // m/s
+};
+
+/// The rows of an implicit Euler step of h seconds from `state`; those of contacts by `law`.
+class StepRows {
+ public:
+  StepRows(const pbd::Scene& scene, const pbd::State& state, double h, pbd::Friction law);
+
+  /// Linearises them where velocities v (m/s, of nodes and then of bodies' rotations) lead, impulses zero.
+  void linearise(const pbd::Points& v);
+
+  const pbd::Rows& rows() const { return rows_; }
+  const pbd::Points& v_free() const { return v_free_; }
+
+  /// Where velocities v lead.
+  pbd::State end(const pbd::Points& v) const;
+
+ private:
+  const pbd::Scene& scene_;
+  double h_;
+  std::vector<std::size_t> effect_of_block_;
+  pbd::Rows rows_;
+  pbd::ContactRows contacts_;
+  pbd::Bodies bodies_;
+  std::vector<pbd::Pose> start_poses_, poses_;
+  pbd::Points start_x_, v_free_;
+  double time_;
 };
 
 /// Adds smooth velocities that excite every mode.

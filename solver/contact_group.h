@@ -43,6 +43,13 @@ int column_of(const ActiveContact& contact, int side) {
   return side == contact.node_side ? 0 : 1;
 }
 
+/// Where impulses act, m: at one place of both, so that together they turn nothing, and where a face touches
+/// on the face, so that all its points can stick at once, however far from it they are.
+inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
+  const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
+  return on_face ? found.point_b : Vec3((found.point_a + found.point_b) / 2);
+}
+
 /// Gap and normal of a contact, and its row's J.
 template <class Block>
 Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian) {
@@ -55,15 +62,15 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
     }
   const Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
   const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
+  const Vec3 place = place_of(contact, found);
   for (const int side : {0, 1}) {
-    const Vec3& point = side == 0 ? found.point_a : found.point_b;  // where they touch, each on its own
     const int column = 3 * column_of<Block>(contact, side);
     const double sign = side == 0 ? 1 : -1;
     jacobian.template middleCols<3>(column) = sign * directions;
     if (side == contact.node_side) continue;
     const Pose& pose = at.pose[static_cast<std::size_t>(contact.carrier[static_cast<std::size_t>(side)])];
     jacobian.template middleCols<3>(column + 3) =
-        -sign * directions * cross_matrix(point - pose.x) * pose.turning;
+        -sign * directions * cross_matrix(place - pose.x) * pose.turning;
   }
   return found;
 }

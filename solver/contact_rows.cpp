@@ -53,7 +53,8 @@ ContactRows::ContactRows(const Scene& scene, Friction law, Rows& rows,
                          std::vector<std::size_t>& effect_of_block)
     : first_block_(rows.blocks.size()) {
   for (std::size_t index = 0; index < scene.effects.size(); ++index)
-    if (std::holds_alternative<Contact>(scene.effects[index])) effect_ = static_cast<int>(index);
+    if (const auto* contact = std::get_if<Contact>(&scene.effects[index]))
+      if (!contact->collider.empty() || !contact->triangle.empty()) effect_ = static_cast<int>(index);
   if (!listed()) return;
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
@@ -149,7 +150,7 @@ void ContactRows::add_geometric_inertia(const StepMap& map, const Configuration&
             if (side == contact.node_side) continue;
             const Frame& own = side == 0 ? a : b;
             const Vec3 lever = own.rotation * (side == 0 ? features.point_a : features.point_b);
-            const Vec3 arm = (found.point_a + found.point_b) / 2 - own.origin;
+            const Vec3 arm = place_of(contact, found) - own.origin;
             const Vec3 push = (side == 0 ? normal : -normal) * found.normal;
             const Pose& pose =
                 at.pose[static_cast<std::size_t>(contact.carrier[static_cast<std::size_t>(side)])];
@@ -210,7 +211,7 @@ std::vector<ContactForce> ContactRows::forces(const Configuration& at, const Ste
         impulse.head<Block::rows>() = block.impulse[i];
         Vec3 slip = jacobian * block.gather(v, i);
         slip[0] = 0;
-        all.push_back({collider, (found.point_a + found.point_b) / 2, found.normal,
+        all.push_back({collider, place_of(contacts[i], found), found.normal,
                        directions.transpose() * impulse / map.s, directions.transpose() * slip, found.gap});
       }
     });

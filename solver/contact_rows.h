@@ -7,7 +7,8 @@
 //               smaller of the two where they did not approach each other): with newmark and alpha = 1/2
 //               energy is then kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
-// A contact without friction has the normal row alone. Impulses push along n and t at x.
+// A contact without friction has the normal row alone. Impulses push along n and t at x, both bodies at one
+// place: on the face if a face touches, else in the middle of the gap.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,19 @@ Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 
 std::vector<EffectCost> Workspace::costs() const {
-  return data_->costs;
+  std::vector<EffectCost> all;
+  for (std::size_t b = 0; b < data_->costs.size(); ++b) {
+    const EffectCost& own = data_->costs[b];
+    if (b == 0 || data_->effect_of_block[b] != data_->effect_of_block[b - 1]) {
+      all.push_back(own);
+      continue;
+    }
+    all.back().rows += own.rows;
+    all.back().bytes += own.bytes;
+    all.back().seconds += own.seconds;
+    all.back().contraction = std::max(all.back().contraction, own.contraction);
+  }
+  return all;
 }
 
 std::vector<double> Workspace::impulses(std::size_t index) const {

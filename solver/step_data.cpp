@@ -78,7 +78,10 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
     contacts.find(scene, bodies, {start_x, start_poses, state.time}, start_v, map, h, method.warm_start,
                   inverse_mass, rows);
     for (std::size_t b = 0; b < rows.blocks.size(); ++b)
-      if (contacts.owns(b)) costs[b].rows = row_count(rows.blocks[b]);
+      if (contacts.owns(b)) {
+        costs[b].rows = row_count(rows.blocks[b]);
+        costs[b].bytes = std::visit([](const auto& block) { return block.bytes(); }, rows.blocks[b]);
+      }
   }
   if (!method.warm_start) forget_impulses();
   v = start_v;

@@ -100,6 +100,15 @@ ConeProblem cone_problem(const Rows& rows, const Points& v_free) {
   return problem;
 }
 
+Points moved_by(const Rows& rows, Points v_free, const Eigen::VectorXd& impulse) {
+  Eigen::Index row = 0;
+  each_contact(rows, [&](const auto& block, std::size_t i) {
+    block.apply(rows.inverse_mass, i, impulse.segment<3>(row), v_free);
+    row += 3;
+  });
+  return v_free;
+}
+
 ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, const ConeTask& task) {
   const auto start = std::chrono::steady_clock::now();
   Relaxation any = make_relaxation(relaxation);

@@ -15,6 +15,9 @@ pbd::Rows local_rows(const pbd::reference::ConeProblem& problem, pbd::reference:
 /// W = J M^-1 J^T, q = b + J v_free.
 pbd::reference::ConeProblem cone_problem(const pbd::Rows& rows, const pbd::Points& v_free);
 
+/// v_free + W J^T impulse of those rows, m/s.
+pbd::Points moved_by(const pbd::Rows& rows, pbd::Points v_free, const Eigen::VectorXd& impulse);
+
 /// What the rows' impulses are to be: sweeps until the natural residual of their problem is within the
 /// tolerance, or after `most_sweeps`; certified as every judge's solution is.
 struct ConeTask {

@@ -28,22 +28,8 @@ using namespace reference;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double tolerance = 1e-8, h = 0.01, friction = 0.5;
+constexpr double tolerance = 1e-8, h = 0.01;
 constexpr int most_sweeps = 20000;
-
-/// A cube slides on the ground, a slab on three piled cubes; one cube leaves the ground; a ball spins on it.
-Scene pile() {
-  BodyScene build({.friction = friction});
-  build.ground();
-  const Vec3 cube = Vec3::Constant(0.2);
-  for (const double x : {-0.11, 0.11}) build.box(cube, 8, {Vec3(x, 0, 0.1)});
-  build.box(cube, 8, {Vec3(0, 0, 0.3)});
-  build.box({0.3, 0.2, 0.05}, 2, {.position = {0.02, 0, 0.425}, .velocity = {0.8, 0.3, 0}});
-  build.box(cube, 8, {.position = {-0.8, 0, 0.1}, .velocity = {1, 0.7, 0}});
-  build.box(cube, 8, {.position = {0.8, 0, 0.1}, .velocity = {0.2, 0, 0.5}});
-  build.ball(0.1, 4, {.position = {0, 0.6, 0.1}, .spin = {0, 20, 5}});
-  return build.finish();
-}
 
 struct Errors {
   double complementarity, dissipation, allowed;  // J

@@ -1,9 +1,11 @@
 // What accuracy costs: error against the judge over seconds, row updates and outer iterations, for every
-// outer iteration and relaxation, over tolerance and step; the judges' and rivals' own times on the same
-// axes.
+// outer iteration and relaxation, over tolerance and step, and for every law of friction; the judges' and
+// rivals' own times on the same axes.
 #include <algorithm>
 #include <cmath>
 
+#include "arch.h"
+#include "contact_judge.h"
 #include "error.h"
 #include "experiments.h"
 #include "judge.h"
@@ -11,6 +13,7 @@
 #include "measure.h"
 #include "outer.h"
 #include "relaxation.h"
+#include "scenes/contacts.h"
 #include "scenes/standard.h"
 
 namespace pbdcheck {
@@ -18,11 +21,23 @@ namespace {
 
 using namespace pbd;
 
-void add_point(Table& table, const Case& each, std::string_view outer, std::string_view relaxation,
+std::vector<std::string> columns() {
+  return {"scene",    "step_s",    "integrator",       "outer",  "relaxation",
+          "friction", "tolerance", "outer_iterations", "sweeps", "row_updates",
+          "wall_s",   "error",     "status",           "reason"};
+}
+
+/// What a row is about; no law of friction where there are no contacts.
+struct Subject {
+  const Case& each;
+  std::string friction;
+};
+
+void add_point(Table& table, const Subject& of, std::string_view outer, std::string_view relaxation,
                double tolerance, const TracePoint& point, std::string_view status, std::string_view reason) {
-  table.row({each.name, each.h, "implicit_euler", std::string(outer), std::string(relaxation), "", tolerance,
-             std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s, point.error,
-             std::string(status), std::string(reason)});
+  table.row({of.each.name, of.each.h, "implicit_euler", std::string(outer), std::string(relaxation),
+             of.friction, tolerance, std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates,
+             point.wall_s, point.error, std::string(status), std::string(reason)});
 }
 
 /// The judges' own times: the smallest of `timed_repeats` after a discarded run.
@@ -36,14 +51,14 @@ void judge_points(const Case& each, const State& start, const Points& exact, Tab
                            .wall_s = judged.seconds,
                            .error = relative_error(judged.x, exact, start.x),
                            .residual = judged.residual};
-    add_point(table, each, "judge", judge.name, 0, point,
+    add_point(table, {each, ""}, "judge", judge.name, 0, point,
               reference::outcome_names[static_cast<std::size_t>(judged.outcome)], judged.reason);
   }
 }
 
 /// One row a tolerance by `solve`; the tighter ones are skipped where one was missed, all of them where the
 /// scene does not allow the method.
-void tolerance_points(const Case& each, std::string_view outer, std::string_view relaxation,
+void tolerance_points(const Subject& of, std::string_view outer, std::string_view relaxation,
                       const std::function<Trace(double)>& solve, Table& table) {
   std::string skipped;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
@@ -61,7 +76,7 @@ void tolerance_points(const Case& each, std::string_view outer, std::string_view
     } catch (const SetupError& error) {
       reason = skipped = error.what();
     }
-    add_point(table, each, outer, relaxation, tolerance, point, status, reason);
+    add_point(table, of, outer, relaxation, tolerance, point, status, reason);
   }
 }
 
@@ -76,7 +91,7 @@ void method_points(const Case& each, const State& start, const Points& exact, co
     method.tolerance = tolerance;
     return measure_once(each.scene, start, each.h, method, exact);
   };
-  tolerance_points(each, outer.name, relaxation, solve, table);
+  tolerance_points({each, ""}, outer.name, relaxation, solve, table);
 }
 
 void rival_points(const Case& each, const State& start, const Points& exact, int max_iterations,
@@ -85,13 +100,80 @@ void rival_points(const Case& each, const State& start, const Points& exact, int
     const auto solve = [&](double tolerance) {
       return measure_once(each.scene, start, each.h, rival, {tolerance, max_iterations}, exact);
     };
-    tolerance_points(each, "rival", rival.name, solve, table);
+    tolerance_points({each, ""}, "rival", rival.name, solve, table);
   }
 }
 
 /// The relaxations that make a difference to an outer iteration.
 std::vector<std::string_view> relaxations_for(const Outer& outer) {
   return outer.potential == OnPotential::always ? std::vector<std::string_view>{"none"} : relaxation_names();
+}
+
+/// A box that slides askew down a slope, a column and an arch that are struck, and a pile of bodies that
+/// stick, slide and leave each other.
+std::vector<Case> contact_cases_of_work(bool full) {
+  const auto struck = [](Scene scene, int body, const Vec3& velocity) {
+    scene.initial.v.col(body) = velocity;
+    return scene;
+  };
+  constexpr double slope = 0.35;  // rad
+  const int stones = full ? 25 : 7;
+  const Arch arch{1.2 * limit_thickness(stones), stones};
+  std::vector<Case> all{{"incline", sliding_box(slope, 0.3, 0.5, 0.5), 0.01},
+                        {"stack", struck(column(full ? 20 : 5), full ? 20 : 5, {0.5, 0.3, -0.2}), 0.01},
+                        {"pile", pile(), 0.01},
+                        {"arch", struck(arch.scene(), 1 + stones / 2, {0.02, 0.01, -0.2}), 0.01}};
+  for (Case& each : all)  // which the judges of contact problems do not know
+    std::erase_if(each.scene.effects, [](const Effect& e) { return std::holds_alternative<Gyroscopic>(e); });
+  return all;
+}
+
+/// The first judge's end of the step by the law, which is Coulomb's unless it is the convex one; and the
+/// times of all.
+Points judge_contact_points(const Case& each, const std::string& friction, Table& table) {
+  const State& start = each.scene.initial;
+  const Points begin = places(each.scene, start.x, start.orientation);
+  Points exact;
+  for (const ConeSolver& judge : cone_solvers()) {
+    if (!judge.judge) continue;
+    const auto once = [&] {
+      return judge_contacts(judge, each.scene, start, each.h, friction_law(friction));
+    };
+    ContactJudgement judged = once();
+    for (int repeat = 1; repeat < timed_repeats && judged.status == "ok"; ++repeat)
+      judged.seconds = std::min(judged.seconds, once().seconds);
+    const Points end = places(each.scene, judged.end.x, judged.end.orientation);
+    if (exact.size() == 0) {
+      if (judged.status != "ok")
+        throw std::runtime_error(judge.name + " found no step to compare with: " + judged.reason);
+      exact = end;
+    }
+    add_point(table, {each, friction}, "judge", judge.name, 0,
+              {.outer_iterations = judged.iterations,
+               .wall_s = judged.seconds,
+               .error = relative_error(end, exact, begin)},
+              judged.status, judged.reason);
+  }
+  return exact;
+}
+
+/// Every relaxation by every law; those of box friction have their error beside Coulomb's law.
+void contact_points(const Case& each, int max_outer, Table& table) {
+  for (const std::string_view friction : friction_names) {
+    const Subject subject{each, std::string(friction)};
+    const Points exact = judge_contact_points(each, subject.friction, table);
+    for (const auto relaxation : relaxation_names()) {
+      Method method;
+      method.friction = subject.friction;
+      method.relaxation = relaxation;
+      method.max_outer = max_outer;
+      const auto solve = [&](double tolerance) {
+        method.tolerance = tolerance;
+        return measure_once(each.scene, each.scene.initial, each.h, method, exact);
+      };
+      tolerance_points(subject, method.outer, relaxation, solve, table);
+    }
+  }
 }
 
 }  // namespace
@@ -110,13 +192,11 @@ std::vector<Case> work_precision_cases(bool full) {
 }
 
 void work_precision(Context& context) {
-  const auto all = work_precision_cases(context.full());
+  const auto points = work_precision_cases(context.full()), contacts = contact_cases_of_work(context.full());
   const int budget = context.full() ? 1000 : 50;  // outer iterations
-  context.begin(std::ssize(all));
-  Table table = context.table(
-      "points", {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "tolerance",
-                 "outer_iterations", "sweeps", "row_updates", "wall_s", "error", "status", "reason"});
-  for (const auto& each : all) {
+  context.begin(std::ssize(points) + std::ssize(contacts));
+  Table table = context.table("points", columns());
+  for (const auto& each : points) {
     const State start = start_of(each);
     const Points exact = truth(each.scene, start, each.h).x;
     for (const auto& outer : outers())
@@ -127,6 +207,12 @@ void work_precision(Context& context) {
     context.advance(each.name);
   }
   table.close();
+  Table touching = context.table("contacts", columns());
+  for (const auto& each : contacts) {
+    contact_points(each, budget, touching);
+    context.advance(each.name);
+  }
+  touching.close();
 }
 
 }  // namespace pbdcheck

@@ -212,8 +212,25 @@ def method_points(tolerance):
     return rows
 
 
+def contact_points():
+    rows = []
+    for scene in ("incline", "arch"):
+        for law in ("coulomb", "box"):
+            for k, relaxation in enumerate((*RELAXATIONS, "cone_interior_point", "cone_ipopt")):
+                judge = relaxation.startswith("cone_")
+                for t in (0,) if judge else (1e-2, 1e-6, 1e-10):
+                    bad = (scene, relaxation, t) == ("arch", "jacobi", 1e-10)
+                    sweeps = 0 if judge else 10 * (k + 1) * int(1 - np.log10(t))
+                    error = 0 if relaxation == "cone_interior_point" else 1e-11 if judge else max(t, 0.1 * (law == "box"))
+                    rows.append((scene, 0.01, "implicit_euler", "judge" if judge else "auto", relaxation, law, t, 5, sweeps,
+                                 3 * sweeps, 0.01 if judge else 1e-5 * sweeps, error,
+                                 "not_converged" if bad else "ok", "outer iterations spent" if bad else ""))
+    return rows
+
+
 def work_precision(directory):
     write(directory, "work_precision", "points", METHOD_COLUMNS, method_points(True))
+    write(directory, "work_precision", "contacts", METHOD_COLUMNS, contact_points())
 
 
 def rival_newton(directory):

@@ -85,6 +85,7 @@ TABLES = {
     ("cone_problems", "solves"): CONES,
     ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",
+    ("work_precision", "contacts"): METHOD + " tolerance",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",

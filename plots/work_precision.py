@@ -83,7 +83,15 @@ def families_legend(fig, frame, references):
     fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
 
 
-def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style, legend=families_legend):
+def relaxations_legend(fig, frame, references):
+    """Relaxations and judges by their own looks."""
+    entries = {f"judge {name}, the reference itself" if name in references else name: REFERENCE if name in references else
+               style(name) for name in frame["relaxation"].unique()}
+    handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
+    fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
+
+
+def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style, legend=families_legend, columns=2, height=2.4):
     """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work.
     Curves are what the columns `by` tell apart."""
     judges = frame[frame["outer"] == "judge"]
@@ -91,7 +99,7 @@ def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style,
     if x != "wall_s":
         frame = with_work(frame, x)
     groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
-    fig, axes = panels(len(groups), columns=2, height=2.4)
+    fig, axes = panels(len(groups), columns=columns, height=height)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
         for _, points in rows.groupby(by, sort=False):
             first = points.iloc[0]
@@ -99,8 +107,10 @@ def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style,
                 mark_reference(ax, points, x)
             else:
                 front(ax, points, x, look(first))
-        extra = f", {friction}" if frame["friction"].nunique() > 1 else ""
-        ax.set(xscale="log", yscale="log", title=f"{scene_text(scene)}, {integrator}, h = {step_text(step)}{extra}")
+        title = f"{scene_text(scene)}, {integrator}, h = {step_text(step)}"
+        if frame["friction"].nunique() > 1:
+            title = f"{scene_text(scene)}, {friction}, h = {step_text(step)}"
+        ax.set(xscale="log", yscale="log", title=title)
         ax.title.set_fontsize(7)
     fig.supxlabel(label, fontsize=8)
     fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
@@ -125,3 +135,18 @@ def row_updates(frame):
 @figure("work_precision", "outer_iterations", table="points")
 def outer_iterations(frame):
     return draw_methods(quickest(frame, "outer_iterations"), "outer_iterations", "outer iterations")
+
+
+def draw_contacts(frame, x, label):
+    return draw_methods(frame, x, label, by="relaxation", look=lambda row: style(row["relaxation"]), legend=relaxations_legend,
+                        columns=4, height=1.7)
+
+
+@figure("work_precision", "contact_seconds", table="contacts")
+def contact_seconds(frame):
+    return draw_contacts(frame, "wall_s", "wall time (s)")
+
+
+@figure("work_precision", "contact_row_updates", table="contacts")
+def contact_row_updates(frame):
+    return draw_contacts(frame[frame["relaxation"] != "direct"], "row_updates", "row updates")

@@ -53,4 +53,7 @@ pbd::Scene column(int count, double ratio = 1);
 /// Cubes of 0.2 m and 8 kg in rows of `base`, `base` - 1, ... 1, each over the gap of two below.
 pbd::Scene pyramid(int base);
 
+/// A cube slides on the ground, a slab on three piled cubes; one cube leaves the ground, a ball spins on it.
+pbd::Scene pile();
+
 }  // namespace pbdcheck

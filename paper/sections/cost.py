@@ -17,7 +17,13 @@ def work_precision(results):
                    "beats in both time and error. Crossed: not solved to its tolerance."),
             Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine, without "
                    "`direct`, which factors."),
-            Figure("work_precision_outer_iterations", "The same runs over outer iterations.")])
+            Figure("work_precision_outer_iterations", "The same runs over outer iterations."),
+            Figure("work_precision_contact_seconds", "One step of bodies in contact from a cold start, by every relaxation and law "
+                   "of friction. `incline`: a box that slides askew; `stack` and `arch`: their top is struck; `pile`: bodies that "
+                   "stick, slide and leave each other. The judges of contact problems solve the rows that the solver linearises "
+                   "at the judges' own iterates. The convex law is beside its own solution, the others beside Coulomb's: what "
+                   "`box` keeps is the law's error."),
+            Figure("work_precision_contact_row_updates", "The same runs over row updates, without `direct`, which factors.")])
     frame = results.table("work_precision", "points")
     if frame is not None:
         section.tables.append(fastest_table(frame))
@@ -27,7 +33,22 @@ def work_precision(results):
                                   "more were skipped because the method had missed a looser tolerance, or does not do the scene. "
                                   "The table gives the quickest "
                                   "method of each scene and step at three levels of error.")
+    section.tell(results.table("work_precision", "contacts"), contacts_table)
     return section
+
+
+def contacts_table(frame, levels=(1e-3, 1e-6, 1e-9)):
+    rows = []
+    for (scene, law), group in frame.groupby(["scene", "friction"], sort=False):
+        runs = good(group, "error", "wall_s")
+        cells = []
+        for level in levels:
+            reached = runs[(runs["error"] <= level) & (runs["outer"] != "judge")].sort_values("wall_s")
+            cells.append(f"`{reached['relaxation'].iloc[0]}` {number(reached['wall_s'].iloc[0])}" if len(reached) else "none")
+        judge = runs[runs["relaxation"] == "cone_interior_point"]["wall_s"]
+        rows.append([f"`{scene}`", f"`{law}`", *cells, number(judge.iloc[0]) if len(judge) else "none"])
+    return Table("Contact: the quickest relaxation with at most the given error and its wall time (s), and the judge's.",
+                 ["scene", "law", *(number(level) for level in levels), "judge"], rows)
 
 
 def fastest_table(frame, levels=(1e-3, 1e-6, 1e-9)):

@@ -43,11 +43,12 @@ int column_of(const ActiveContact& contact, int side) {
   return side == contact.node_side ? 0 : 1;
 }
 
-/// Where impulses act, m: at one place of both, so that together they turn nothing, and where a face touches
-/// on the face, so that all its points can stick at once, however far from it they are.
+/// Where impulses act, m: at one place of both, so that together they turn nothing; those of a face on one
+/// plane, so that all its points can stick at once, however far from it each is.
 inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
   const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
-  return on_face ? found.point_b : Vec3((found.point_a + found.point_b) / 2);
+  return on_face ? Vec3(found.point_b + contact.nearest * found.normal)
+                 : Vec3((found.point_a + found.point_b) / 2);
 }
 
 /// Gap and normal of a contact, and its row's J.

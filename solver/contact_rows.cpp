@@ -38,6 +38,18 @@ double surface_bound(const SurfaceContact& contact, const Points& x, double impu
   return length > 0 ? 2 * std::abs(impulse) / length : 0.0;
 }
 
+/// Sets `nearest` of contacts of bodies, a pair's in a row.
+void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
+  for (auto first = contacts.begin(); first != contacts.end();) {
+    auto last = first;
+    double nearest = infinity;
+    for (; last != contacts.end() && last->collider == first->collider; ++last)
+      nearest =
+          std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
+    for (; first != last; ++first) first->nearest = nearest;
+  }
+}
+
 /// Largest coordinate of a contact, m.
 double largest(const ActiveContact& contact, const Touching& found, const Configuration& at) {
   double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
@@ -108,6 +120,7 @@ BlockResidual ContactRows::linearise(const Configuration& at, const Configuratio
   BlockResidual sums;
   const Linearisation to{at, directions, map, v, inverse_mass};
   with_contacts(rows, index, first_block_, contacts_, [&]<class Block>(Block& block, auto& contacts) {
+    if (!contacts.empty() && !contacts[0].of_surfaces) find_nearest(at, contacts);
     for (std::size_t i = 0; i < block.size(); ++i) linearise_contact(to, contacts[i], block, i, sums);
   });
   if (index + 1 == first_block_ + groups) relaxed_ = true;

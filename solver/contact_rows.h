@@ -8,7 +8,8 @@
 //               energy is then kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. Impulses push along n and t at x, both bodies at one
-// place: on the face if a face touches, else in the middle of the gap.
+// place: those of a face on one plane, through the point of the other body that is nearest to it; else in the
+// middle of the gap.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,7 @@ struct ActiveContact {
   bool of_surfaces = false;     // then `surface` is it, and there are no features
   SurfaceContact surface;
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
+  double nearest = 0;              // m, smallest gap of its pair
   double target = 0;               // m, the gap aimed at
   double restitution = 0;          // e where the shapes collide in this step, else 0
   bool closing = false;            // they approach each other where it begins

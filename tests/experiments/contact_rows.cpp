@@ -92,3 +92,14 @@ TEST_CASE("all points of a tilted face can stick at once") {
   CHECK(rank(rows) == 6);
   CHECK(rank(rows(across, Eigen::all)) == 3);  // two slides along the face, one turn about its normal
 }
+
+TEST_CASE("a ball is pushed at its own surface, however high it is") {
+  constexpr double radius = 0.1;
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  build.ball(radius, 3, {.position = {0, 0, 0.13}, .velocity = {0, 0, -10}});
+  const Eigen::MatrixXd rows = wrenches(build.finish()).rightCols<3>();
+  REQUIRE(rows.rows() == 3);
+  CHECK(rows.row(0).norm() <= 1e-15);
+  for (const int across : {1, 2}) CHECK(std::abs(rows.row(across).norm() - radius) <= 1e-15);
+}

@@ -120,7 +120,7 @@ std::vector<Case> contact_cases_of_work(bool full) {
   const int stones = full ? 25 : 7;
   const Arch arch{1.2 * limit_thickness(stones), stones};
   std::vector<Case> all{{"incline", sliding_box(slope, 0.3, 0.5, 0.5), 0.01},
-                        {"stack", struck(column(full ? 20 : 5), full ? 20 : 5, {0.5, 0.3, -0.2}), 0.01},
+                        {"stack", struck(column(full ? 20 : 5), full ? 20 : 5, {0.5, 0.3, 0}), 0.01},
                         {"pile", pile(), 0.01},
                         {"arch", struck(arch.scene(), 1 + stones / 2, {0.02, 0.01, -0.2}), 0.01}};
   for (Case& each : all)  // which the judges of contact problems do not know
@@ -129,13 +129,18 @@ std::vector<Case> contact_cases_of_work(bool full) {
 }
 
 /// The first judge's end of the step by the law, which is Coulomb's unless it is the convex one; and the
-/// times of all.
+/// times of all, of cone_ipopt by the convex law alone: under Coulomb's it takes minutes.
 Points judge_contact_points(const Case& each, const std::string& friction, Table& table) {
   const State& start = each.scene.initial;
   const Points begin = places(each.scene, start.x, start.orientation);
   Points exact;
   for (const ConeSolver& judge : cone_solvers()) {
     if (!judge.judge) continue;
+    if (judge.name == "cone_ipopt" && friction != "cone") {
+      add_point(table, {each, friction}, "judge", judge.name, 0,
+                {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", "minutes under Coulomb's law");
+      continue;
+    }
     const auto once = [&] {
       return judge_contacts(judge, each.scene, start, each.h, friction_law(friction));
     };

@@ -68,15 +68,18 @@ int cone(const ConeOptions& options) {
                      options.problem.string(), file.asymmetry));
   const ConeSolution solution =
       solver.solve({file.problem, friction_law(options.law), options.tolerance, most_sweeps});
-  if (!options.output.empty()) write_cone_file(options.output, file.problem, solution);
+  const bool solved = solution.outcome == pbd::reference::Outcome::ok;
+  if (solved && !options.output.empty()) write_cone_file(options.output, file.problem, solution);
   if (options.json) {
     fmt::print("{}", json_text(solution_json(options, solution)));
   } else {
     fmt::print("{}\n", file.form);
     print(options, solution);
   }
-  if (solution.outcome == pbd::reference::Outcome::ok) return exit_done;
-  error_message(fmt::format("{}: {}", options.problem.string(), solution.reason));
+  if (solved) return exit_done;
+  error_message(
+      fmt::format("{}: {}{}", options.problem.string(), solution.reason,
+                  options.output.empty() ? "" : "; " + options.output.string() + " is not written"));
   return exit_failed;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "validate.h"
 
 namespace pbdcheck {
 namespace {
@@ -14,8 +15,11 @@ using Eigen::VectorXd;
 using pbd::SetupError;
 using Sparse = Eigen::SparseMatrix<double>;
 
-bool finite(const Sparse& w) {
-  return Eigen::Map<const VectorXd>(w.valuePtr(), w.nonZeros()).allFinite();
+constexpr double most = 1e100;  // so that products do not overflow
+
+/// False for NaN, too.
+bool usable(const VectorXd& numbers) {
+  return (numbers.array().abs() <= most).all();
 }
 
 double asymmetry(const Sparse& w) {
@@ -57,11 +61,14 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
   require(stored.free_velocity.size() == 3 * contacts, path,
           fmt::format("q of {} numbers for {} contacts", stored.free_velocity.size(), contacts),
           "three a contact");
-  require(finite(w), path, "W with a number that is not finite", "finite numbers");
-  require(stored.free_velocity.allFinite(), path, "q with a number that is not finite", "finite numbers");
+  const std::string allowed = fmt::format("finite numbers, at most {:g}", most);
+  require(usable(Eigen::Map<const VectorXd>(w.valuePtr(), w.nonZeros())), path,
+          "W with a number that is too large or none", allowed);
+  require(usable(stored.free_velocity), path, "q with a number that is too large or none", allowed);
   for (Eigen::Index i = 0; i < contacts; ++i)
-    require(stored.friction(i) >= 0 && std::isfinite(stored.friction(i)), path,
-            fmt::format("mu = {} at contact {}", stored.friction(i), i), "a finite number >= 0");
+    require(stored.friction(i) >= 0 && stored.friction(i) <= pbd::most_friction, path,
+            fmt::format("mu = {} at contact {}", stored.friction(i), i),
+            fmt::format("a number from 0 to {:g}", pbd::most_friction));
 
   ConeFile file;
   file.form = stored.form;

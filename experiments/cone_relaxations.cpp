@@ -122,7 +122,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           const double own = method.sweep(rows, v_free, nullptr);
           ++found.iterations;
           if (own > worth) continue;
-          const double natural = measure_cone(task.problem, task.law, impulses(rows)).natural_residual;
+          const double natural = measure_cone(task.problem, task.law, impulses(rows)).residual();
           if (!(own > 0 && natural > task.tolerance)) break;  // reached, nothing left to gain, or NaN
           constexpr double least = 0.1, most = 0.7;
           worth = own * std::clamp(task.tolerance / natural, least, most);

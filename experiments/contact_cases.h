@@ -1,6 +1,7 @@
 // Scenes of rigid bodies in contact that solvers are known to fail on.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ContactCase {
   bool stays = false;    // where it starts: to a thousandth of `size`
   double lift = -1;      // m, that no centre may rise above its start; negative: not asked
   double reaction = -1;  // N, that the ground carries at the end; negative: not asked
+  std::function<double(const pbd::State& end)> missed = {};  // of a motion that is known, relative
 };
 
 /// All of them; the quick tier has fewer and smaller ones of the same kinds.

@@ -12,7 +12,7 @@ using namespace pbd;
 
 ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, const State& state, double h,
                                 reference::FrictionLaw law) {
-  constexpr double settled = 1e-12, accuracy = 1e-13;
+  constexpr double settled = 1e-12, accuracy = 1e-12;
   constexpr int most = 100;
   const auto begin = std::chrono::steady_clock::now();
   ContactJudgement found;
@@ -31,9 +31,12 @@ ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, con
     found.residual = (next - v).colwise().norm().maxCoeff<Eigen::PropagateNaN>() / scale;
     v = next;
     ++found.iterations;
-    if (!v.allFinite()) break;
+    if (solved.outcome != reference::Outcome::ok) {
+      found.reason = solved.reason;
+      break;
+    }
+    if (found.residual <= settled) found.status = "ok", found.reason.clear();
   }
-  if (found.residual <= settled) found.status = "ok", found.reason.clear();
   found.end = step.end(v);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return found;

@@ -32,16 +32,16 @@ void convex_gap(Context& context) {
     Worst hover, closed;
     for (const auto law : friction_names)
       for (const double h : steps) {
-        double largest = 0;  // m, where the box slides without hovering
+        Worst largest;  // m, where the box slides without hovering
         const Scene scene = sliding_box(angle, friction, speed);
         const auto gap_of = [&](const State& now) { return normal.dot(now.x.col(1)) - 0.05; };
         const auto count = std::lround(duration / h);
         const ContactRun run = simulate_contacts(
             scene, contact_method(relaxation, law), h, count,
-            [&](const State& now, const Workspace&) { largest = std::max(largest, std::abs(gap_of(now))); });
+            [&](const State& now, const Workspace&) { largest.add(std::abs(gap_of(now))); });
         const bool convex = law == "cone", usable = run.status != Status::diverged;
         const double v = run.end.v.col(1).norm(), expected = convex ? h * friction * v : 0;
-        const double gap = !usable ? std::nan("") : convex ? gap_of(run.end) : largest;
+        const double gap = !usable ? std::nan("") : convex ? gap_of(run.end) : largest.value();
         const double error = convex ? std::abs(gap / expected - 1) : gap;
         table.row({std::string(relaxation), std::string(law), h, v, gap, expected, error, run.sweeps,
                    std::int64_t{run.steps - run.steps_ok}, status_cell(run.status), run.reason});

@@ -40,21 +40,22 @@ void bounce(KnownAnswers& answers, Table& heights, const Method& method, double 
   const double rest = restitution < 1 ? impact * (1 + restitution) / (1 - restitution) : 5;  // s
   // In flight z + v^2/(2 g) is the height a flight reaches. A step that turns the speed may begin v h above
   // the ground and end (1 - e) v h/2 below: |H_n - e^2 H_n-1| <= (1 - e^2) v h.
-  double expected = height, allowed = 0, worst = 0, before = -1, last_moving = 0, energy = 0;
+  double expected = height, allowed = 0, before = -1, last_moving = 0;
+  Worst worst, energy;
   int bounces = 0;
   const std::string name = fmt::format("ball dropped from 1 m, restitution {:g}", restitution);
   const ContactRun run = simulate_contacts(
       build.finish(), method, h, std::lround(1.25 * rest / h), [&](const State& now, const Workspace&) {
         const double v = now.v(2, 1);
         const double reached = now.x(2, 1) - radius + v * v / (2 * gravity);
-        energy = std::max(energy, std::abs(reached / height - 1));
+        energy.add(std::abs(reached / height - 1));
         if (before < 0 && v > slowest) {
           const double square = restitution * restitution;
           allowed = square * allowed + (1 - square) * std::sqrt(2 * gravity * (expected + allowed)) * h;
           expected *= square;
           ++bounces;
           if (restitution < 1) {
-            worst = std::max(worst, std::abs(reached - expected) / allowed);
+            worst.add(std::abs(reached - expected) / allowed);
             if (bounces <= 8)
               heights.row({method.relaxation, h, restitution, std::int64_t{bounces}, reached, expected,
                            allowed, std::string("ok"), std::string()});
@@ -67,13 +68,13 @@ void bounce(KnownAnswers& answers, Table& heights, const Method& method, double 
     const auto bounces_above = [&](double speed) {
       return std::log(speed / std::sqrt(2 * gravity * height)) / std::log(restitution);
     };
-    answers.add("heights", name, method, h, worst, 0,
-                bounces + 1 > bounces_above(slowest) ? worst : std::nan(""), run);
+    answers.add("heights", name, method, h, worst.value(), 0,
+                bounces + 1 > bounces_above(slowest) ? worst.value() : std::nan(""), run);
     // Each of n bounces is late or early by at most two steps.
     answers.add("rest_time", name, method, h, last_moving, rest,
                 std::abs(last_moving - rest) / (2 * h * (bounces_above(gravity * h) + 1)), run);
   } else {
-    answers.add("energy", name, method, h, energy, 0, energy, run);
+    answers.add("energy", name, method, h, energy.value(), 0, energy.value(), run);
   }
 }
 
@@ -99,11 +100,11 @@ void cradle(KnownAnswers& answers, const Method& method, int moving, double gap)
     build.ball(radius, 1,
                {Vec3(k * (2 * radius + gap), 0, 0), upright(), Vec3(k < moving ? speed : 0, 0, 0)});
   const ContactRun run = simulate_contacts(build.finish(), method, h, 200);
-  double worst = 0;
+  Worst worst;
   for (int k = 0; k < count; ++k)
-    worst = std::max(worst, std::abs(run.end.v(0, k) - (k >= count - moving ? speed : 0)) / speed);
-  answers.add("cradle", fmt::format("{} in of five balls, gaps of {:g} m", moving, gap), method, h, worst, 0,
-              worst, run, gap > 0);
+    worst.add(std::abs(run.end.v(0, k) - (k >= count - moving ? speed : 0)) / speed);
+  answers.add("cradle", fmt::format("{} in of five balls, gaps of {:g} m", moving, gap), method, h,
+              worst.value(), 0, worst.value(), run, gap > 0);
 }
 
 void oblique(KnownAnswers& answers, const Method& method, double friction) {

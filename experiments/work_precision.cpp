@@ -57,12 +57,13 @@ void judge_points(const Case& each, const State& start, const Points& exact, Tab
 }
 
 /// One row a tolerance by `solve`; the tighter ones are skipped where one was missed, all of them where the
-/// scene does not allow the method.
-void tolerance_points(const Subject& of, std::string_view outer, std::string_view relaxation,
-                      const std::function<Trace(double)>& solve, Table& table) {
+/// scene does not allow the method. Returns the tightest, without an error where that was not reached.
+TracePoint tolerance_points(const Subject& of, std::string_view outer, std::string_view relaxation,
+                            const std::function<Trace(double)>& solve, Table& table) {
   std::string skipped;
+  TracePoint point;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-    TracePoint point{.wall_s = std::nan(""), .error = std::nan("")};
+    point = {.wall_s = std::nan(""), .error = std::nan("")};
     std::string_view status = "skipped";
     std::string reason = skipped;
     try {
@@ -77,7 +78,9 @@ void tolerance_points(const Subject& of, std::string_view outer, std::string_vie
       reason = skipped = error.what();
     }
     add_point(table, of, outer, relaxation, tolerance, point, status, reason);
+    if (!skipped.empty()) point.error = std::nan("");
   }
+  return point;
 }
 
 void method_points(const Case& each, const State& start, const Points& exact, const Outer& outer,
@@ -128,22 +131,21 @@ std::vector<Case> contact_cases_of_work(bool full) {
   return all;
 }
 
-/// The first judge's end of the step by the law, which is Coulomb's unless it is the convex one; and the
-/// times of all, of cone_ipopt by the convex law alone: under Coulomb's it takes minutes.
-Points judge_contact_points(const Case& each, const std::string& friction, Table& table) {
+/// The first judge's end of the step, and the times of all, of cone_ipopt by the convex law alone: under
+/// Coulomb's it takes minutes.
+Points judge_contact_points(const Case& each, reference::FrictionLaw law, Table& table) {
   const State& start = each.scene.initial;
   const Points begin = places(each.scene, start.x, start.orientation);
+  const std::string friction(reference::friction_law_names[static_cast<std::size_t>(law)]);
   Points exact;
   for (const ConeSolver& judge : cone_solvers()) {
     if (!judge.judge) continue;
-    if (judge.name == "cone_ipopt" && friction != "cone") {
+    if (judge.name == "cone_ipopt" && law == reference::FrictionLaw::coulomb) {
       add_point(table, {each, friction}, "judge", judge.name, 0,
                 {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", "minutes under Coulomb's law");
       continue;
     }
-    const auto once = [&] {
-      return judge_contacts(judge, each.scene, start, each.h, friction_law(friction));
-    };
+    const auto once = [&] { return judge_contacts(judge, each.scene, start, each.h, law); };
     ContactJudgement judged = once();
     for (int repeat = 1; repeat < timed_repeats && judged.status == "ok"; ++repeat)
       judged.seconds = std::min(judged.seconds, once().seconds);
@@ -162,23 +164,29 @@ Points judge_contact_points(const Case& each, const std::string& friction, Table
   return exact;
 }
 
-/// Every relaxation by every law; those of box friction have their error beside Coulomb's law.
-void contact_points(const Case& each, int max_outer, Table& table) {
-  for (const std::string_view friction : friction_names) {
-    const Subject subject{each, std::string(friction)};
-    const Points exact = judge_contact_points(each, subject.friction, table);
+/// Every relaxation by every law. Coulomb's law may have several solutions: where the motions of all that
+/// meet the tightest tolerance are the judge's, errors mean something. box is beside Coulomb's law.
+void contact_points(Context& context, const Case& each, int max_outer, Table& table) {
+  const Points convex = judge_contact_points(each, reference::FrictionLaw::cone, table);
+  const Points coulomb = judge_contact_points(each, reference::FrictionLaw::coulomb, table);
+  Worst apart;
+  for (const std::string_view friction : friction_names)
     for (const auto relaxation : relaxation_names()) {
       Method method;
-      method.friction = subject.friction;
+      method.friction = friction;
       method.relaxation = relaxation;
       method.max_outer = max_outer;
       const auto solve = [&](double tolerance) {
         method.tolerance = tolerance;
-        return measure_once(each.scene, each.scene.initial, each.h, method, exact);
+        return measure_once(each.scene, each.scene.initial, each.h, method,
+                            friction == "cone" ? convex : coulomb);
       };
-      tolerance_points(subject, method.outer, relaxation, solve, table);
+      const TracePoint last =
+          tolerance_points({each, std::string(friction)}, method.outer, relaxation, solve, table);
+      if (friction != "box" && std::isfinite(last.error)) apart.add(last.error);
     }
-  }
+  context.verdict("work_precision." + each.name, "who meets the tightest tolerance finds the judge's motion",
+                  "largest relative error of the motion", apart.value(), 1e-6);
 }
 
 }  // namespace
@@ -214,7 +222,7 @@ void work_precision(Context& context) {
   table.close();
   Table touching = context.table("contacts", columns());
   for (const auto& each : contacts) {
-    contact_points(each, budget, touching);
+    contact_points(context, each, budget, touching);
     context.advance(each.name);
   }
   touching.close();

@@ -254,11 +254,19 @@ def _label_log_axes(figure):
         axis.set_minor_formatter(NullFormatter())
 
 
+def _on_floor(figure):
+    """Whether a marker stands at the floor of logarithmic axes."""
+    return any((np.asarray(data, dtype=float) == ZERO_DRAWN_AT).any() for ax in figure.axes for line in ax.lines
+               for data in line.get_data(orig=False))
+
+
 def save(figure, directory, name, foot):
     """Writes DIR/name.{png,svg,pdf} with the provenance at the foot; the same input gives the same bytes."""
     directory.mkdir(parents=True, exist_ok=True)
     _give_empty_axes_limits(figure)
     _label_log_axes(figure)
+    if _on_floor(figure):
+        footnote(figure, f"Values below {text_number(ZERO_DRAWN_AT)}, and 0, stand there.")
     footnote(figure, foot.replace("$", r"\$"), size=4.5)
     _place_footnotes(figure)
     figure.set_layout_engine("none")  # laid out by now

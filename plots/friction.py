@@ -1,12 +1,10 @@
 """Contact beside known answers: the errors of every quantity, friction over the heading, and the convex law's gap."""
 
-from common import (BLACK, ZERO_DRAWN_AT, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend,
+from common import (BLACK, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend,
                     style, ticks)
 from reading import failed, good, reasons_note, text_number
 
 SHORT = {"gauss_seidel": "GS", "jacobi": "J", "nesterov_jacobi": "NJ", "conjugate_gradients": "CG", "direct": "direct"}
-
-ZEROS = f"Errors that are exactly 0 stand at {text_number(ZERO_DRAWN_AT)}. "
 
 
 def answers(frame):
@@ -30,7 +28,7 @@ def answers(frame):
         ax.set(yscale="log", title=quantity.replace("_", " "), xlim=(0.5, len(names) + 0.5))
         ax.set_ylabel(f"error ({here['unit'].iloc[0]})", fontsize=7)
     shared_legend(fig, axes)
-    footnote(fig, ZEROS + reasons_note(failed(frame, "error")))
+    footnote(fig, reasons_note(failed(frame, "error")))
     return fig
 
 
@@ -53,7 +51,7 @@ def headings(frame):
         ax.set_xlabel("heading (degrees)")
         ax.set_xticks(range(0, 361, 90))
     shared_legend(fig, axes)
-    footnote(fig, ZEROS + reasons_note(failed(frame, "share_error", "heading_error_rad")))
+    footnote(fig, reasons_note(failed(frame, "share_error", "heading_error_rad")))
     return fig
 
 

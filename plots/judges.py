@@ -2,8 +2,8 @@
 
 import re
 
-from common import ZERO_DRAWN_AT, BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
-from reading import failed, good, reasons_note, text_number
+from common import BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
+from reading import failed, good, reasons_note
 
 SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
           ("residual_b", "residual of the second", GREEN, "^"))
@@ -39,6 +39,6 @@ def agreement(frame):
     ax.set(xscale="log", xlabel="relative difference, relative residual", title=" and ".join(pairs.unique()))
     shared_legend(fig, [ax], columns=3)
     zeros = int((good(frame, "difference")["difference"] == 0).sum())
-    drawn_at = f" Differences that are exactly 0: {zeros}, drawn at {text_number(ZERO_DRAWN_AT)}." if zeros else ""
+    drawn_at = f" Differences that are exactly 0: {zeros}." if zeros else ""
     footnote(fig, f"In brackets the number of steps.{drawn_at} " + reasons_note(failed(frame, "difference")))
     return fig

@@ -11,7 +11,7 @@ ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance
   constexpr int most = 50, patience = 10;
   const auto begin = std::chrono::steady_clock::now();
   const auto residual = [&](const VectorXd& r) {
-    return measure_cone(problem, FrictionLaw::coulomb, r).natural_residual;
+    return measure_cone(problem, FrictionLaw::coulomb, r).residual();
   };
   ConeProblem shifted = problem;
   VectorXd shift = VectorXd::Zero(3 * problem.contacts());

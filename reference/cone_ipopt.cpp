@@ -185,7 +185,7 @@ ConeSolution minimum(const ConeProblem& problem, double tolerance) {
       const VectorXd found = form(scaled.problem, best.iterations);
       if (found.size() == 0 || !found.allFinite()) continue;
       const VectorXd impulse = size * scaled.scale.cwiseProduct(found);
-      const double residual = measure_cone(problem, FrictionLaw::cone, impulse).natural_residual;
+      const double residual = measure_cone(problem, FrictionLaw::cone, impulse).residual();
       if (residual < smallest) smallest = residual, best.impulse = impulse;
     }
   }

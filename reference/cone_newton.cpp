@@ -82,7 +82,7 @@ int cone_newton(const ConeProblem& original, FrictionLaw law, double target, Vec
     scaled.problem.free_velocity *= weight;
   }
   const auto residual = [&](const VectorXd& r) {
-    return measure_cone(original, law, scaled.scale.cwiseProduct(r)).natural_residual;
+    return measure_cone(original, law, scaled.scale.cwiseProduct(r)).residual();
   };
   VectorXd at = start, best = at;
   double best_residual = residual(at), regularisation = 1e-10;

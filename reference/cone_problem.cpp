@@ -41,13 +41,32 @@ VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law, const Vec
   return shifted;
 }
 
-VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
-  const VectorXd shifted = shifted_velocity(problem, law, problem.velocity(impulse));
+namespace {
+
+/// r - P_K(r - u~)
+VectorXd map_of(const VectorXd& friction, const VectorXd& impulse, const VectorXd& shifted) {
   VectorXd map = impulse;
-  for (int i = 0; i < problem.contacts(); ++i)
+  for (Eigen::Index i = 0; i < friction.size(); ++i)
     map.segment<3>(3 * i) -=
-        project_on_cone(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), problem.friction(i));
+        project_on_cone(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
   return map;
+}
+
+/// s of the equilibrated problem, one per row.
+VectorXd equilibrating(const ConeProblem& problem) {
+  VectorXd scale = VectorXd::Ones(3 * problem.contacts());
+  const VectorXd diagonal = problem.delassus.diagonal();
+  for (int i = 0; i < problem.contacts(); ++i) {
+    const double mean = diagonal.segment<3>(3 * i).mean();
+    if (mean > 0) scale.segment<3>(3 * i).setConstant(1 / std::sqrt(mean));
+  }
+  return scale;
+}
+
+}  // namespace
+
+VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
+  return map_of(problem.friction, impulse, shifted_velocity(problem, law, problem.velocity(impulse)));
 }
 
 ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
@@ -64,7 +83,11 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   const double quadratic = impulse.dot(problem.delassus * impulse);
   const double linear = impulse.dot(problem.free_velocity);
   ConeMeasures m;
-  m.natural_residual = over(natural_map(problem, law, impulse).norm(), size);
+  m.natural_residual = over(map_of(problem.friction, impulse, shifted).norm(), size);
+  const VectorXd scale = equilibrating(problem);
+  m.scaled_residual =
+      over(map_of(problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).norm(),
+           scale.cwiseProduct(problem.free_velocity).norm());
   m.gap = over(std::abs(impulse.dot(shifted)), std::abs(quadratic) + std::abs(linear));
   m.impulse_distance = over(std::sqrt(from_cone), impulse.norm());
   m.velocity_distance = over(std::sqrt(from_dual), size);
@@ -73,12 +96,7 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
 }
 
 EquilibratedCone equilibrate(const ConeProblem& problem) {
-  EquilibratedCone scaled{problem, VectorXd::Ones(3 * problem.contacts())};
-  const VectorXd diagonal = problem.delassus.diagonal();
-  for (int i = 0; i < problem.contacts(); ++i) {
-    const double mean = diagonal.segment<3>(3 * i).mean();
-    if (mean > 0) scaled.scale.segment<3>(3 * i).setConstant(1 / std::sqrt(mean));
-  }
+  EquilibratedCone scaled{problem, equilibrating(problem)};
   scaled.problem.delassus = scaled.scale.asDiagonal() * problem.delassus * scaled.scale.asDiagonal();
   scaled.problem.free_velocity = scaled.scale.cwiseProduct(problem.free_velocity);
   return scaled;
@@ -88,15 +106,17 @@ void certify(const ConeProblem& problem, FrictionLaw law, double tolerance, Cone
   solution.velocity = problem.velocity(solution.impulse);
   solution.measures = measure_cone(problem, law, solution.impulse);
   // u~ is from K* by the natural map at most; where it is not, impulses are so large that rounding hides u~.
-  const double residual = solution.measures.natural_residual, outside = solution.measures.velocity_distance;
-  const bool reached = residual <= tolerance && outside <= tolerance;  // NaN is not
+  const double residual = solution.measures.residual(), outside = solution.measures.velocity_distance;
+  const bool finite = std::isfinite(problem.free_velocity.norm()) &&
+                      std::isfinite(solution.velocity.norm()) && std::isfinite(solution.measures.gap);
+  const bool reached = finite && residual <= tolerance && outside <= tolerance;  // NaN is not
   solution.outcome = reached ? Outcome::ok : Outcome::not_converged;
   if (reached) solution.reason.clear();
   if (!reached && solution.reason.empty()) {
     std::array<char, 120> text{};
     std::snprintf(text.data(), text.size(),
-                  "natural residual %.2g, velocity %.2g from the dual cone, asked for %.2g", residual,
-                  outside, tolerance);
+                  "natural residual %.2g, velocity %.2g from the dual cone%s, asked for %.2g", residual,
+                  outside, finite ? "" : ", not finite", tolerance);
     solution.reason = text.data();
   }
 }

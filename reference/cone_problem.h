@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -45,11 +46,13 @@ Eigen::VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const E
 /// What impulses are worth, whoever found them.
 struct ConeMeasures {
   double natural_residual = 0;   // |r - P_K(r - u~)| / |q|; not divided where q = 0
+  double scaled_residual = 0;    // the same of the equilibrated problem, which no choice of units changes
   double gap = 0;                // |r.u~| / (|r.W r| + |r.q|): 0 for 0/0
   double impulse_distance = 0;   // of r from K over |r|
   double velocity_distance = 0;  // of u~ from K* over |q|
   double objective = 0;          // 1/2 r.W r + q.r, J
 
+  double residual() const { return std::max(natural_residual, scaled_residual); }
   double feasibility() const { return std::max(impulse_distance, velocity_distance); }
 };
 ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Eigen::VectorXd& impulse);
@@ -61,8 +64,8 @@ struct EquilibratedCone {
 };
 EquilibratedCone equilibrate(const ConeProblem& problem);
 
-/// Impulses somebody found; `outcome` is ok exactly if natural_residual and velocity_distance are within the
-/// tolerance asked for. (The second follows from the first but for rounding.)
+/// Impulses somebody found; `outcome` is ok exactly if residual() and velocity_distance are within the
+/// tolerance asked for, and all is finite. (The second follows from the first but for rounding.)
 struct ConeSolution {
   Eigen::VectorXd impulse, velocity;  // r, N s; u = W r + q, m/s (not u~)
   ConeMeasures measures;

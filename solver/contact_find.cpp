@@ -35,10 +35,10 @@ void ContactRows::add_surfaces(const Contact& effect, const Points& x) {
     contact.surface = found;
     contact.law = law;
     contact.collider = {found.node[0], found.edges ? found.node[2] : found.node[1]};
-    const std::uint32_t rest = found.edges ? found.node[3] : found.node[2];
-    contact.features.key =
-        2 * (rest + static_cast<std::uint32_t>(x.cols()) * found.node[found.edges ? 1 : 3]) +
-        (found.edges ? 1 : 0);
+    const auto rest = static_cast<std::uint64_t>(found.edges ? found.node[3] : found.node[2]);
+    contact.features.key = 2 * (rest + static_cast<std::uint64_t>(x.cols()) *
+                                           static_cast<std::uint64_t>(found.node[found.edges ? 1 : 3])) +
+                           (found.edges ? 1 : 0);
     contacts_[law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
   }
 }

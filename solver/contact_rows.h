@@ -94,7 +94,7 @@ class ContactRows {
 
   struct Seed {  // of an impulse: what it was in the last step
     std::array<int, 2> collider;
-    std::uint32_t key;
+    std::uint64_t key;
     Vec3 impulse;  // N s, on a, in the world
 
     auto name() const { return std::tie(collider, key); }

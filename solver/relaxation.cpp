@@ -293,8 +293,7 @@ double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
     }
   });
   last_product_ = product;
-  constexpr double redundant =
-      1e-10;  // s that changes next to no velocity: what rows contradict each other by
+  constexpr double redundant = 1e-10;  // s changes next to no velocity: what rows contradict each other by
   if (!(curvature > redundant * square_)) {
     last_product_ = 0;
     return std::sqrt(moved + (beta > 0 ? product : 0.0));  // begin anew; nothing left to gain

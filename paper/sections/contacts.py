@@ -28,7 +28,7 @@ BOUNCE = (
 LIMITS = (
     "Bricks of length L stand while the overhang is below L/2 (1 + 1/2 + ... + 1/n). A semicircular arch stands while a line "
     "of thrust fits into its stones; the least thickness for these stones, prisms between radial cuts, is that of the linear "
-    "programme over the thrust and its height at the crown. At curved stones it gives 0.10703 of the radius for 25 of them.")
+    "programme over the thrust and its height at the crown.")
 
 
 def answers_table(frame):

@@ -21,8 +21,8 @@ def work_precision(results):
             Figure("work_precision_contact_seconds", "One step of bodies in contact from a cold start, by every relaxation and law "
                    "of friction. `incline`: a box that slides askew; `stack` and `arch`: their top is struck; `pile`: bodies that "
                    "stick, slide and leave each other. The judges of contact problems solve the rows that the solver linearises "
-                   "at the judges' own iterates. The convex law is beside its own solution, the others beside Coulomb's: what "
-                   "`box` keeps is the law's error."),
+                   "at the judges' own iterates. The convex law is beside its own solution, the others beside that of Coulomb's "
+                   "law: what `box` keeps is the law's error."),
             Figure("work_precision_contact_row_updates", "The same runs over row updates, without `direct`, which factors.")])
     frame = results.table("work_precision", "points")
     if frame is not None:
@@ -41,11 +41,12 @@ def contacts_table(frame, levels=(1e-3, 1e-6, 1e-9)):
     rows = []
     for (scene, law), group in frame.groupby(["scene", "friction"], sort=False):
         runs = good(group, "error", "wall_s")
+        judged = good(frame[(frame["scene"] == scene) & (frame["friction"] == ("cone" if law == "cone" else "coulomb"))], "wall_s")
         cells = []
         for level in levels:
             reached = runs[(runs["error"] <= level) & (runs["outer"] != "judge")].sort_values("wall_s")
             cells.append(f"`{reached['relaxation'].iloc[0]}` {number(reached['wall_s'].iloc[0])}" if len(reached) else "none")
-        judge = runs[runs["relaxation"] == "cone_interior_point"]["wall_s"]
+        judge = judged[judged["relaxation"] == "cone_interior_point"]["wall_s"]
         rows.append([f"`{scene}`", f"`{law}`", *cells, number(judge.iloc[0]) if len(judge) else "none"])
     return Table("Contact: the quickest relaxation with at most the given error and its wall time (s), and the judge's.",
                  ["scene", "law", *(number(level) for level in levels), "judge"], rows)

@@ -25,7 +25,7 @@ struct ContactPoint {
 
   Kind kind = Kind::face;
   bool swapped = false;              // a is the second shape asked for, b the first
-  std::uint32_t key = 0;             // the features' names: the same contact has the same one in every step
+  std::uint64_t key = 0;             // the features' names: the same contact has the same one in every step
   Eigen::Vector3d point_a, point_b;  // m
   Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or of its rim's axis
   Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line

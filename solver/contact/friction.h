@@ -1,9 +1,9 @@
 // Laws of dry friction as projections of a contact's impulse p = (p_n, p_t1, p_t2), N s, with the coefficient
 // mu. A step of Jacobi's kind goes from p by `step` = -W r, r the residual (m/s) of the contact's three rows
 // and W one common inverse mass; the law says where it ends. Where it ends at p, the law holds:
-//   cone     |p_t| <= mu p_n, and r in the dual cone, r_n >= mu |r_t|, at right angles to p: convex; a
-//   sliding
-//            contact hovers at r_n = mu |r_t| (Anitescu 2006; Tasora, Anitescu 2011)
+//
+//   cone     |p_t| <= mu p_n, and r in the dual cone, r_n >= mu |r_t|, at right angles to p: convex; sliding
+//            it hovers at r_n = mu |r_t| (Anitescu 2006; Tasora, Anitescu 2011)
 //   coulomb  the same of r + mu |r_t| e_n: r_n = 0 where p_n > 0 (De Saxce, Feng 1998)
 //   disc     p_n >= 0, |p_t| <= mu p_n with the bound taken as it is: Coulomb's law again
 //   box      each |p_tj| <= mu p_n: stronger across the axes by sqrt(2)
@@ -63,7 +63,7 @@ ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Ve
 
 /// The impulse of one contact alone: N p + q obeys the law, N (1/kg, 3 x 3) its Delassus matrix and q (m/s)
 /// what its rows are without it. Separation and sticking by their formulas, sliding by projections from
-/// `start`, at most some ten of them.
+/// `start`, at most thirty of them.
 Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
                               const Eigen::Vector3d& start);
 

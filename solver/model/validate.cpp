@@ -265,8 +265,8 @@ struct EffectCheck {
             "one per pair of materials, " + text(materials * materials));
     for (std::size_t i = 0; i < effect.law.size(); ++i) {
       const ContactLaw& law = effect.law[i];
-      REQUIRE(law.friction >= 0 && std::isfinite(law.friction), at(i, "friction"), text(law.friction),
-              "a finite number >= 0");
+      REQUIRE(law.friction >= 0 && law.friction <= most_friction, at(i, "friction"), text(law.friction),
+              "0 to " + text(most_friction));
       REQUIRE(law.restitution >= 0 && law.restitution <= 1, at(i, "restitution"), text(law.restitution),
               "0 to 1");
       not_negative({law.compliance}, "compliance");
@@ -404,6 +404,11 @@ void validate(const Scene& scene) {
     REQUIRE(scene.initial.v.col(node).allFinite(), where("velocity"), text(Vec3(scene.initial.v.col(node))),
             "finite numbers");
   }
+  double lightest = infinity, heaviest = 0;
+  for (const double mass : scene.mass)
+    if (std::isfinite(mass)) lightest = std::min(lightest, mass), heaviest = std::max(heaviest, mass);
+  REQUIRE(heaviest <= most_mass_ratio * lightest, "mass", text(lightest) + " beside " + text(heaviest),
+          "masses within a factor of " + text(most_mass_ratio));
   validate_bodies(scene);
   for (std::size_t i = 0; i < scene.effects.size(); ++i)
     std::visit(

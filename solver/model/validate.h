@@ -7,6 +7,13 @@
 
 namespace pbd {
 
+/// Largest coefficient of friction: beyond, rounding of mu |u_T| hides u_N in Coulomb's law.
+inline constexpr double most_friction = 1e7;
+
+/// Largest ratio of finite masses: beyond, what a step misses at the light ones is rounding beside the heavy
+/// ones.
+inline constexpr double most_mass_ratio = 1e15;
+
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
 /// out of range or repeated, masses <= 0 or NaN, compliances and damping times < 0, non-finite numbers,
 /// degenerate or inverted rest elements, elastic constants out of range, principal moments of inertia that no

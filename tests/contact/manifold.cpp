@@ -48,9 +48,9 @@ std::array<Plane, 4> rectangle(const Vec3& size, const Frame& at) {
   return corners;
 }
 
-std::map<std::uint32_t, Touching> by_key(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b,
+std::map<std::uint64_t, Touching> by_key(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b,
                                          double margin) {
-  std::map<std::uint32_t, Touching> found;
+  std::map<std::uint64_t, Touching> found;
   for (const auto& contact : contacts(a, at_a, b, at_b, margin)) {
     CHECK(!found.contains(contact.key));
     found[contact.key] = touch(contact, at_a, at_b);
@@ -129,7 +129,7 @@ TEST_CASE("gaps of a plank that tilts over an edge are continuous") {
   const Box plank{{2, 0.3, 0.1}}, table{{1, 1, 1}};
   constexpr double margin = 0.05, by = 1e-4;
   const double yaw = GENERATE(0.0, 0.3);
-  std::map<std::uint32_t, Touching> before;
+  std::map<std::uint64_t, Touching> before;
   for (double angle = -0.05; angle < 0.05; angle += by) {
     // About the table's edge at x = 0.5.
     const Eigen::Matrix3d tilt = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();

@@ -152,6 +152,31 @@ TEST_CASE("measures of impulses that are wrong by known amounts") {
   CHECK(spoilt.outcome == Outcome::not_converged);
 }
 
+TEST_CASE("wrong impulses are not ok, whatever the unit of mass") {
+  Matrix3d w;
+  w << 2, 0.3, 0.1, 0.3, 1.5, 0.2, 0.1, 0.2, 1;
+  const Vector3d q(-1, 0.1, 0.05);  // sticks
+  for (const double unit : {1e-12, 1e-6, 1.0, 1e6, 1e12})
+    for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
+      const ConeProblem problem = contact(unit * w, q, 0.7);
+      ConeSolution right, wrong;
+      right.impulse = -w.inverse() * q / unit;
+      wrong.impulse = 0.99 * right.impulse;
+      certify(problem, law, 1e-8, right);
+      certify(problem, law, 1e-3, wrong);
+      INFO(unit);
+      CHECK(right.outcome == Outcome::ok);
+      CHECK(wrong.outcome == Outcome::not_converged);
+    }
+}
+
+TEST_CASE("what overflows is not ok") {
+  ConeSolution none;
+  none.impulse = Vector3d::Zero();
+  certify(contact(Matrix3d::Identity(), Vector3d(-1e300, 0, 0), 0.5), FrictionLaw::cone, 1e-8, none);
+  CHECK(none.outcome == Outcome::not_converged);
+}
+
 TEST_CASE("no impulse holds a contact that nothing moves") {
   const ConeProblem fixed = contact(Matrix3d::Zero(), Vector3d(-1, 0.5, 0), 0.5);
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb})

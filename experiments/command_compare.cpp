@@ -28,7 +28,7 @@ namespace {
 pbd::State advanced(SceneFile& file, int steps, int& missed) {
   const pbd::Scene stated = file.scene;
   pbd::State state = stated.initial;
-  pbd::Workspace workspace(file.scene, file.method);
+  pbd::Workspace workspace = file.workspace();
   for (int i = 1; i <= steps; ++i) {
     throw_if_interrupted();
     file.script.begin_step(stated, file.step_s, file.scene, state);

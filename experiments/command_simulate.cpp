@@ -151,7 +151,7 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, 
 
 int simulate(const SimulateOptions& options) {
   SceneFile file = read_scene_file(options.scene, options.settings);
-  pbd::Workspace workspace(file.scene, file.method);
+  pbd::Workspace workspace = file.workspace();
   Output output(options, file);
   PartialFile record(options.directory / "run.json");
 

@@ -35,6 +35,7 @@ void on_interrupt(int) {
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the terminal's lines may go; the files are written
 }
 
 bool interrupted() {

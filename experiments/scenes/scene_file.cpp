@@ -92,13 +92,24 @@ SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<s
   read_step(root, found);
   if (auto keys = root.table("method")) {
     found.method = read_method(*keys, found.method);
-    for (const auto* key : {"integrator", "direction_blend"})
+    for (const auto* key : {"integrator", "direction_blend", "outer", "beta"})
       if (keys->has(key)) found.method_where[key] = keys->where(key);
   }
   read_probes(root, found);
   root.refuse_unknown();
   located(file.string(), [&] { pbd::validate(found.scene); });
   return found;
+}
+
+pbd::Workspace SceneFile::workspace() const {
+  try {
+    return pbd::Workspace(scene, method);
+  } catch (const pbd::SetupError& error) {
+    const std::string text = error.what(), key = text.substr(0, text.find(':'));
+    const auto stated = method_where.find(key);
+    if (stated == method_where.end()) throw;
+    throw pbd::SetupError(stated->second + text.substr(key.size()));
+  }
 }
 
 std::string scene_description(const std::filesystem::path& file) {

@@ -41,6 +41,9 @@ struct SceneFile {
   pbd::Method method;
   std::map<std::string, std::string> method_where;  // of its keys the file states, as errors begin
   std::vector<Probe> probes;
+
+  /// Throws SetupError where the scene does not allow the method.
+  pbd::Workspace workspace() const;
 };
 
 /// Reads and validates a scene; `settings` are "KEY=VALUE" as of `--set`. Throws SetupError with file and

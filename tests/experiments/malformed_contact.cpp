@@ -136,6 +136,19 @@ TEST_CASE("mistakes with contact are refused with line, key, value and what is a
   }
 }
 
+TEST_CASE("methods that contact does not allow are refused where they are stated") {
+  const TemporaryFolder folder;
+  const auto out = folder.path / "out";
+  const std::string stack = (std::filesystem::path(PBDCHECK_SCENES) / "stack.toml").string();
+  for (const std::string setting : {"method.outer=quasi_newton", "method.integrator=midpoint"})
+    check_refused(run_program({"simulate", stack, "-o", out, "--set", setting}),
+                  {"--set " + setting.substr(0, setting.find('=')), "contact"});
+  check_refused(run_program({"simulate", stack, "-o", out, "--set", "contact.friction=1e20"}),
+                {"stack.toml", "friction", "0 to 10000000"});
+  check_refused(run_program({"simulate", stack, "-o", out, "--set", "rigid_body.1.mass_kg=1e-50"}),
+                {"stack.toml", "mass", "within a factor of"});
+}
+
 TEST_CASE("contact that nothing takes part in, and what stands without it, are refused") {
   const TemporaryFolder folder;
   const std::string rest =

@@ -140,7 +140,7 @@ TEST_CASE("a box and a ball that tumble on soft ground are solved at every step"
       Method method = method_of(relaxation, law);
       method.tolerance = 1e-8;
       const State end = run(scene, method, 0.005, 100);
-      CHECK(end.x.row(2).minCoeff() > -1e-2);
+      CHECK(end.x.row(2).rightCols(2).minCoeff() > 0);  // neither has fallen through
     }
 }
 

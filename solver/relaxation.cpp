@@ -33,8 +33,14 @@ auto entries(std::vector<double>& flat, const Block&, std::size_t first_row, std
 }  // namespace
 
 // Sweeps are flattened, all they call inlined: with every kind of rows GCC thinks that too much, and is a
-// fifth slower.
-[[gnu::flatten]] double GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+// fifth slower. With sanitizers' checks in it, compiling that would take half an hour.
+#ifdef NDEBUG
+#define PBD_FLATTEN [[gnu::flatten]]
+#else
+#define PBD_FLATTEN
+#endif
+
+PBD_FLATTEN double GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -120,7 +126,7 @@ void Jacobi::begin(Rows& rows, const Points& v, bool) {
   last_residual_ = std::numeric_limits<double>::infinity();
 }
 
-[[gnu::flatten]] double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+PBD_FLATTEN double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   next_ = v;
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
@@ -181,7 +187,7 @@ bool NesterovJacobi::bound_holds(const Rows& rows, const Points& v, double resid
   return false;
 }
 
-[[gnu::flatten]] double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+PBD_FLATTEN double NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   // v belongs to the impulses p; everything is linear, so v + beta (v - v_previous) belongs to the
   // extrapolated ones.
   extrapolated_ = v + beta_ * (v - previous_v_);
@@ -257,7 +263,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
   return changed;
 }
 
-[[gnu::flatten]] double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+PBD_FLATTEN double ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double moved = 0;  // squared residual of what the laws have moved
   const bool set_changed = find_free(rows, v, moved);
   push_.setZero(3, v.cols());

@@ -32,8 +32,8 @@ auto entries(std::vector<double>& flat, const Block&, std::size_t first_row, std
 
 }  // namespace
 
-// Sweeps are flattened, all they call inlined: with every kind of rows GCC thinks that too much, and is a
-// fifth slower. With sanitizers' checks in it, compiling that would take half an hour.
+// Sweeps are flattened, all they call inlined, which GCC does not do of itself with so many kinds of rows;
+// not so with sanitizers, whose checks would make that too long to compile.
 #ifdef NDEBUG
 #define PBD_FLATTEN [[gnu::flatten]]
 #else
@@ -339,7 +339,7 @@ std::int64_t relax(Relaxation& any, Rows& rows, Points& v, bool fresh, const Inn
             break;
           }
         }
-        if constexpr (requires { relaxation.setup_sweeps(); }) sweeps += relaxation.setup_sweeps();
+        if constexpr (requires { relaxation.further_sweeps(); }) sweeps += relaxation.further_sweeps();
         return sweeps;
       },
       any);

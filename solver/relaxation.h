@@ -2,7 +2,7 @@
 //   J v + b + Sigma p = 0  (unit of the rows per second).
 // They see rows only. `begin` is called after each linearisation, `sweep` visits every row once and returns
 // the residual sqrt(sum_i r_i^T N_ii^-1 r_i) (sqrt(J)) it met, each r_i taken when its constraint was
-// visited.
+// visited. What else it does, in a sweep's work, are its `further_sweeps`.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -59,7 +59,7 @@ class Jacobi {
   void begin(Rows& rows, const Points& v, bool fresh);
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
   double factor() const { return omega_; }  // omega of the last linearisation
-  std::int64_t setup_sweeps() const { return bound_.sweeps(); }
+  std::int64_t further_sweeps() const { return bound_.sweeps(); }
 
  private:
   SpectralBound bound_;
@@ -77,7 +77,7 @@ class NesterovJacobi {
   static constexpr std::string_view name = "nesterov_jacobi";
   void begin(Rows& rows, const Points& v, bool fresh);
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
-  std::int64_t setup_sweeps() const { return bound_.sweeps(); }
+  std::int64_t further_sweeps() const { return bound_.sweeps(); }
 
  private:
   bool bound_holds(const Rows& rows, const Points& v, double residual_squared, double compliant);
@@ -131,6 +131,7 @@ class Direct {
   static constexpr std::string_view name = "direct";
   void begin(Rows& rows, const Points& v, bool fresh);
   double sweep(Rows& rows, Points& v, BlockSeconds seconds);
+  std::int64_t further_sweeps() const { return newton_.further_sweeps(); }
 
  private:
   template <class Put>
@@ -164,8 +165,9 @@ struct InnerBudget {
   double absolute = 0;  // sqrt(J)
 };
 
-/// Sweeps until the budget's end; returns the number of sweeps, set-up sweeps (power iteration) included.
-/// Adds the first sweep's seconds of each block to `first_sweep` unless it is null.
+/// Sweeps until the budget's end; returns the number of sweeps, further ones (power iteration, what `direct`
+/// does where Newton's step fails) included. Adds the first sweep's seconds of each block to `first_sweep`
+/// unless it is null.
 std::int64_t relax(Relaxation& relaxation, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
                    BlockSeconds first_sweep);
 

@@ -100,6 +100,12 @@ struct RowBlock : ConstraintShape<R, K> {
   bool bounded() const { return !bounds.empty(); }
   bool frictional() const { return !friction.empty(); }
 
+  /// The law of contact i, as it is projected: where mu > 1 Coulomb's with the bound taken as it is, since De
+  /// Saxce's projection moves by 1/mu of a speed at which a contact closes.
+  Friction projected_law(std::size_t i) const {
+    return law == Friction::coulomb && friction[i] > 1 ? Friction::disc : law;
+  }
+
   /// True if constraint i is a limit whose bias, c/d at rest, lies on its open side.
   bool opens(std::size_t i) const {
     if constexpr (R == 1)
@@ -119,7 +125,7 @@ struct RowBlock : ConstraintShape<R, K> {
     if constexpr (R == 3) {
       if (bounds[i][0] < 0) return change;
       if (!(bounds[i][1] > 0)) return -p;
-      return project(law, friction[i], p, change) - p;
+      return project(projected_law(i), friction[i], p, change) - p;
     }
     return change;
   }
@@ -137,7 +143,8 @@ struct RowBlock : ConstraintShape<R, K> {
     static_assert(R == 3);
     if (bounds[i][0] < 0) return impulse[i] - delassus[i].inverse() * r;
     if (!(bounds[i][1] > 0)) return Shape::Value::Zero();
-    return solve_contact(law, friction[i], delassus[i], r - delassus[i] * impulse[i], impulse[i]);
+    return solve_contact(projected_law(i), friction[i], delassus[i], r - delassus[i] * impulse[i],
+                         impulse[i]);
   }
 
   /// Squared residual of constraint i (J) whose row misses r, and whose impulse N_ii^-1 and the bounds let

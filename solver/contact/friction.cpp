@@ -53,6 +53,41 @@ Matrix3d box_derivative(double mu, const Vector3d& z) {
   return derivative;
 }
 
+/// A contact that slides by Coulomb's law: u_n = 0, |p_t| = mu p_n, u_t = -lambda p_t. Without p_n, by u_n =
+/// 0, (A + lambda) p_t = -b: an equation in lambda > 0. At 0 it sticks, which has been refused: |p_t| > mu
+/// p_n; for large ones p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi (Illinois: Dowell,
+/// Jarratt 1971).
+Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
+  const Eigen::Vector2d coupling = n.bottomLeftCorner<2, 1>() / n(0, 0);
+  const Eigen::Matrix2d a = n.bottomRightCorner<2, 2>() - coupling * n.topRightCorner<1, 2>();
+  const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
+  const auto at = [&](double lambda) {
+    Vector3d p;
+    p.tail<2>() = -(a + lambda * Eigen::Matrix2d::Identity()).inverse() * b;
+    p[0] = -q[0] / n(0, 0) - coupling.dot(p.tail<2>());
+    return p;
+  };
+  const auto excess = [&](const Vector3d& p) { return std::hypot(p[1], p[2]) - mu * p[0]; };
+  constexpr double least = 1e-14, rounding = 1e-15;
+  constexpr int most = 100;
+  double low = least * n.trace(), high = n.trace();
+  double over = excess(at(low)), under = excess(at(high));
+  for (int k = 0; k < most && under > 0; ++k) low = high, over = under, high *= 4, under = excess(at(high));
+  Vector3d p = at(low);
+  for (int k = 0, kept = 0; k < most && over > 0; ++k) {
+    const double lambda = low + (high - low) * over / (over - under);
+    p = at(lambda);
+    const double found = excess(p);
+    if (std::abs(found) <= rounding * mu * std::abs(p[0]) || high - low <= rounding * high) break;
+    const bool above = found > 0;
+    (above ? low : high) = lambda;
+    (above ? over : under) = found;
+    if (kept == (above ? 1 : -1)) (above ? under : over) /= 2;
+    kept = above ? 1 : -1;
+  }
+  return project(Friction::disc, mu, p, Vector3d::Zero());
+}
+
 }  // namespace
 
 Friction friction_by_name(std::string_view name) {
@@ -86,6 +121,7 @@ Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n,
   if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d sticking = -n.inverse() * q;
   if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
+  if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
 
   constexpr int most = 30;
   constexpr double settled = 1e-14;

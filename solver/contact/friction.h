@@ -62,8 +62,8 @@ ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Ve
                                         const Eigen::Vector3d& step);
 
 /// The impulse of one contact alone: N p + q obeys the law, N (1/kg, 3 x 3) its Delassus matrix and q (m/s)
-/// what its rows are without it. Separation and sticking by their formulas, sliding by projections from
-/// `start`, at most thirty of them.
+/// what its rows are without it. Separation and sticking by their formulas, sliding by a root of one unknown
+/// (coulomb, disc), or by projections from `start`, at most thirty of them.
 Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
                               const Eigen::Vector3d& start);
 

@@ -88,13 +88,12 @@ TEST_CASE("derivatives of the laws' projections are those of central differences
 TEST_CASE("one contact's impulse obeys its law") {
   Random random;
   std::array<int, 3> kinds{};  // open, sticking, sliding
-  for (const double mu : {0.0, 0.3, 0.8})
+  for (const double mu : {0.0, 0.3, 0.8, 5.0, 1e6})
     for (int k = 0; k < 500; ++k) {
       const Matrix3d n = random_delassus(random);
       const Vector3d q = random();
       INFO("mu " << mu << " q " << q.transpose());
-      Vector3d p = Vector3d::Zero();
-      for (int call = 0; call < 200; ++call) p = solve_contact(Friction::coulomb, mu, n, q, p);
+      const Vector3d p = solve_contact(Friction::coulomb, mu, n, q, Vector3d::Zero());
       const Vector3d u = n * p + q;
       const double slip = u.tail<2>().norm(), slack = 1e-9 * (1 + q.norm());
       CHECK(in_cone(mu, p, slack));
@@ -108,6 +107,7 @@ TEST_CASE("one contact's impulse obeys its law") {
         ++kinds[2];
         CHECK((p.tail<2>() + mu * p[0] / slip * u.tail<2>()).norm() <= slack * (1 + 1 / slip));
       }
+      if (mu > 1) continue;  // projections are slow there
       Vector3d convex = Vector3d::Zero();
       for (int call = 0; call < 200; ++call) convex = solve_contact(Friction::cone, mu, n, q, convex);
       const Vector3d rest = n * convex + q;

@@ -68,13 +68,23 @@ TEST_CASE("a step's rows and the columns of their W are swept alike") {
                     law == FrictionLaw::cone ? pbd::Friction::cone : pbd::Friction::coulomb);
     const ConeProblem problem = cone_problem(step.rows, step.v_free);
     REQUIRE(problem.contacts() >= 12);
-    for (const auto* relaxation : {"gauss_seidel", "conjugate_gradients", "direct"}) {
+    // Of direct one iteration: where its steps fail it goes other ways by rows than by columns. By rows it
+    // eliminates impulses, which rounding sees through the shift, 1e-8 of W, each row's.
+    const double eliminated =
+        1e8 * std::numeric_limits<double>::epsilon() * static_cast<double>(row_count(step.rows));
+    struct Alike {
+      std::string_view relaxation;
+      int sweeps;
+      double rounding;
+    };
+    for (const auto& [relaxation, sweeps, rounding] :
+         {Alike{"gauss_seidel", 3, 1e-9}, {"conjugate_gradients", 3, 1e-9}, {"direct", 1, eliminated}}) {
       INFO(relaxation);
-      const ConeTask task{problem, law, 1e-300, 3};  // three sweeps
+      const ConeTask task{problem, law, 1e-300, sweeps};
       const VectorXd rows = relax_cone(relaxation, step.rows, step.v_free, task).impulse;
       const VectorXd columns = relax_cone(relaxation, task).impulse;
       CHECK(rows.norm() > 0.01);
-      CHECK((problem.delassus * (rows - columns)).norm() < 1e-9 * problem.free_velocity.norm());
+      CHECK((problem.delassus * (rows - columns)).norm() < rounding * problem.free_velocity.norm());
     }
     for (const auto relaxation : pbd::relaxation_names()) {
       INFO(relaxation);

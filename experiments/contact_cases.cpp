@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "arch.h"
 #include "scenes/contacts.h"
 #include "scenes/mechanisms.h"
 
@@ -33,6 +34,17 @@ ContactCase at_rest(std::string name, Scene scene, double h, double duration, do
   return {std::move(name), std::move(scene), h, duration, size, true, true, -1, carried};
 }
 
+/// Made the same way as what stands, but at rest it must not remain: a centre moves by a tenth of a metre.
+ContactCase falls(ContactCase standing) {
+  ContactCase made = std::move(standing);
+  made.settles = made.stays = false;
+  made.reaction = -1;
+  made.missed = [start = made.scene.initial.x](const State& end, double, std::int64_t) {
+    return (end.x - start).colwise().norm().maxCoeff() > 0.1 ? 0.0 : 1.0;
+  };
+  return made;
+}
+
 /// A cube of 1 m and 1e4 kg/m^3 on one of 0.1 m and 1e3 kg/m^3 (Li and others 2020, figure 12, as rigid
 /// bodies).
 ContactCase heavy_cube() {
@@ -44,13 +56,13 @@ ContactCase heavy_cube() {
 }
 
 /// Box2D's HighMassRatio1: a pyramid whose top box is `ratio` times as dense.
-ContactCase heavy_top(int base, double ratio) {
+ContactCase heavy_top(int base, double ratio, double duration) {
   Scene scene = pyramid(base);
   const auto top = static_cast<std::size_t>(scene.bodies.back().node);
   scene.mass[top] *= ratio;
   scene.bodies.back().inertia *= ratio;
-  return at_rest(fmt::format("pyramid of base {} with a top {}:1", base, ratio), std::move(scene), frame, 1,
-                 0.2);
+  return at_rest(fmt::format("pyramid of base {} with a top {}:1", base, ratio), std::move(scene), frame,
+                 duration, 0.2);
 }
 
 /// Box2D's HighMassRatio2: 400:1 dropped on two small boxes.
@@ -62,38 +74,85 @@ ContactCase dropped_box() {
   return {"box of 400:1 dropped on two small ones", build.finish(), frame, 4, 1};
 }
 
-ContactCase heavy_cylinder() {
+ContactCase heavy_cylinder(double mass) {
   BodyScene build({.friction = 0.5});
   build.ground();
   build.box(Vec3::Constant(0.5), 1, {Vec3(0, 0, 0.25)});
-  build.cylinder(0.5, 1, 60, {Vec3(0, 0, 1)});
-  return at_rest("cylinder of 60 kg on a cube of 1 kg", build.finish(), frame, 1, 0.5);
+  build.cylinder(0.5, 1, mass, {Vec3(0, 0, 1)});
+  return at_rest(fmt::format("cylinder of {:g} kg on a cube of 1 kg", mass), build.finish(), frame, 1, 0.5);
+}
+
+/// A leaning card of 1 m: how far its corners are from its centre, m.
+struct Leaning {
+  static constexpr double length = 1, thickness = 0.02, width = 0.5;
+  double lean;  // rad, from upright
+  double half_height = (length * std::cos(lean) + thickness * std::sin(lean)) / 2;
+  double half_width = (length * std::sin(lean) + thickness * std::cos(lean)) / 2;
+};
+
+/// A card that leans on a smooth wall at `degrees` from the ground. The wall pushes m g (cot -
+/// thickness/length)/2 (moments about the edge on the ground), which the ground's friction holds up to mu m
+/// g.
+ContactCase leaning_card(double degrees, double beyond_limit) {
+  const Leaning card{(90 - degrees) * pi / 180};
+  const double limit = (std::tan(card.lean) - Leaning::thickness / Leaning::length) / 2;
+  BodyScene build({});
+  build.materials(2, {.friction = limit + beyond_limit});
+  build.law(0, 1, {.friction = 0});
+  build.ground();
+  build.fixed(Box{Vec3(0.2, 1, 2)}, {Vec3(card.half_width + 0.1, 0, 1)}, 1);
+  build.box(Vec3(Leaning::thickness, Leaning::width, Leaning::length), 0.1,
+            {Vec3(0, 0, card.half_height), about_y(card.lean)});
+  ContactCase made = at_rest(
+      fmt::format("card on a smooth wall, {:g} degrees, mu {:+g} off the limit", degrees, beyond_limit),
+      build.finish(), 0.01, 2, Leaning::thickness);
+  return beyond_limit > 0 ? made : falls(std::move(made));
+}
+
+/// An arch `share` times as thick as it has to be.
+ContactCase arch(int stones, double share) {
+  const double thickness = share * limit_thickness(stones);
+  ContactCase made = at_rest(fmt::format("arch of {} stones, {:g} of the limit thickness", stones, share),
+                             Arch{thickness, stones}.scene(), 0.01, 3, thickness);
+  return share > 1 ? made : falls(std::move(made));
+}
+
+/// A body of a top and four legs: how they share the weight is not determined.
+ContactCase table() {
+  BodyScene build({.friction = 0.5});
+  build.ground();
+  constexpr double height = 0.7, leg = 0.05;
+  const int top = build.box(Vec3(1, 1, leg), 10, {Vec3(0, 0, height + leg / 2)});
+  for (const double x : {-0.4, 0.4})
+    for (const double y : {-0.4, 0.4})
+      build.contact().collider.push_back(
+          {Box{Vec3(leg, leg, height)}, top, {Vec3(x, y, -(height + leg) / 2)}, 0});
+  return at_rest("table on four legs", build.finish(), frame, 1, leg);
 }
 
 /// A-frames of two cards each, `levels` high, floors between them (65 degrees, friction 0.5).
 ContactCase card_house(int levels) {
   BodyScene build({.friction = 0.5});
   build.ground();
-  constexpr double length = 1, thickness = 0.02, width = 0.5, mass = 0.1;
-  const double lean = pi / 2 - 65 * pi / 180;
-  // A leaning card's box, its lower outer corner on the floor and its upper inner corner at the middle.
-  const double half_height = (length * std::cos(lean) + thickness * std::sin(lean)) / 2;
-  const double half_width = (length * std::sin(lean) + thickness * std::cos(lean)) / 2;
+  constexpr double mass = 0.1, thickness = Leaning::thickness, width = Leaning::width;
+  const Leaning card{25 * pi /
+                     180};  // its lower outer corner on the floor, its upper inner one at the middle
   double floor = 0;
   for (int level = levels; level >= 1; --level) {
     for (int k = 0; k < level; ++k) {
-      const double middle = (2 * k - (level - 1)) * 2 * half_width;
+      const double middle = (2 * k - (level - 1)) * 2 * card.half_width;
       for (const double side : {-1.0, 1.0})
-        build.box(Vec3(thickness, width, length), mass,
-                  {Vec3(middle + side * half_width, 0, floor + half_height), about_y(-side * lean)});
+        build.box(
+            Vec3(thickness, width, Leaning::length), mass,
+            {Vec3(middle + side * card.half_width, 0, floor + card.half_height), about_y(-side * card.lean)});
     }
-    floor += 2 * half_height;
+    floor += 2 * card.half_height;
     for (int k = 0; k + 1 < level; ++k)
-      build.box(Vec3(4 * half_width, width, thickness), mass,
-                {Vec3((2 * k - (level - 2)) * 2 * half_width, 0, floor + thickness / 2)});
+      build.box(Vec3(4 * card.half_width, width, thickness), mass,
+                {Vec3((2 * k - (level - 2)) * 2 * card.half_width, 0, floor + thickness / 2)});
     floor += thickness;
   }
-  return at_rest(fmt::format("house of cards, {} levels", levels), build.finish(), 0.01, 2, 1);
+  return at_rest(fmt::format("house of cards, {} levels", levels), build.finish(), 0.01, 2, thickness);
 }
 
 /// A slab on a grid of fixed cubes: `side` x `side` places where it touches.
@@ -110,12 +169,12 @@ ContactCase slab(int side) {
 
 /// `friction` just above the tangent of the angle, 0.499999, and below (Li and others 2020).
 ContactCase on_incline(double friction, bool holds) {
-  constexpr double angle = 26.565 * pi / 180, h = 0.025;
+  constexpr double angle = 26.565 * pi / 180;
   ContactCase made{fmt::format("box on 26.565 degrees, mu = {}", friction), sliding_box(angle, friction, 0),
-                   h, 2, 0.1};
+                   0.025, 2, 0.1};
   made.settles = made.stays = holds;
   if (!holds)
-    made.missed = [friction, start = made.scene.initial, steps = std::lround(2 / h)](const State& end) {
+    made.missed = [friction, start = made.scene.initial](const State& end, double h, std::int64_t steps) {
       const double a = gravity * (std::sin(angle) - friction * std::cos(angle));
       const double exact = h * h * a * static_cast<double>(steps * (steps + 1)) / 2;  // implicit Euler's
       return std::abs((end.x.col(1) - start.x.col(1)).norm() / exact - 1);
@@ -196,10 +255,9 @@ ContactCase turntable(double friction) {
   build.fixed(Cylinder{2, 0.1}, turning);
   build.box(Vec3(0.2, 0.2, 0.1), 1,
             {Vec3(0.5, 0, 0.05), Eigen::Quaterniond::Identity(), Vec3(0, 1, 0), Vec3(0, 0, 2)});
-  constexpr double h = 0.005;
-  ContactCase made{fmt::format("box on a turntable, mu = {:g}", friction), build.finish(), h, 2, 0.1};
+  ContactCase made{fmt::format("box on a turntable, mu = {:g}", friction), build.finish(), 0.005, 2, 0.1};
   made.settles = false;
-  made.missed = [friction, steps = std::lround(2 / h)](const State& end) {
+  made.missed = [friction](const State& end, double h, std::int64_t steps) {
     const double from_axis = end.x.col(1).head<2>().norm();
     if (friction < 0.2) return from_axis > 0.5 ? 0.0 : 1.0;  // it slides outward; sticking it would not
     // Where it sticks implicit Euler turns it by x' = x + h w x x', which shortens x.
@@ -215,11 +273,18 @@ std::vector<ContactCase> contact_cases(bool full) {
   std::vector<ContactCase> all;
   all.push_back(heavy_cube());
   for (const double ratio : {100.0, 200.0, 300.0})
-    if (full || ratio == 300) all.push_back(heavy_top(full ? 10 : 5, ratio));
+    if (full || ratio == 300) all.push_back(heavy_top(full ? 10 : 5, ratio, full ? 10 : 1));
   all.push_back(dropped_box());
-  all.push_back(heavy_cylinder());
+  for (const double mass : {60.0, 100.0}) all.push_back(heavy_cylinder(mass));
   all.push_back(at_rest("cubes, each twice as heavy", column(10, 2), frame, 1, 0.2));
-  if (full) all.push_back(card_house(3));
+  for (const double degrees : {60.0, 75.0})
+    for (const double beyond_limit : {0.01, -0.01}) all.push_back(leaning_card(degrees, beyond_limit));
+  for (const int levels : {2, 3, 4})
+    if (full || levels == 2) all.push_back(card_house(levels));
+  for (const int stones : {7, 25})
+    for (const double share : {1.02, 0.98})
+      if (full || stones == 7) all.push_back(arch(stones, share));
+  all.push_back(table());
   for (const int side : {2, 4, 10})
     if (full || side < 4) all.push_back(slab(side));
   all.push_back(on_incline(0.5, true));
@@ -229,7 +294,7 @@ std::vector<ContactCase> contact_cases(bool full) {
     if (full || links == 3) all.push_back(wrecking_ball(links, 100));
   all.push_back(balls(full ? 6 : 3));
   if (full) all.push_back(coin());
-  for (const double friction : {0.1, 0.5}) all.push_back(turntable(friction));
+  for (const double friction : {0.1, 0.5, 1.0}) all.push_back(turntable(friction));
   return all;
 }
 

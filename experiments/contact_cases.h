@@ -1,6 +1,7 @@
 // Scenes of rigid bodies in contact that solvers are known to fail on.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct ContactCase {
   bool stays = false;    // where it starts: to a thousandth of `size`
   double lift = -1;      // m, that no centre may rise above its start; negative: not asked
   double reaction = -1;  // N, that the ground carries at the end; negative: not asked
-  std::function<double(const pbd::State& end)> missed = {};  // of a motion that is known, relative
+  /// Of a motion that is known, after steps of h seconds: its relative error, or 1 where it is another one.
+  std::function<double(const pbd::State& end, double h, std::int64_t steps)> missed = {};
 };
 
 /// All of them; the quick tier has fewer and smaller ones of the same kinds.

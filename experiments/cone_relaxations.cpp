@@ -57,7 +57,7 @@ Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
   LocalContacts block;
   block.resize_contacts(count);
   block.column.resize(count);
-  block.law = law == FrictionLaw::cone ? Friction::cone : Friction::coulomb;
+  block.law = friction_by_name(reference::friction_law_names[static_cast<std::size_t>(law)]);
   block.friction.assign(problem.friction.begin(), problem.friction.end());
   block.delassus.assign(count, Eigen::Matrix3d::Zero());
   fill_columns(problem.delassus, block);

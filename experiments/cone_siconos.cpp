@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "cone_file.h"
 #include "error.h"
@@ -23,12 +24,12 @@ class Text {
   }
 
   [[noreturn]] void refuse(const std::string& got, const std::string& allowed) const {
-    throw SetupError(path_, got, allowed);
+    throw SetupError(line_ > 0 ? fmt::format("{}:{}", path_, line_) : path_, got, allowed);
   }
 
   double number(const std::string& what) {
     std::string word;
-    if (!(in_ >> word)) refuse("an end of the file where " + what + " should be", "the whole problem");
+    if (!next(word)) refuse("an end of the file where " + what + " should be", "the whole problem");
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
     if (*end != '\0') refuse("`" + word + "` for " + what, "a number");
@@ -53,15 +54,26 @@ class Text {
 
   void require_end() {
     std::string word;
-    if (in_ >> word) refuse("`" + word + "` after mu", "the end of the file");
+    if (next(word)) refuse("`" + word + "` after mu", "the end of the file");
   }
 
   long characters() const { return characters_; }
 
  private:
+  bool next(std::string& word) {
+    while (!(words_ >> word)) {
+      std::string line;
+      if (!std::getline(in_, line)) return false;
+      ++line_;
+      words_ = std::istringstream(line);
+    }
+    return true;
+  }
+
   std::string path_;
   std::ifstream in_;
-  long characters_ = 0;
+  std::istringstream words_;  // of the line
+  long line_ = 0, characters_ = 0;
 };
 
 void read_dense(Text& text, int rows, StoredCone& stored) {

@@ -17,12 +17,12 @@ const std::vector<ConeSolver>& cone_solvers() {
     const auto judge = [](auto solve) {
       return [=](const ConeTask& task) { return solve(task.problem, task.law, task.tolerance); };
     };
-    const std::vector<std::string> laws{"coulomb", "cone"};
-    std::vector<ConeSolver> all{{"cone_interior_point", laws, judge(cone_interior_point), true},
-                                {"cone_ipopt", laws, judge(cone_ipopt), true}};
+    const std::vector<std::string> judged{"coulomb", "cone"};
+    std::vector<ConeSolver> all{{"cone_interior_point", judged, judge(cone_interior_point), true},
+                                {"cone_ipopt", judged, judge(cone_ipopt), true}};
     for (const auto name : pbd::relaxation_names())
-      all.push_back(
-          {std::string(name), laws, [name](const ConeTask& task) { return relax_cone(name, task); }, false});
+      all.push_back({std::string(name), cone_laws(),
+                     [name](const ConeTask& task) { return relax_cone(name, task); }, false});
     return all;
   }();
   return list;
@@ -44,7 +44,8 @@ const ConeSolver& find_cone_solver(const std::string& name, const std::string& l
 }
 
 FrictionLaw friction_law(const std::string& name) {
-  return name == "cone" ? FrictionLaw::cone : FrictionLaw::coulomb;
+  const auto& names = friction_law_names;
+  return static_cast<FrictionLaw>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 }  // namespace pbdcheck

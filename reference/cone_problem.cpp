@@ -1,5 +1,6 @@
 #include "cone_problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,6 +22,17 @@ Vector3d project_on_cone(const Vector3d& point, double mu) {
   return nearest;
 }
 
+Vector3d project_on_pyramid(const Vector3d& point, double mu) {
+  const double n = point.x();
+  const double large = point.tail<2>().cwiseAbs().maxCoeff(), small = point.tail<2>().cwiseAbs().minCoeff();
+  double normal = n;  // by none, one, both of the tangents on their bound
+  if (large > mu * normal) normal = (n + mu * large) / (1 + mu * mu);
+  if (small > mu * normal) normal = (n + mu * (large + small)) / (1 + 2 * mu * mu);
+  normal = std::max(0.0, normal);
+  const double bound = mu * normal;
+  return {normal, std::clamp(point.y(), -bound, bound), std::clamp(point.z(), -bound, bound)};
+}
+
 Matrix3d cone_projection_derivative(const Vector3d& point, double mu) {
   const double n = point.x(), tau = point.tail<2>().norm();
   if (mu * tau <= -n) return Matrix3d::Zero();
@@ -35,20 +47,25 @@ Matrix3d cone_projection_derivative(const Vector3d& point, double mu) {
 
 VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law, const VectorXd& velocity) {
   VectorXd shifted = velocity;
-  if (law == FrictionLaw::coulomb)
-    for (int i = 0; i < problem.contacts(); ++i)
-      shifted(3 * i) += problem.friction(i) * velocity.segment<2>(3 * i + 1).norm();
+  for (int i = 0; law != FrictionLaw::cone && i < problem.contacts(); ++i) {
+    const auto slip = velocity.segment<2>(3 * i + 1);
+    shifted(3 * i) += problem.friction(i) * (law == FrictionLaw::box ? slip.lpNorm<1>() : slip.norm());
+  }
   return shifted;
 }
 
 namespace {
 
+/// P_K
+Vector3d project(FrictionLaw law, const Vector3d& point, double mu) {
+  return law == FrictionLaw::box ? project_on_pyramid(point, mu) : project_on_cone(point, mu);
+}
+
 /// r - P_K(r - u~)
-VectorXd map_of(const VectorXd& friction, const VectorXd& impulse, const VectorXd& shifted) {
+VectorXd map_of(FrictionLaw law, const VectorXd& friction, const VectorXd& impulse, const VectorXd& shifted) {
   VectorXd map = impulse;
   for (Eigen::Index i = 0; i < friction.size(); ++i)
-    map.segment<3>(3 * i) -=
-        project_on_cone(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
+    map.segment<3>(3 * i) -= project(law, impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
   return map;
 }
 
@@ -66,7 +83,7 @@ VectorXd equilibrating(const ConeProblem& problem) {
 }  // namespace
 
 VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
-  return map_of(problem.friction, impulse, shifted_velocity(problem, law, problem.velocity(impulse)));
+  return map_of(law, problem.friction, impulse, shifted_velocity(problem, law, problem.velocity(impulse)));
 }
 
 ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
@@ -77,16 +94,16 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   double from_cone = 0, from_dual = 0;
   for (int i = 0; i < problem.contacts(); ++i) {
     const Vector3d r = impulse.segment<3>(3 * i), u = shifted.segment<3>(3 * i);
-    from_cone += (r - project_on_cone(r, problem.friction(i))).squaredNorm();
-    from_dual += project_on_cone(-u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
+    from_cone += (r - project(law, r, problem.friction(i))).squaredNorm();
+    from_dual += project(law, -u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
   }
   const double quadratic = impulse.dot(problem.delassus * impulse);
   const double linear = impulse.dot(problem.free_velocity);
   ConeMeasures m;
-  m.natural_residual = over(map_of(problem.friction, impulse, shifted).norm(), size);
+  m.natural_residual = over(map_of(law, problem.friction, impulse, shifted).norm(), size);
   const VectorXd scale = equilibrating(problem);
   m.scaled_residual =
-      over(map_of(problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).norm(),
+      over(map_of(law, problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).norm(),
            scale.cwiseProduct(problem.free_velocity).norm());
   m.gap = over(std::abs(impulse.dot(shifted)), std::abs(quadratic) + std::abs(linear));
   m.impulse_distance = over(std::sqrt(from_cone), impulse.norm());

@@ -3,6 +3,7 @@
 //   u = W r + q,   K_i = {|r_T| <= mu_i r_N},   K_i* = {u_N >= mu_i |u_T|},   K the product over contacts
 //   cone      K contains r, perpendicular to u in K*                  (the minimum of 1/2 r.W r + q.r over K)
 //   coulomb   the same with u~ = u + mu |u_T| e_N in the place of u   (Signorini and Coulomb; de Saxce)
+//   box       as coulomb by |.|_inf in K and |.|_1 in K* and u~: a bound for each tangent; no judge solves it
 // Contact i owns rows 3 i .. 3 i + 2: normal, tangent 1, tangent 2.
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace pbd::reference {
 
-enum class FrictionLaw { cone, coulomb };
-inline constexpr std::array<std::string_view, 2> friction_law_names{"cone", "coulomb"};
+enum class FrictionLaw { cone, coulomb, box };
+inline constexpr std::array<std::string_view, 3> friction_law_names{"cone", "coulomb", "box"};
 
 struct ConeProblem {
   Eigen::SparseMatrix<double> delassus;  // W, 1/kg, symmetric positive semidefinite, all its blocks 3 x 3
@@ -32,10 +33,13 @@ struct ConeProblem {
 
 /// The point of {|t| <= mu n} nearest to (n, t).
 Eigen::Vector3d project_on_cone(const Eigen::Vector3d& point, double mu);
-/// Its derivative, or one of its limits where it jumps; symmetric, eigenvalues in [0, 1].
+/// The point of {|t_1|, |t_2| <= mu n} nearest to (n, t).
+Eigen::Vector3d project_on_pyramid(const Eigen::Vector3d& point, double mu);
+/// The derivative of `project_on_cone`, or one of its limits where it jumps; symmetric, eigenvalues in [0,
+/// 1].
 Eigen::Matrix3d cone_projection_derivative(const Eigen::Vector3d& point, double mu);
 
-/// u for the law cone, u + mu |u_T| e_N for coulomb.
+/// u for the law cone, u + mu |u_T| e_N for coulomb, for box with |u_T|_1.
 Eigen::VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law,
                                  const Eigen::VectorXd& velocity);
 

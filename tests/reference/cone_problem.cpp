@@ -59,6 +59,19 @@ TEST_CASE("projection on a cone: Moreau's conditions, idempotent, non-expansive"
     }
 }
 
+TEST_CASE("projection on a pyramid: Moreau's conditions, idempotent, non-expansive") {
+  for (const double mu : frictions)
+    for (const Vector3d& p : points()) {
+      const Vector3d r = project_on_pyramid(p, mu), rest = r - p;
+      CHECK(r.tail<2>().lpNorm<Eigen::Infinity>() <= mu * r.x());
+      CHECK(rest.x() >= mu * rest.tail<2>().lpNorm<1>() - 1e-14);
+      CHECK(std::abs(r.dot(rest)) < 1e-14);
+      CHECK((project_on_pyramid(r, mu) - r).norm() < 1e-15);
+      for (const Vector3d& other : points())
+        CHECK((r - project_on_pyramid(other, mu)).norm() <= (p - other).norm() + 1e-15);
+    }
+}
+
 TEST_CASE("projection on a cone, region by region") {
   CHECK(project_on_cone({2, 0.6, 0.8}, 0.5) == Vector3d(2, 0.6, 0.8));
   CHECK(project_on_cone({-1, 0.6, 0.8}, 0.5) == Vector3d::Zero());
@@ -113,6 +126,19 @@ TEST_CASE(
   CHECK((cone - along((approach + mu * slip) / (normal + mu * mu * tangent))).norm() < 1e-12);
   const Vector3d u = problem.velocity(cone);
   CHECK(std::abs(u.x() - mu * u.tail<2>().norm()) < 1e-12);
+}
+
+TEST_CASE("one contact by the law box: each tangent has a bound of its own") {
+  const ConeProblem problem = contact(Vector3d(2, 1, 0.8).asDiagonal(), Vector3d(-1, 3, -0.1), 0.5);
+  const Vector3d exact(0.5, -0.25, 0.125);  // u_N = 0; tangent 1 slides, tangent 2 sticks
+  CHECK(measure_cone(problem, FrictionLaw::box, exact).residual() < 1e-15);
+  CHECK(measure_cone(problem, FrictionLaw::box, exact).gap < 1e-15);
+  CHECK(measure_cone(problem, FrictionLaw::box, exact).feasibility() < 1e-15);
+  const Vector3d free = Vector3d(-1, 3, -0.1);
+  for (int axis = 0; axis < 3; ++axis)  // a thousandth beside it
+    CHECK(measure_cone(problem, FrictionLaw::box, exact + 1e-3 * Vector3d::Unit(axis)).natural_residual >
+          1e-4 / free.norm());
+  CHECK(measure_cone(problem, FrictionLaw::coulomb, exact).natural_residual > 1e-3);
 }
 
 TEST_CASE("one contact that separates: nothing by Coulomb's law, an impulse by the cone's if it slips fast") {

@@ -39,7 +39,7 @@ def gates(frame):
     bounds = frame.groupby("gate", sort=False)["bound"].first()
     ax.set_xticks(range(len(columns)), [f"{folded(name)}\n≤ {text_number(bounds[name])}" for name in columns], fontsize=6)
     ax.set_yticks(range(len(rows)), [name + unsolved_mark(frame[frame["row"] == name]) for name in rows], fontsize=5.5)
-    ax.tick_params(top=True, labeltop=True)
+    ax.tick_params(top=True, labeltop=True, bottom=False, labelbottom=False)
     ax.grid(False)
     runs = frame[frame["status"] != "skipped"].drop_duplicates("row")
     skipped = frame[frame["status"] == "skipped"]["reason"].map(lambda reason: reason.partition(" in ")[0]).value_counts()

@@ -28,9 +28,11 @@ ContactRun simulate_contacts(const pbd::Scene& scene, const pbd::Method& method,
 /// The default method by another relaxation and law, its tolerance 1e-12.
 pbd::Method contact_method(std::string_view relaxation, std::string_view friction = "coulomb");
 
-/// True of those that solve contacts to the tolerance in few sweeps; the others are given at most 1000 a
-/// step.
+/// True of those that solve contacts to the tolerance in few sweeps; the others' sweeps are limited.
 bool accurate(const pbd::Method& method);
+
+/// At most 1000 sweeps a step.
+void limit_sweeps(pbd::Method& method);
 
 /// |a - b| / |b|
 double relative_difference(double a, double b);

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "contact_answers.h"
 #include "contact_cases.h"
 #include "experiments.h"
 #include "gates.h"
@@ -208,7 +209,7 @@ void contact_hard_cases(Context& context) {
     for (const std::string& relaxation : relaxations) {
       Method method;
       method.relaxation = relaxation;
-      if (relaxation != relaxations[0]) method.max_outer = 20, method.max_sweeps = 200;
+      if (relaxation != relaxations[0]) limit_sweeps(method);
       const Run run = simulate(each, method, each.h);
       const std::string status(status_names[static_cast<std::size_t>(run.worst)]);
       for (const Gate& gate : run.gates) {

@@ -50,7 +50,7 @@ def contact_hard_cases(results):
         "Heavy bodies on light ones, boxes dropped, cards, arches, redundant contacts, the threshold of sliding, friction from none "
         "to next to infinite, a wrecking ball on a chain, rolling coins, a turntable. One method, `direct` with every other setting "
         "as it is by default, none for any case; the verdicts are about it. In the full tier `conjugate_gradients` and "
-        "`gauss_seidel` stand beside it, with at most 20 x 200 sweeps a step.",
+        "`gauss_seidel` stand beside it, with at most 1000 sweeps a step.",
         figures=[
             Figure("contact_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails."),
             Figure("contact_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold.")])

@@ -51,12 +51,12 @@ Solve solve(const LinearStep& step, std::string_view name, std::int64_t most_swe
   std::visit(
       [&](auto& relaxation) {
         relaxation.begin(rows, v, true);
-        if constexpr (requires { relaxation.further_sweeps(); }) found.sweeps = relaxation.further_sweeps();
         while (found.residual > target && found.sweeps < most_sweeps) {
           relaxation.sweep(rows, v, nullptr);
           ++found.sweeps;
           found.residual = residual(rows, v) / first;
         }
+        if constexpr (requires { relaxation.further_sweeps(); }) found.sweeps += relaxation.further_sweeps();
       },
       any);
   return found;

@@ -127,6 +127,8 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           constexpr double least = 0.1, most = 0.7;
           worth = own * std::clamp(task.tolerance / natural, least, most);
         }
+        if constexpr (requires { method.further_sweeps(); })
+          found.iterations += static_cast<int>(method.further_sweeps());
       },
       any);
   found.impulse = impulses(rows);

@@ -29,7 +29,7 @@ const std::vector<ConeSolver>& cone_solvers() {
 }
 
 std::vector<std::string> cone_laws() {
-  return {"coulomb", "cone", "box"};
+  return {friction_law_names.begin(), friction_law_names.end()};
 }
 
 const ConeSolver& find_cone_solver(const std::string& name, const std::string& law) {
@@ -44,6 +44,7 @@ const ConeSolver& find_cone_solver(const std::string& name, const std::string& l
 }
 
 FrictionLaw friction_law(const std::string& name) {
+  require_name("--law", name, cone_laws());
   const auto& names = friction_law_names;
   return static_cast<FrictionLaw>(std::find(names.begin(), names.end(), name) - names.begin());
 }

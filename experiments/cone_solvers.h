@@ -19,7 +19,7 @@ struct ConeSolver {
 /// Judges, and the solver's relaxations; the first is the default.
 const std::vector<ConeSolver>& cone_solvers();
 
-/// coulomb, cone, box.
+/// Names of all laws.
 std::vector<std::string> cone_laws();
 
 /// The solver of that name for that law. Throws SetupError naming those there are.

@@ -20,7 +20,9 @@ struct ContactCase {
   bool stays = false;    // where it starts: to a thousandth of `size`
   double lift = -1;      // m, that no centre may rise above its start; negative: not asked
   double reaction = -1;  // N, that the ground carries at the end; negative: not asked
-  /// Of a motion that is known, after steps of h seconds: its relative error, or 1 where it is another one.
+  bool falls =
+      false;  // it does not stay: a centre moves by more than 0.1 m, a thousand times what stands may
+  /// Relative error of a motion that is known, after steps of h seconds.
   std::function<double(const pbd::State& end, double h, std::int64_t steps)> missed = {};
 };
 

@@ -10,6 +10,7 @@
 //   residual            steps that gave up without having improved on their first residual
 //   settles             kinetic energy at the end, as part of m g L
 //   stays               largest way of a body's centre, as part of the size
+//   falls               1 where what cannot stand has not fallen
 //   lift                m, that a centre has risen
 //   reaction            relative error of what the ground carries at the end
 //   answer              relative error of a motion that is known
@@ -137,7 +138,7 @@ Run simulate(const ContactCase& each, const Method& method, double h) {
     lift.add((state.x.row(2) - scene.initial.x.row(2)).maxCoeff());
   }
   const auto not_finite = static_cast<double>((!state.x.array().isFinite()).count() + diverged);
-  const double moved = (state.x - scene.initial.x).colwise().norm().maxCoeff() / each.size;
+  const double largest_move = (state.x - scene.initial.x).colwise().norm().maxCoeff();
   const auto asked = [](bool asks, const char* why) { return asks ? std::string() : std::string(why); };
   run.gates = {
       {"finite", not_finite, 0},
@@ -148,7 +149,8 @@ Run simulate(const ContactCase& each, const Method& method, double h) {
       {"residual", static_cast<double>(unimproved), 0},
       {"settles", kinetic(scene, state) / (mass * gravity * each.size), 1e-6,
        asked(each.settles, "it goes on moving")},
-      {"stays", moved, 1e-3, asked(each.stays, "it moves")},
+      {"stays", largest_move / each.size, 1e-3, asked(each.stays, "it moves")},
+      {"falls", largest_move > 0.1 ? 0.0 : 1.0, 0, asked(each.falls, "it may stay")},
       {"lift", lift.value(), each.lift, asked(each.lift >= 0, "it may rise")},
       {"reaction", std::abs(reaction / each.reaction - 1), 1e-6,
        asked(each.reaction >= 0, "not the ground alone")},
@@ -159,8 +161,8 @@ Run simulate(const ContactCase& each, const Method& method, double h) {
 }
 
 struct Frontier {
-  double largest_step = std::nan("");   // s, up to which all gates hold
-  double fewest_sweeps = std::nan("");  // an outer iteration, from which on all gates hold
+  double largest_step = std::nan("");   // s, of those tried at which all gates hold
+  double fewest_sweeps = std::nan("");  // an outer iteration, at the case's own step
 };
 
 /// Longer steps and fewer sweeps while the gates hold; where they do not hold as it is, shorter steps until

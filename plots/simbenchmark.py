@@ -36,4 +36,5 @@ def accuracy(frame):
 @figure("simbenchmark", "cost", table="accuracy")
 def cost(frame):
     """Engines by the seconds that were published, where they were."""
-    return draw(frame[frame["wall_s"].notna() | (frame["solver"] == "pbdcheck")], "wall_s", "wall time of the run (s)")
+    frame = frame.assign(seconds=frame["wall_s"].where(frame["solver"] == "pbdcheck", frame["cpu_s"]))
+    return draw(frame[frame["seconds"].notna() | (frame["solver"] == "pbdcheck")], "seconds", "time of the run (s)")

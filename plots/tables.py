@@ -73,7 +73,7 @@ TABLES = {
     ("stack", "thresholds"): "structure count share outer relaxation friction step_s duration_s moved outcome right sweeps "
                              "missed_steps status reason",
     ("simbenchmark", "accuracy"): "benchmark solver step_s integrator alpha outer relaxation friction error simulated_s "
-                                  "missed_steps wall_s status reason",  # engines have no counts of iterations
+                                  "missed_steps wall_s cpu_s status reason",  # engines have no counts of iterations
     ("contact_hard_cases", "gates"): "scene step_s integrator outer relaxation friction steps steps_ok sweeps gate measured "
                                      "bound holds status reason",
     ("contact_hard_cases", "frontier"): "scene outer relaxation friction largest_step_s fewest_sweeps status reason",

@@ -28,7 +28,7 @@ Vector3d project_on_pyramid(const Vector3d& point, double mu) {
   double normal = n;  // by none, one, both of the tangents on their bound
   if (large > mu * normal) normal = (n + mu * large) / (1 + mu * mu);
   if (small > mu * normal) normal = (n + mu * (large + small)) / (1 + 2 * mu * mu);
-  normal = std::max(0.0, normal);
+  if (normal < 0) normal = 0;  // NaN stays
   const double bound = mu * normal;
   return {normal, std::clamp(point.y(), -bound, bound), std::clamp(point.z(), -bound, bound)};
 }

@@ -16,7 +16,8 @@ bool moves(const Block& block, std::size_t i) {
   return block.inverse_diagonal[i].trace() > 0;
 }
 
-/// sigma + Sigma; where there are bounds one number, so that projections remain Euclidean.
+/// sigma + Sigma; where there are bounds one number, so that projections remain Euclidean. (A soft contact's
+/// tangential impulses then take more rounds.)
 template <class Block>
 typename Block::Square softness(const Block& block, std::size_t i) {
   const auto identity = Block::Square::Identity();
@@ -76,7 +77,8 @@ double AugmentedLagrangian::evaluate(const Rows& rows, const Points& v) {
     typename Block::Square derivative;
     project(block, i, z, p, derivative);
     asked_.segment<Block::rows>(row) = p;
-    value += (z.dot(soft * z) - (z - p).dot(soft * (z - p))) / 2;
+    value += p.dot(soft * p) / 2;
+    if constexpr (Block::rows == 1) value += p.dot(soft * (z - p));  // else at right angles, or zero
     system_.add(block, i, derivative * stiff);
     system_.push(block, i, -p, gradient_);
   });
@@ -100,13 +102,18 @@ int AugmentedLagrangian::minimise(const Rows& rows, Points& v) {
     if (!(-slope > settled * first)) return count;
     const bool last = -slope <= rounding * std::abs(value);  // the value tells nothing of the next
     double next = 0, length = 1;
-    for (int k = 0; k < halvings; ++k, length /= 2) {
+    bool found = false;
+    for (int k = 0; k < halvings && !found; ++k, length /= 2) {
       tried_ = v;
       for (std::size_t node = 0; node < system_.column.size(); ++node)
         if (const int column = system_.column[node]; column >= 0)
           tried_.col(static_cast<Eigen::Index>(node)) += length * step_.segment<3>(column);
       next = evaluate(rows, tried_);
-      if (last || next <= value + enough * length * slope) break;
+      found = last || next <= value + enough * length * slope;
+    }
+    if (!found) {
+      evaluate(rows, v);  // what v asks for
+      return count;
     }
     v = tried_;
     value = next;
@@ -128,7 +135,7 @@ int AugmentedLagrangian::improve(Rows& rows, Points& v) {
     each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
       anchor_.segment<Block::rows>(row) = asked_.segment<Block::rows>(row) = block.impulse[i];
       if constexpr (Block::rows == 3)
-        if (block.frictional() && block.law != Friction::cone)
+        if (block.frictional() && block.law != Friction::cone && block.bounds[i][0] == 0)
           slip_[row] = block.friction[i] * block.residual(v, i, block.impulse[i]).template tail<2>().norm();
     });
     factorisations += minimise(rows, v);

@@ -1,16 +1,15 @@
 // The augmented Lagrangian of linear rows with bounds and friction, by velocities. With the slips s_i = mu
 // |u_t| held fixed, Coulomb's law is that of the convex cone (contact/friction.h) for rows shifted by s_i
 // e_n, and the impulses that minimise 1/2 |v - v_free|_M^2 under the rows are found by rounds of
-//   p_i(v) = P_i(p_i - (J_i v + b_i + s_i e_n + Sigma p_i)/sigma_i),   v = argmin of a convex function whose
-//   gradient is M (v - v_free) - J^T p(v),   p <- p(v),   s from the new v
+//   p_i(v) = P_i(p_i - (sigma_i + Sigma_i)^-1 (J_i v + b_i + s_i e_n + Sigma_i p_i)),   v = argmin of a
+//   convex function whose gradient is M (v - v_free) - J^T p(v),   p <- p(v),   s from the new v
 // (Rockafellar 1976; for contact Alart, Curnier 1991; s as a fixed point: Acary and others 2011). The
-// function is minimised by Newton's method with line search, which converges from anywhere; sigma_i is a part
-// of N_ii.
+// function is minimised by Newton's method with line search, which converges from anywhere; sigma_i is 1e-4
+// of N_ii: the smaller, the fewer rounds, and the worse conditioned the function.
 #pragma once
 
 #include <Eigen/SparseCholesky>
 #include <memory>
-#include <vector>
 
 #include "velocity_system.h"
 
@@ -18,7 +17,8 @@ namespace pbd {
 
 class AugmentedLagrangian {
  public:
-  /// True unless impulses obey the law `box`, whose cone has edges, or rows are local and know no masses.
+  /// True unless impulses obey the law `box` (a pyramid; P is a cone's here) or rows are local and know no
+  /// masses.
   static bool applies(const Rows& rows);
 
   /// Some rounds from the rows' impulses and v, which belong together; returns the number of factorisations.
@@ -29,7 +29,7 @@ class AugmentedLagrangian {
   double evaluate(const Rows& rows, const Points& v);
   int minimise(const Rows& rows, Points& v);
 
-  Eigen::VectorXd anchor_, slip_, asked_;  // p, s_i e_n and p(v): one entry a row
+  Eigen::VectorXd anchor_, slip_, asked_;  // p (N s), s_i e_n (m/s) and p(v) (N s): one entry a row
   Points free_, tried_;
   Eigen::VectorXd gradient_, step_;  // N s, m/s: one entry an unknown
   VelocitySystem system_;

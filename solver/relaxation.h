@@ -2,7 +2,7 @@
 //   J v + b + Sigma p = 0  (unit of the rows per second).
 // They see rows only. `begin` is called after each linearisation, `sweep` visits every row once and returns
 // the residual sqrt(sum_i r_i^T N_ii^-1 r_i) (sqrt(J)) it met, each r_i taken when its constraint was
-// visited. What else it does, in a sweep's work, are its `further_sweeps`.
+// visited. What else it does are its `further_sweeps`: power iterations, Gauss-Seidel's, factorisations.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -125,7 +125,7 @@ class ConjugateGradients {
 /// rows solvable and is removed by the refinement. Rows whose impulse has bounds are kept; those that a step
 /// of block Jacobi would leave at a bound are held there, and each sweep with another set of them begins with
 /// another factorisation (the primal-dual active sets of Hintermueller, Ito, Kunisch 2003). Where there are
-/// contacts, a sweep is an iteration of a semismooth Newton method instead.
+/// contacts, a sweep is an iteration of a semismooth Newton method instead (semismooth.h).
 class Direct {
  public:
   static constexpr std::string_view name = "direct";
@@ -158,7 +158,7 @@ class Direct {
 using Relaxation = std::variant<GaussSeidel, Jacobi, NesterovJacobi, ConjugateGradients, Direct>;
 
 /// When to end the sweeps: residual <= max(absolute, relative * that of the first sweep), or after
-/// max_sweeps.
+/// max_sweeps, further ones not counted.
 struct InnerBudget {
   int max_sweeps = 1;
   double relative = 0;

@@ -22,6 +22,9 @@ void derivative(const Block& block, std::size_t i, const typename Block::Value& 
     if (to < block.bounds[i][0] || to > block.bounds[i][1]) by_p.setZero(), by_step.setZero();
   }
   if constexpr (Block::rows == 3) {
+    const bool held = !(block.bounds[i][1] > 0);
+    if (held) by_p.setZero(), by_step.setZero();
+    if (held || block.bounds[i][0] < 0) return;  // no law: P = 0 or p + step
     const auto found = project_derivative(block.projected_law(i), block.friction[i], block.impulse[i], step);
     by_p = found.by_p;
     by_step = found.by_step;
@@ -169,7 +172,10 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
   }
   if (augments) {
     further_sweeps_ += augmented_.improve(rows, v);
-    if (natural_residual(rows, v) < enough * residual) return residual;
+    if (natural_residual(rows, v) < enough * residual) {
+      shift_ = least_shift;
+      return residual;
+    }
     restore_impulses_and_biases(kept_, rows);
     v = start_;
   }

@@ -23,7 +23,7 @@ def simbenchmark(results):
         figures=[
             Figure("simbenchmark_accuracy", "Error over the step, this solver (solid) and five engines as published. Crossed: a step "
                    "missed its tolerance, or the run diverged."),
-            Figure("simbenchmark_cost", "The same over seconds of wall time; the engines' are of another machine.")])
+            Figure("simbenchmark_cost", "The same over seconds: wall time here, processor time as published of the engines, on another machine.")])
     frame = results.table("simbenchmark", "accuracy")
     section.tell(None if frame is None else frame[frame["solver"] == "pbdcheck"], lambda frame: ENERGY, lambda frame: EXACT,
                  benchmark_text, benchmark_table)

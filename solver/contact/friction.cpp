@@ -22,8 +22,9 @@ void scale_tangent(double mu, double bound, const Vector3d& z, const Eigen::RowV
 
 Matrix3d cone_derivative(double mu, const Vector3d& z) {
   const double tangential = std::hypot(z[1], z[2]);
-  if (tangential <= mu * z[0]) return Matrix3d::Identity();
   Matrix3d derivative = Matrix3d::Zero();
+  if (z[0] < 0 && mu * tangential <= -z[0]) return derivative;
+  if (tangential <= mu * z[0]) return Matrix3d::Identity();
   if (mu * tangential <= -z[0] || !(tangential > 0)) return derivative;
   const double share = 1 / (1 + mu * mu);
   derivative.row(0) << share, mu * share * z[1] / tangential, mu * share * z[2] / tangential;
@@ -58,6 +59,7 @@ Matrix3d box_derivative(double mu, const Vector3d& z) {
 /// p_n; for large ones p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi (Illinois: Dowell,
 /// Jarratt 1971).
 Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
+  if (mu == 0) return {-q[0] / n(0, 0), 0, 0};
   const Eigen::Vector2d coupling = n.bottomLeftCorner<2, 1>() / n(0, 0);
   const Eigen::Matrix2d a = n.bottomRightCorner<2, 2>() - coupling * n.topRightCorner<1, 2>();
   const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
@@ -121,7 +123,9 @@ Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n,
   if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d sticking = -n.inverse() * q;
   if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
-  if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
+  constexpr double singular = 1e-12;  // of a determinant over that of equal eigenvalues
+  const bool regular = n.determinant() > singular * std::pow(n.trace() / 3, 3);
+  if (regular && (law == Friction::coulomb || law == Friction::disc)) return slide(mu, n, q);
 
   constexpr int most = 30;
   constexpr double settled = 1e-14;

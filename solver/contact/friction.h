@@ -4,7 +4,8 @@
 //
 //   cone     |p_t| <= mu p_n, and r in the dual cone, r_n >= mu |r_t|, at right angles to p: convex; sliding
 //            it hovers at r_n = mu |r_t| (Anitescu 2006; Tasora, Anitescu 2011)
-//   coulomb  the same of r + mu |r_t| e_n: r_n = 0 where p_n > 0 (De Saxce, Feng 1998)
+//   coulomb  the same of r + mu |r_t| e_n: r_n = 0 where p_n > 0 (De Saxce, Feng 1998);
+//            rows with mu > 1 use disc in its place (rows.h)
 //   disc     p_n >= 0, |p_t| <= mu p_n with the bound taken as it is: Coulomb's law again
 //   box      each |p_tj| <= mu p_n: stronger across the axes by sqrt(2)
 #pragma once
@@ -26,6 +27,8 @@ Friction friction_by_name(std::string_view name);
 /// The point of {|p_t| <= mu p_n} nearest to p.
 inline Eigen::Vector3d project_to_cone(double mu, const Eigen::Vector3d& p) {
   const double tangential = std::hypot(p[1], p[2]);
+  if (p[0] < 0 && mu * tangential <= -p[0])
+    return Eigen::Vector3d::Zero();  // first: mu = 0 holds nothing back
   if (tangential <= mu * p[0]) return p;
   if (mu * tangential <= -p[0]) return Eigen::Vector3d::Zero();
   const double normal = (mu * tangential + p[0]) / (1 + mu * mu);
@@ -63,7 +66,7 @@ ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Ve
 
 /// The impulse of one contact alone: N p + q obeys the law, N (1/kg, 3 x 3) its Delassus matrix and q (m/s)
 /// what its rows are without it. Separation and sticking by their formulas, sliding by a root of one unknown
-/// (coulomb, disc), or by projections from `start`, at most thirty of them.
+/// (coulomb, disc), or, for other laws and singular N, by projections from `start`, at most thirty of them.
 Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
                               const Eigen::Vector3d& start);
 

@@ -88,7 +88,8 @@ TEST_CASE("derivatives of the laws' projections are those of central differences
 TEST_CASE("one contact's impulse obeys its law") {
   Random random;
   std::array<int, 3> kinds{};  // open, sticking, sliding
-  for (const double mu : {0.0, 0.3, 0.8, 5.0, 1e6})
+  for (const double mu : {0.0, 0.3, 0.8, 5.0, 1e6}) {
+    const int slid_before = kinds[2];
     for (int k = 0; k < 500; ++k) {
       const Matrix3d n = random_delassus(random);
       const Vector3d q = random();
@@ -115,7 +116,26 @@ TEST_CASE("one contact's impulse obeys its law") {
       CHECK(in_dual(mu, rest, slack));
       CHECK(std::abs(convex.dot(rest)) <= slack);
     }
+    CHECK(kinds[2] > slid_before + 20);
+  }
   for (const int kind : kinds) CHECK(kind > 20);
+}
+
+TEST_CASE("one contact whose Delassus matrix is singular, and one without friction") {
+  const Eigen::Vector3d along(1, 0.5, -0.25);
+  const Matrix3d rank_one = along * along.transpose();
+  for (const double mu : {0.0, 0.5, 1e6}) {
+    const Vector3d q = -2 * along;
+    Vector3d p = Vector3d::Zero();
+    for (int call = 0; call < 1000; ++call) p = solve_contact(Friction::disc, mu, rank_one, q, p);
+    INFO(mu << " " << p.transpose());
+    CHECK(p.allFinite());
+    CHECK(p.norm() < 100);
+    CHECK(in_cone(mu, p, 1e-9));
+    CHECK((rank_one * p + q)[0] >= -1e-6);
+  }
+  CHECK(project_to_cone(0, {-1, 0, 0}).isZero(0));
+  CHECK(project_derivative(Friction::cone, 0, {-1, 0, 0}, Vector3d::Zero()).by_p.isZero(0));
 }
 
 TEST_CASE("friction laws have names") {

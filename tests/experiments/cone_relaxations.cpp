@@ -46,6 +46,20 @@ TEST_CASE("every relaxation solves planted problems whose W is well-conditioned,
         }
 }
 
+TEST_CASE(
+    "every relaxation finds a contact that slides along one axis and sticks along the other by the law box") {
+  ConeProblem problem;
+  problem.delassus = Eigen::Vector3d(2, 1, 0.8).asDiagonal().toDenseMatrix().sparseView();
+  problem.free_velocity = Eigen::Vector3d(-1, 3, -0.1);
+  problem.friction = VectorXd::Constant(1, 0.5);
+  for (const auto relaxation : pbd::relaxation_names()) {
+    INFO(relaxation);
+    const ConeSolution found = relax_cone(relaxation, {problem, FrictionLaw::box, tolerance, 2000});
+    CHECK(found.outcome == Outcome::ok);
+    CHECK((found.impulse - Eigen::Vector3d(0.5, -0.25, 0.125)).norm() < 1e-7);
+  }
+}
+
 TEST_CASE("direct solves redundant problems, where Newton's step alone gains nothing at times") {
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb})
     for (int seed = 1; seed <= planted_seeds; ++seed) {

@@ -1,6 +1,7 @@
 #include "contact/friction.h"
 
 #include <Eigen/Dense>
+#include <limits>
 
 #include "names.h"
 
@@ -55,37 +56,36 @@ Matrix3d box_derivative(double mu, const Vector3d& z) {
 }
 
 /// A contact that slides by Coulomb's law: u_n = 0, |p_t| = mu p_n, u_t = -lambda p_t. Without p_n, by u_n =
-/// 0, (A + lambda) p_t = -b: an equation in lambda > 0. At 0 it sticks, which has been refused: |p_t| > mu
-/// p_n; for large ones p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi (Illinois: Dowell,
-/// Jarratt 1971).
+/// 0, (A + lambda) p_t = -b: an equation in lambda = t/(1 - t) tr A. At t = 0 it sticks, which has been
+/// refused: |p_t| > mu p_n; at t = 1 p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi
+/// (Illinois: Dowell, Jarratt 1971).
 Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
-  if (mu == 0) return {-q[0] / n(0, 0), 0, 0};
+  const double pressed = -q[0] / n(0, 0);
+  if (mu == 0) return {pressed, 0, 0};
   const Eigen::Vector2d coupling = n.bottomLeftCorner<2, 1>() / n(0, 0);
   const Eigen::Matrix2d a = n.bottomRightCorner<2, 2>() - coupling * n.topRightCorner<1, 2>();
   const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
-  const auto at = [&](double lambda) {
-    Vector3d p;
-    p.tail<2>() = -(a + lambda * Eigen::Matrix2d::Identity()).inverse() * b;
-    p[0] = -q[0] / n(0, 0) - coupling.dot(p.tail<2>());
-    return p;
+  const Eigen::Matrix2d scale = a.trace() * Eigen::Matrix2d::Identity();
+  Vector3d p;
+  double rounding = 0;
+  const auto excess_at = [&](double t) {
+    p.tail<2>() = (t - 1) * ((1 - t) * a + t * scale).inverse() * b;
+    const double lifted = coupling.dot(p.tail<2>()), tangential = std::hypot(p[1], p[2]);
+    p[0] = pressed - lifted;
+    rounding = 16 * std::numeric_limits<double>::epsilon() * (tangential + mu * (pressed + std::abs(lifted)));
+    return tangential - mu * p[0];
   };
-  const auto excess = [&](const Vector3d& p) { return std::hypot(p[1], p[2]) - mu * p[0]; };
-  constexpr double least = 1e-14, rounding = 1e-15;
-  constexpr int most = 100;
-  double low = least * n.trace(), high = n.trace();
-  double over = excess(at(low)), under = excess(at(high));
-  for (int k = 0; k < most && under > 0; ++k) low = high, over = under, high *= 4, under = excess(at(high));
-  Vector3d p = at(low);
-  for (int k = 0, kept = 0; k < most && over > 0; ++k) {
-    const double lambda = low + (high - low) * over / (over - under);
-    p = at(lambda);
-    const double found = excess(p);
-    if (std::abs(found) <= rounding * mu * std::abs(p[0]) || high - low <= rounding * high) break;
-    const bool above = found > 0;
-    (above ? low : high) = lambda;
-    (above ? over : under) = found;
-    if (kept == (above ? 1 : -1)) (above ? under : over) /= 2;
-    kept = above ? 1 : -1;
+  constexpr int most = 60;
+  double low = 0, high = 1, over = excess_at(low), under = -mu * pressed;
+  double found = over;
+  for (int k = 0, last = 0; k < most && !(std::abs(found) <= rounding); ++k) {
+    const double t = low + (high - low) * over / (over - under);
+    found = excess_at(t);
+    const int side = found > 0 ? 1 : -1;
+    (side > 0 ? low : high) = t;
+    (side > 0 ? over : under) = found;
+    if (side == last) (side > 0 ? under : over) /= 2;
+    last = side;
   }
   return project(Friction::disc, mu, p, Vector3d::Zero());
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "interrupt.h"
 #include "relaxation.h"
 
 namespace pbdcheck {
@@ -119,6 +120,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
         // The relaxation's own residual is of another norm: it says when the natural one is worth a look.
         double worth = infinity;
         while (found.iterations < task.most_sweeps) {
+          throw_if_interrupted();
           const double own = method.sweep(rows, v_free, nullptr);
           ++found.iterations;
           if (own > worth) continue;

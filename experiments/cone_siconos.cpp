@@ -2,6 +2,7 @@
 // column by column, and so do the numbers of a block, but files with blocks written row by row are about.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -32,17 +33,19 @@ class Text {
     if (!next(word)) refuse("an end of the file where " + what + " should be", "the whole problem");
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    if (*end != '\0') refuse("`" + word + "` for " + what, "a number");
+    if (word.empty() || end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
     return value;
   }
 
   /// An integer of the range, no larger than the file has characters.
   int integer(const std::string& what, long least, long most) {
     const double value = number(what);
-    const long highest = std::min(most, characters_);
-    if (!(value >= static_cast<double>(least) && value <= static_cast<double>(highest) &&
+    if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most) &&
           value == std::floor(value)))
-      refuse(fmt::format("{} = {}", what, value), fmt::format("an integer from {} to {}", least, highest));
+      refuse(fmt::format("{} = {}", what, value), fmt::format("an integer from {} to {}", least, most));
+    if (value > static_cast<double>(characters_))
+      refuse(fmt::format("{} = {} in a file of {} characters", what, value, characters_),
+             "the whole problem");
     return static_cast<int>(value);
   }
 
@@ -78,7 +81,8 @@ class Text {
 
 void read_dense(Text& text, int rows, StoredCone& stored) {
   if (static_cast<long>(rows) * rows > text.characters())
-    text.refuse("fewer numbers than W has", "rows x columns");
+    text.refuse(fmt::format("{} x {} numbers of W in a file of {} characters", rows, rows, text.characters()),
+                "the whole problem");
   const VectorXd numbers = text.numbers("W", static_cast<Eigen::Index>(rows) * rows);
   stored.delassus = Eigen::Map<const Eigen::MatrixXd>(numbers.data(), rows, rows).sparseView();
   stored.form = "Siconos text, dense";  // read row by row it has the same symmetric part
@@ -103,6 +107,10 @@ void read_blocks(Text& text, int contacts, StoredCone& stored) {
   for (int i = 0; i < contacts; ++i)
     for (int k = begin[static_cast<std::size_t>(i)]; k < begin[static_cast<std::size_t>(i) + 1]; ++k) {
       text.integer("the number of a block", k, k);
+      const auto of_row = column.begin() + begin[static_cast<std::size_t>(i)];
+      if (std::find(of_row, column.begin() + k, column[static_cast<std::size_t>(k)]) != column.begin() + k)
+        text.refuse(fmt::format("two blocks in row {} and column {}", i, column[static_cast<std::size_t>(k)]),
+                    "one");
       const VectorXd b = text.numbers("a block", 9);
       for (int l = 0; l < 9; ++l) {
         const int j = column[static_cast<std::size_t>(k)];

@@ -30,6 +30,12 @@ PartialFile::PartialFile(std::filesystem::path path)
     : path_(std::move(path)), partial_(path_.string() + ".partial") {
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) refuse(EISDIR);
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
+    refuse(EINVAL);  // a device or a pipe would be replaced
+  if (std::filesystem::is_symlink(path_, ignored)) {
+    path_ = std::filesystem::weakly_canonical(path_);
+    partial_ = path_.string() + ".partial";
+  }
   out_.open(partial_, std::ios::binary);
   if (!out_) refuse(errno);
   listed_ = listed(partial_.c_str());

@@ -17,7 +17,7 @@ ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance
   VectorXd shift = VectorXd::Zero(3 * problem.contacts());
   ConeSolution best;
   best.impulse = shift;
-  double best_residual = infinity, part = 1, previous = infinity;
+  double best_residual = residual(best.impulse), part = 1, previous = infinity;
   int iterations = 0;
   for (int k = 0, improved = 0; k < most && k - improved < patience && best_residual > tolerance; ++k) {
     shifted.free_velocity = problem.free_velocity + shift;

@@ -90,7 +90,7 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   const auto over = [](double value, double scale) { return scale > 0 ? value / scale : value; };
   const VectorXd velocity = problem.velocity(impulse);
   const VectorXd shifted = shifted_velocity(problem, law, velocity);
-  const double size = problem.free_velocity.norm();
+  const double size = problem.free_velocity.stableNorm();
   double from_cone = 0, from_dual = 0;
   for (int i = 0; i < problem.contacts(); ++i) {
     const Vector3d r = impulse.segment<3>(3 * i), u = shifted.segment<3>(3 * i);
@@ -100,11 +100,11 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   const double quadratic = impulse.dot(problem.delassus * impulse);
   const double linear = impulse.dot(problem.free_velocity);
   ConeMeasures m;
-  m.natural_residual = over(map_of(law, problem.friction, impulse, shifted).norm(), size);
+  m.natural_residual = over(map_of(law, problem.friction, impulse, shifted).stableNorm(), size);
   const VectorXd scale = equilibrating(problem);
-  m.scaled_residual =
-      over(map_of(law, problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).norm(),
-           scale.cwiseProduct(problem.free_velocity).norm());
+  m.scaled_residual = over(
+      map_of(law, problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).stableNorm(),
+      scale.cwiseProduct(problem.free_velocity).stableNorm());
   m.gap = over(std::abs(impulse.dot(shifted)), std::abs(quadratic) + std::abs(linear));
   m.impulse_distance = over(std::sqrt(from_cone), impulse.norm());
   m.velocity_distance = over(std::sqrt(from_dual), size);

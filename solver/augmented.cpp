@@ -8,8 +8,9 @@ namespace pbd {
 namespace {
 
 constexpr double share = 1e-4;  // sigma over N_ii
-constexpr int rounds = 5;
-constexpr int most_steps = 30;  // of Newton's method, in a round
+constexpr int rounds = 8;
+constexpr double damping = 0.7;  // of changes of the slips, which may overshoot
+constexpr int most_steps = 30;   // of Newton's method, in a round
 
 template <class Block>
 bool moves(const Block& block, std::size_t i) {
@@ -136,7 +137,10 @@ int AugmentedLagrangian::improve(Rows& rows, Points& v) {
       anchor_.segment<Block::rows>(row) = asked_.segment<Block::rows>(row) = block.impulse[i];
       if constexpr (Block::rows == 3)
         if (block.frictional() && block.law != Friction::cone && block.bounds[i][0] == 0)
-          slip_[row] = block.friction[i] * block.residual(v, i, block.impulse[i]).template tail<2>().norm();
+          slip_[row] +=
+              (round == 0 ? 1 : damping) *
+              (block.friction[i] * block.residual(v, i, block.impulse[i]).template tail<2>().norm() -
+               slip_[row]);
     });
     factorisations += minimise(rows, v);
     v = free_;

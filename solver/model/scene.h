@@ -290,7 +290,9 @@ struct Contact {
     return k < collider.size() ? collider[k].material : node_material[k - collider.size()];
   }
   const ContactLaw& between(std::size_t first, std::size_t second) const {
-    return law[static_cast<std::size_t>(material(first) * materials + material(second))];
+    const auto row = static_cast<std::size_t>(material(first)),
+               column = static_cast<std::size_t>(material(second));
+    return law[row * static_cast<std::size_t>(materials) + column];
   }
 };
 

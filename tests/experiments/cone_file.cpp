@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cone_interior_point.h"
 #include "mistakes.h"
 #include "planted_cones.h"
 #include "program.h"
@@ -105,6 +106,10 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
       {good.substr(0, good.size() / 2), {"end of the file", "W"}},
       {good + " 7", {"`7` after mu"}},
       {"3\n1\n\n0\n3\nthree\n", {"bad.dat:6: got `three` for the number of columns"}},
+      {good.substr(0, good.find_last_of('1')) + "0." + std::string(3, '\0'), {"for mu", "a number"}},
+      {"3\n1000\n0\n3000\n3000\n1",
+       {"bad.dat:2: got the number of contacts = 1000 in a file of"}},
+      {"3\n4\n0\n12\n12\n1 2 3\n", {"bad.dat:5: got 12 x 12 numbers of W in a file of 18 characters"}},
       {dense(w, q, -mu), {"mu = -1 at contact 0", "from 0 to 1e+07"}},
       {dense(w, q, mu * 1e20), {"mu = ", "from 0 to 1e+07"}},
       {dense(w, q * 1e101, mu), {"q with a number that is too large or none", "at most 1e+100"}},
@@ -124,9 +129,28 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
   const auto fine = folder.write("good.dat", good).string();
   check_refused(run_program({"cone", fine, "--law", "disc"}), {"cone, coulomb, box"});
   check_refused(run_program({"cone", fine, "--law", "box"}), {"box", "one of coulomb, cone"});
+  check_refused(run_program({"cone", fine, "-o", fine}), {"another file than the problem"});
+  const auto link = folder.path / "link";
+  std::filesystem::create_symlink("/dev/null", link);  // a device, safe from being replaced
+  check_refused(run_program({"cone", fine, "-o", link.string()}), {"cannot be written"});
   check_refused(run_program({"cone", fine, "--relaxation", "cone_ipop"}), {"did you mean `cone_ipopt`"});
   check_refused(run_program({"cone", fine, "--tolerance", "0"}), {"--tolerance", "a number > 0"});
   check_refused(run_program({"cone", fine, "-o", folder.path.string()}), {"cannot be written"});
+}
+
+TEST_CASE("numbers whose squares vanish are measured all the same") {
+  const ConeProblem problem{MatrixXd::Identity(3, 3).sparseView(), Eigen::Vector3d(-1e-165, 1e-165, 0),
+                            VectorXd::Ones(1)};
+  CHECK(std::abs(measure_cone(problem, FrictionLaw::cone, Eigen::Vector3d::Zero()).natural_residual - 1) <
+        1e-12);
+}
+
+TEST_CASE("one contact that separates is left alone, however much friction there is") {
+  const ConeProblem problem{MatrixXd::Identity(3, 3).sparseView(), Eigen::Vector3d(1, 1, 0),
+                            VectorXd::Constant(1, 1e4)};
+  const ConeSolution found = cone_interior_point(problem, FrictionLaw::coulomb, 1e-8);
+  CHECK(found.outcome == Outcome::ok);
+  CHECK(found.impulse.isZero(0));
 }
 
 TEST_CASE("HDF5 files cut short anywhere are refused, never a crash") {

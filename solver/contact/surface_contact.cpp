@@ -25,15 +25,22 @@ SurfaceTouching node_triangle(const SurfaceContact& contact, const Points& x) {
   return found;
 }
 
+/// Edges whose cross product is rounding: they have no normal of their own.
+bool parallel(const Vec3& e, const Vec3& f) {
+  constexpr double least_sine = 1e-10;
+  return !(e.cross(f).squaredNorm() > least_sine * least_sine * e.squaredNorm() * f.squaredNorm());
+}
+
 SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
   const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
   const Vec3 e = at(1) - at(0), f = at(3) - at(2), apart = at(2) - at(0);
   const Vec3 across = e.cross(f);
   const double squared = across.squaredNorm();
   SurfaceTouching found;
-  found.normal = contact.side * unit_or(across, e.unitOrthogonal());
-  const double s = squared > 0 ? apart.cross(f).dot(across) / squared : 0.5;
-  const double t = squared > 0 ? apart.cross(e).dot(across) / squared : 0.5;
+  const bool crossing = !parallel(e, f);
+  found.normal = contact.side * (crossing ? Vec3(across.normalized()) : e.unitOrthogonal());
+  const double s = crossing ? apart.cross(f).dot(across) / squared : 0.5;
+  const double t = crossing ? apart.cross(e).dot(across) / squared : 0.5;
   found.weight = {1 - s, s, t - 1, -t};
   found.gap = -found.normal.dot(apart) - contact.thickness;
   found.point = at(0) + s * e;
@@ -111,7 +118,8 @@ void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach
     tree_.find(boxes_[i], [&](int j) {
       const auto& [a, b] = edges_[i];
       const auto& [c, d] = edges_[static_cast<std::size_t>(j)];
-      if (static_cast<std::size_t>(j) > i && a != c && a != d && b != c && b != d)
+      const bool apart = a != c && a != d && b != c && b != d;
+      if (static_cast<std::size_t>(j) > i && apart && !parallel(x.col(b) - x.col(a), x.col(d) - x.col(c)))
         add({{a, b, c, d}, true, 1, thickness}, x, reach, out);
     });
 }

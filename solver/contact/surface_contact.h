@@ -39,7 +39,8 @@ class SurfaceSearch {
   const std::vector<int>& nodes() const { return nodes_; }
 
   /// Appends node-triangle and edge-edge pairs without a common node whose gap at x is below what their nodes
-  /// move by together (`reach`, m, one a node of the scene), and whose nearest points lie on them.
+  /// move by together (`reach`, m, one a node of the scene), and whose nearest points lie on them. Edges that
+  /// are parallel are left to their nodes.
   void find(const Points& x, const std::vector<double>& reach, double thickness,
             std::vector<SurfaceContact>& out);
 

@@ -61,3 +61,14 @@ TEST_CASE("nodes over triangles and edges that cross are as far as their nearest
   CHECK(worst_sum < 1e-14);
   CHECK(worst_rate < 1e-7);
 }
+
+TEST_CASE("edges that are parallel have no normal, and are no contact") {
+  const Vec3 edge(1.0 / 1024, 1.0 / 32, 1.0 / 32), beside(0, 1.0 / 32, 0);  // their products are exact
+  Points x(3, 6);
+  x << Vec3::Zero(), edge, beside, beside + edge, Vec3(-1, 0, 0), Vec3(1, 0, 0);
+  std::vector<SurfaceContact> found;
+  SurfaceSearch({{0, 1, 4}, {2, 3, 5}}).find(x, std::vector<double>(6, 1e-2), 1e-3, found);
+  CHECK(std::none_of(found.begin(), found.end(), [](const SurfaceContact& contact) {
+    return contact.edges && contact.node == std::array{0, 1, 2, 3};
+  }));
+}

@@ -17,7 +17,9 @@ ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance
   VectorXd shift = VectorXd::Zero(3 * problem.contacts());
   ConeSolution best;
   best.impulse = shift;
+  constexpr double rounding = 1e-14;
   double best_residual = residual(best.impulse), part = 1, previous = infinity;
+  if (best_residual > rounding) best_residual = infinity;  // without an impulse is no solution
   int iterations = 0;
   for (int k = 0, improved = 0; k < most && k - improved < patience && best_residual > tolerance; ++k) {
     shifted.free_velocity = problem.free_velocity + shift;

@@ -248,7 +248,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
       } else if (const typename Block::Value to = block.impulse[i] + full; block.cut(i, to) == to) {
         change.setZero();  // it sticks
       } else {
-        if constexpr (Block::rows == 3) change = block.solved(i, r) - block.impulse[i];
+        if constexpr (Block::rows == 3) change = (block.solved(i, r) - block.impulse[i]) / 2 + change / 2;
         const bool slides = block.impulse[i][0] + change[0] > 0 && block.law != Friction::cone;
         free = slides ? Free::first : Free::none;
       }

@@ -98,7 +98,8 @@ class NesterovJacobi {
 /// residual is taken anew each sweep. Impulses with bounds: those that a step of block Jacobi would leave at
 /// a bound take no part; where their set changes, or the step along s is cut at a bound, the next direction
 /// begins anew (active sets, as in Polyak 1969). Of a sliding contact the normal impulse alone takes part;
-/// the others, and an opening one's, are first moved as its law asks.
+/// the others, and an opening one's, are first moved as its law asks: half way between a step of block Jacobi
+/// and what the contact alone would do, which by itself may go in circles.
 class ConjugateGradients {
  public:
   static constexpr std::string_view name = "conjugate_gradients";

@@ -63,7 +63,7 @@ int cone(const ConeOptions& options) {
     throw pbd::SetupError("--tolerance", fmt::format("{}", options.tolerance), "a number > 0");
   std::error_code none;
   if (std::filesystem::equivalent(options.problem, options.output, none))
-    throw pbd::SetupError("--output", options.output.string(), "another file than the problem");
+    throw pbd::SetupError("-o", options.output.string(), "another file than the problem");
   const ConeSolver& solver = find_cone_solver(options.relaxation, options.law);
   const ConeFile file = read_cone_file(options.problem);
   if (file.asymmetry > 1e-12)

@@ -2,10 +2,10 @@
 // column by column, and so do the numbers of a block, but files with blocks written row by row are about.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "cone_file.h"
 #include "error.h"
@@ -33,7 +33,7 @@ class Text {
     if (!next(word)) refuse("an end of the file where " + what + " should be", "the whole problem");
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
+    if (end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
     return value;
   }
 
@@ -104,16 +104,15 @@ void read_blocks(Text& text, int contacts, StoredCone& stored) {
     text.refuse("rows that do not hold all blocks", "all of them");
   for (int k = 0; k < blocks; ++k) column.push_back(text.integer("the column of a block", 0, contacts - 1));
   std::vector<Eigen::Triplet<double>> by_columns, by_rows;
+  std::vector<int> row_of_last(static_cast<std::size_t>(contacts), -1);  // with a block in each column
   for (int i = 0; i < contacts; ++i)
     for (int k = begin[static_cast<std::size_t>(i)]; k < begin[static_cast<std::size_t>(i) + 1]; ++k) {
       text.integer("the number of a block", k, k);
-      const auto of_row = column.begin() + begin[static_cast<std::size_t>(i)];
-      if (std::find(of_row, column.begin() + k, column[static_cast<std::size_t>(k)]) != column.begin() + k)
-        text.refuse(fmt::format("two blocks in row {} and column {}", i, column[static_cast<std::size_t>(k)]),
-                    "one");
+      const int j = column[static_cast<std::size_t>(k)];
+      if (std::exchange(row_of_last[static_cast<std::size_t>(j)], i) == i)
+        text.refuse(fmt::format("two blocks in row {} and column {}", i, j), "one");
       const VectorXd b = text.numbers("a block", 9);
       for (int l = 0; l < 9; ++l) {
-        const int j = column[static_cast<std::size_t>(k)];
         by_columns.emplace_back(3 * i + l % 3, 3 * j + l / 3, b(l));
         by_rows.emplace_back(3 * i + l / 3, 3 * j + l % 3, b(l));
       }

@@ -32,8 +32,8 @@ PartialFile::PartialFile(std::filesystem::path path)
   if (std::filesystem::is_directory(path_, ignored)) refuse(EISDIR);
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
     refuse(EINVAL);  // a device or a pipe would be replaced
-  if (std::filesystem::is_symlink(path_, ignored)) {
-    path_ = std::filesystem::weakly_canonical(path_);
+  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored)) {
+    path_ = std::filesystem::canonical(path_, ignored);
     partial_ = path_.string() + ".partial";
   }
   out_.open(partial_, std::ios::binary);

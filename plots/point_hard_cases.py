@@ -77,7 +77,8 @@ def frontier(frame):
     axes[0].set_yticks(range(len(rows)), rows, fontsize=5.5)
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
     shared_legend(fig, axes[:1])
-    footnote(fig, "Crossed: a gate fails already at the mildest setting. No sweeps: every row is compliant.")
+    unswept = " No sweeps: every row is compliant." if (swept == UNSWEPT).any() else ""
+    footnote(fig, "Crossed: a gate fails already at the mildest setting." + unswept)
     return fig
 
 

@@ -3,8 +3,8 @@
 from common import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, curve_points, figure, footnote, panels, shared_legend
 from reading import reasons_note
 
-LOOKS = {"pbdcheck": (BLUE, "o", "-"), "RaiSim": (ORANGE, "s", ":"), "Bullet": (RED, "^", ":"), "ODE": (GREEN, "D", ":"), "DART": (PURPLE, "v", ":"),
-         "MuJoCo": (BLACK, "X", ":")}
+LOOKS = {"pbdcheck": (BLUE, "o", "-"), "RaiSim": (ORANGE, "s", ":"), "Bullet": (RED, "^", ":"),
+         "ODE": (GREEN, "D", ":"), "DART": (PURPLE, "v", ":"), "MuJoCo": (BLACK, "X", ":")}
 UNITS = {"rolling_xy": "velocity error² (m²/s²)", "rolling_y": "velocity error² (m²/s²)",
          "bouncing": "energy error² (J²)", "666": "overlap² (m²)", "elastic_666": "energy error² (J²)"}
 

@@ -19,7 +19,7 @@ ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance
   best.impulse = shift;
   constexpr double rounding = 1e-14;
   double best_residual = residual(best.impulse), part = 1, previous = infinity;
-  if (best_residual > rounding) best_residual = infinity;  // without an impulse is no solution
+  if (best_residual > rounding) best_residual = infinity;  // r = 0 is no solution
   int iterations = 0;
   for (int k = 0, improved = 0; k < most && k - improved < patience && best_residual > tolerance; ++k) {
     shifted.free_velocity = problem.free_velocity + shift;

@@ -27,26 +27,6 @@ typename Block::Square softness(const Block& block, std::size_t i) {
   return block.compliance[i] + sigma * identity;
 }
 
-/// p = P(z) and its derivative.
-template <class Block>
-void project(const Block& block, std::size_t i, const typename Block::Value& z, typename Block::Value& p,
-             typename Block::Square& derivative) {
-  p = z;
-  derivative.setIdentity();
-  if (!block.bounded()) return;
-  if constexpr (Block::rows == 1) {
-    p[0] = std::clamp(z[0], block.bounds[i][0], block.bounds[i][1]);
-    if (p[0] != z[0]) derivative.setZero();
-  }
-  if constexpr (Block::rows == 3) {
-    if (block.bounds[i][0] < 0) return;
-    const bool open = block.bounds[i][1] > 0;
-    p = open ? project_to_cone(block.friction[i], z) : Eigen::Vector3d::Zero();
-    derivative.setZero();
-    if (open) derivative = project_derivative(Friction::cone, block.friction[i], z, p - p).by_p;
-  }
-}
-
 }  // namespace
 
 bool AugmentedLagrangian::applies(const Rows& rows) {
@@ -73,14 +53,13 @@ double AugmentedLagrangian::evaluate(const Rows& rows, const Points& v) {
     if (!moves(block, i)) return;
     const typename Block::Square soft = softness(block, i), stiff = soft.inverse();
     const Value anchor = anchor_.segment<Block::rows>(row);
-    const Value z = anchor - stiff * (block.residual(v, i, anchor) + slip_.segment<Block::rows>(row));
-    Value p;
-    typename Block::Square derivative;
-    project(block, i, z, p, derivative);
+    const Value change = -stiff * (block.residual(v, i, anchor) + slip_.segment<Block::rows>(row));
+    const Value p = anchor + block.allowed(Friction::cone, i, anchor, change);
     asked_.segment<Block::rows>(row) = p;
     value += p.dot(soft * p) / 2;
-    if constexpr (Block::rows == 1) value += p.dot(soft * (z - p));  // else at right angles, or zero
-    system_.add(block, i, derivative * stiff);
+    if constexpr (Block::rows == 1)
+      value += p.dot(soft * (anchor + change - p));  // else at right angles, or zero
+    system_.add(block, i, block.derivatives(Friction::cone, i, anchor, change).by_change * stiff);
     system_.push(block, i, -p, gradient_);
   });
   return value;

@@ -103,7 +103,7 @@ struct RowBlock : ConstraintShape<R, K> {
   /// The law of contact i, as it is projected: where mu > 1 Coulomb's with the bound taken as it is, since De
   /// Saxce's projection moves by 1/mu of a speed at which a contact closes.
   Friction projected_law(std::size_t i) const {
-    return law == Friction::coulomb && friction[i] > 1 ? Friction::disc : law;
+    return frictional() && law == Friction::coulomb && friction[i] > 1 ? Friction::disc : law;
   }
 
   /// True if constraint i is a limit whose bias, c/d at rest, lies on its open side.
@@ -116,8 +116,8 @@ struct RowBlock : ConstraintShape<R, K> {
     return false;
   }
 
-  /// The part of a change of constraint i's impulse from p that its bounds allow.
-  typename Shape::Value allowed(std::size_t i, const typename Shape::Value& p,
+  /// The part of a change of constraint i's impulse from p that its bounds and this law of friction allow.
+  typename Shape::Value allowed(Friction by, std::size_t i, const typename Shape::Value& p,
                                 const typename Shape::Value& change) const {
     if (bounds.empty()) return change;
     if constexpr (R == 1)
@@ -125,9 +125,37 @@ struct RowBlock : ConstraintShape<R, K> {
     if constexpr (R == 3) {
       if (bounds[i][0] < 0) return change;
       if (!(bounds[i][1] > 0)) return -p;
-      return project(projected_law(i), friction[i], p, change) - p;
+      return project(by, friction[i], p, change) - p;
     }
     return change;
+  }
+
+  /// The same by the law of contact i.
+  typename Shape::Value allowed(std::size_t i, const typename Shape::Value& p,
+                                const typename Shape::Value& change) const {
+    return allowed(projected_law(i), i, p, change);
+  }
+
+  /// Derivatives of p + allowed(by, i, p, change).
+  struct Derivatives {
+    typename Shape::Square by_p, by_change;
+  };
+  Derivatives derivatives(Friction by, std::size_t i, const typename Shape::Value& p,
+                          const typename Shape::Value& change) const {
+    const Derivatives held{Shape::Square::Zero(), Shape::Square::Zero()},
+        free{Shape::Square::Identity(), Shape::Square::Identity()};
+    if (bounds.empty()) return free;
+    if constexpr (R == 1) {
+      const double to = p[0] + change[0];
+      return to < bounds[i][0] || to > bounds[i][1] ? held : free;
+    }
+    if constexpr (R == 3) {
+      if (bounds[i][0] < 0) return free;
+      if (!(bounds[i][1] > 0)) return held;
+      const auto [by_p, by_change] = project_derivative(by, friction[i], p, change);
+      return {by_p, by_change};
+    }
+    return free;
   }
 
   /// The impulse p of constraint i, cut to what its bounds and its normal part allow.

@@ -9,28 +9,6 @@
 namespace pbd {
 namespace {
 
-/// P_p and P_step of constraint i.
-template <class Block>
-void derivative(const Block& block, std::size_t i, const typename Block::Value& step,
-                typename Block::Square& by_p, typename Block::Square& by_step) {
-  by_p.setZero();
-  by_step.setIdentity();
-  if (!block.bounded()) return;
-  by_p.setIdentity();
-  if constexpr (Block::rows == 1) {
-    const double to = block.impulse[i][0] + step[0];
-    if (to < block.bounds[i][0] || to > block.bounds[i][1]) by_p.setZero(), by_step.setZero();
-  }
-  if constexpr (Block::rows == 3) {
-    const bool held = !(block.bounds[i][1] > 0);
-    if (held) by_p.setZero(), by_step.setZero();
-    if (held || block.bounds[i][0] < 0) return;  // no law: P = 0 or p + step
-    const auto found = project_derivative(block.projected_law(i), block.friction[i], block.impulse[i], step);
-    by_p = found.by_p;
-    by_step = found.by_step;
-  }
-}
-
 /// own dp + by_step J dv = right, constraint i's row of the linear system.
 template <class Block>
 struct LinearLaw {
@@ -46,14 +24,14 @@ LinearLaw<Block> linear_law(const Block& block, std::size_t i, const Points& v, 
   if (!(weight > 0)) return law;                                          // nothing that it could move
   const typename Block::Value r = block.residual(v, i, block.impulse[i]);
   const typename Block::Value step = -block.inverse_diagonal[i] * r;
-  Square by_p;
-  derivative(block, i, step, by_p, law.by_step);
+  const auto found = block.derivatives(block.projected_law(i), i, block.impulse[i], step);
+  law.by_step = found.by_change;
   Square compliance = block.compliance[i];
   compliance.diagonal().array() += shift / weight;
   law.own = law.by_step * compliance;
   law.right = -r;
   if (block.bounded()) {
-    law.own += (Square::Identity() - by_p) / weight;
+    law.own += (Square::Identity() - found.by_p) / weight;
     law.right = block.allowed(i, block.impulse[i], step) / weight;
   }
   return law;

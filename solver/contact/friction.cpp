@@ -26,7 +26,6 @@ Matrix3d cone_derivative(double mu, const Vector3d& z) {
   Matrix3d derivative = Matrix3d::Zero();
   if (z[0] < 0 && mu * tangential <= -z[0]) return derivative;
   if (tangential <= mu * z[0]) return Matrix3d::Identity();
-  if (mu * tangential <= -z[0] || !(tangential > 0)) return derivative;
   const double share = 1 / (1 + mu * mu);
   derivative.row(0) << share, mu * share * z[1] / tangential, mu * share * z[2] / tangential;
   const Eigen::RowVector3d normal = derivative.row(0);

@@ -30,9 +30,8 @@ inline Eigen::Vector3d project_to_cone(double mu, const Eigen::Vector3d& p) {
   if (p[0] < 0 && mu * tangential <= -p[0])
     return Eigen::Vector3d::Zero();  // first: mu = 0 holds nothing back
   if (tangential <= mu * p[0]) return p;
-  if (mu * tangential <= -p[0]) return Eigen::Vector3d::Zero();
   const double normal = (mu * tangential + p[0]) / (1 + mu * mu);
-  const double share = tangential > 0 ? mu * normal / tangential : 0.0;
+  const double share = mu * normal / tangential;
   return {normal, share * p[1], share * p[2]};
 }
 

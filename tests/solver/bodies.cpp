@@ -2,8 +2,6 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "error.h"
-
 #include "integrators.h"
 #include "step.h"
 
@@ -245,66 +243,6 @@ TEST_CASE("a rope of nodes hangs from a body by an attachment") {
   const Vec3 held = end.x.col(1) + end.orientation[1] * Vec3(0.5, 0, 0);
   CHECK((end.x.col(2) - held).norm() < 1e-11);
   CHECK((end.x.col(2) - Vec3(0.5, 0, -1)).norm() > 0.05);  // it has moved
-}
-
-namespace {
-
-/// A bar of 1 m hinged at its end to the world, let go horizontally, that a limit stops `lower` rad from
-/// there.
-Scene stopped_bar(double lower, double upper) {
-  Scene scene;
-  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
-  add_body(scene, Vec3(0.5, 0, 0), 2, Vec3(1e-3, 2.0 / 12, 2.0 / 12));
-  scene.effects.emplace_back(Gravity{});
-  scene.effects.emplace_back(Gyroscopic{});
-  scene.effects.emplace_back(PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(-0.5, 0, 0)}}, {0}});
-  scene.effects.emplace_back(AxisJoint{{{0, 1}}, {{Vec3::UnitY(), Vec3::UnitY()}}, {0}});
-  const auto angle = [](double rest, ForceBounds bounds) {
-    return AngleJoint{{{0, 1}}, {Vec3::UnitY()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {rest}, {0}, {0},
-                      {},       {bounds}};
-  };
-  scene.effects.emplace_back(angle(lower, {0, infinity}));
-  scene.effects.emplace_back(angle(upper, {-infinity, 0}));
-  return scene;
-}
-
-}  // namespace
-
-TEST_CASE("a limit stops a hinge, pushes only while it is reached, and holds the weight's torque") {
-  // Falling turns the bar by positive angles about y, from 0 to the limit at 0.6 rad.
-  const Scene scene = stopped_bar(-0.1, 0.6);
-  for (const std::string outer : {"auto", "plain", "proximal"})
-    for (const std::string relaxation :
-         {"gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct"}) {
-      INFO(outer << " " << relaxation);
-      Method method = method_of("implicit_euler");
-      method.outer = outer;
-      method.relaxation = relaxation;
-      method.tolerance = 1e-10;
-      method.max_sweeps = 20000;
-      const double h = 0.01;
-      Workspace workspace(scene, method);
-      State state = scene.initial;
-      double largest = 0;
-      for (int k = 0; k < 200; ++k) {
-        CHECK(step(scene, method, h, state, workspace).status == Status::ok);
-        const double lower = workspace.impulses(4)[0], upper = workspace.impulses(5)[0];
-        CHECK(lower == 0);
-        CHECK(upper <= 0);
-        const double angle = std::atan2(-state.x(2, 1), state.x(0, 1));
-        largest = std::max(largest, angle);
-        if (upper < 0) CHECK(angle == Approx(0.6).epsilon(1e-9));
-      }
-      CHECK(largest < 0.6 + 1e-9);
-      // At rest against the limit: torque m g l/2 cos(angle) = -gamma.
-      CHECK(workspace.impulses(5)[0] / h == Approx(-2 * 9.81 * 0.5 * std::cos(0.6)).epsilon(1e-8));
-    }
-}
-
-TEST_CASE("quasi_newton refuses limits") {
-  Method method;
-  method.outer = "quasi_newton";
-  CHECK_THROWS_AS(Workspace(stopped_bar(-0.1, 0.6), method), SetupError);
 }
 
 TEST_CASE("a motor of limited torque turns a free rotor no faster than the torque allows") {

@@ -101,7 +101,7 @@ class Solves {
       : context_(context), table_(context.table(table, columns())) {}
 
   void solve(const Problem& p, FrictionLaw law) {
-    const int most_sweeps = p.demanded || (context_.full() && !p.large()) ? 20000 : 2000;
+    const int most_sweeps = p.demanded ? 200000 : context_.full() && !p.large() ? 20000 : 2000;
     judged_.resize(0);
     for (const ConeSolver& solver : cone_solvers()) {
       if (!taken(solver, law, p, context_.full())) continue;

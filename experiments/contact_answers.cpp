@@ -32,17 +32,12 @@ Method contact_method(std::string_view relaxation, std::string_view friction) {
   method.relaxation = relaxation;
   method.friction = friction;
   method.tolerance = 1e-12;
-  if (!accurate(method)) limit_sweeps(method);
+  method.max_outer = 1000;
   return method;
 }
 
 bool accurate(const Method& method) {
   return method.relaxation == "direct" || method.relaxation == "conjugate_gradients";
-}
-
-void limit_sweeps(Method& method) {
-  method.max_outer = 10;
-  method.max_sweeps = 100;
 }
 
 double relative_difference(double a, double b) {

@@ -72,10 +72,11 @@ double SpectralBound::update(const Rows& rows, const Points& like) {
   return std::max(least_, std::min(constraints_at_a_node_, safety * estimate));
 }
 
-void Jacobi::begin(Rows& rows, const Points& v, bool) {
-  omega_ = std::min(1.0, 2 / bound_.update(rows, v));
+void Jacobi::begin(Rows& rows, const Points& v, bool fresh) {
+  if (fresh) caution_ = 1;
+  omega_ = caution_ * std::min(1.0, 2 / bound_.update(rows, v));
   least_omega_ = omega_ / 2;
-  last_residual_ = std::numeric_limits<double>::infinity();
+  last_residual_ = lowest_residual_ = std::numeric_limits<double>::infinity();
 }
 
 PBD_FLATTEN double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
@@ -94,6 +95,10 @@ PBD_FLATTEN double Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   const double residual = std::sqrt(squared);
   constexpr double rounding = 1e-9;
   if (residual > (1 + rounding) * last_residual_) omega_ = std::max(least_omega_, 0.9 * omega_);
+  constexpr double unstable = 10;
+  const bool grown = residual > unstable * lowest_residual_;
+  if (grown) caution_ /= 2, omega_ /= 2, least_omega_ /= 2;
+  lowest_residual_ = grown ? residual : std::min(lowest_residual_, residual);
   last_residual_ = residual;
   return residual;
 }

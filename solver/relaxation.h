@@ -52,7 +52,8 @@ class SpectralBound {
 
 /// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound). The residual cannot grow
 /// while omega <= 2/(largest eigenvalue): where it does, the bound was too low and omega is reduced by a
-/// tenth, at most to 1/bound: under Coulomb's law it may grow with any omega.
+/// tenth, at most to 1/bound: under Coulomb's law it may grow with any omega. Where it grows tenfold, all of
+/// these are halved for the rest of the step.
 class Jacobi {
  public:
   static constexpr std::string_view name = "jacobi";
@@ -64,7 +65,8 @@ class Jacobi {
  private:
   SpectralBound bound_;
   double omega_ = 1, least_omega_ = 0;
-  double last_residual_ = 0;
+  double caution_ = 1;  // factor of omega, for the rest of the step
+  double last_residual_ = 0, lowest_residual_ = 0;
   Points next_;
 };
 

@@ -93,6 +93,17 @@ TEST_CASE("columns stand, however heavy their tops, and the ground carries their
     }
 }
 
+TEST_CASE("a cube carries another of ten thousand times its mass under every relaxation") {
+  const Scene scene = column(2, 1e4);
+  for (const auto relaxation : relaxation_names()) {
+    Method method = method_of(relaxation);
+    method.max_outer = 1000;
+    Workspace workspace(scene, method);
+    run(scene, method, 0.01, 5, workspace);
+    CHECK(std::abs(ground_force(workspace).z() / weight(scene) - 1) <= 1e-9);
+  }
+}
+
 TEST_CASE("a ball rolls when it has slid for 2/7 of its speed") {
   BodyScene build({.friction = 0.2});
   build.ground();

@@ -76,11 +76,13 @@ void validate(const Scene& scene) {
   for (int node = 0; node < scene.nodes(); ++node) {
     const double mass = scene.mass[static_cast<std::size_t>(node)];
     const auto where = [&](const char* field) { return std::string(field) + "[" + text(node) + "]"; };
-    REQUIRE(mass > 0, where("mass"), text(mass), "a number > 0, kg (inf for a node that keeps its velocity)");
+    REQUIRE(mass >= least_mass, where("mass"), text(mass),
+            "a number from " + text(least_mass) + " on, kg (inf for a node that keeps its velocity)");
     REQUIRE(scene.initial.x.col(node).allFinite(), where("position"), text(Vec3(scene.initial.x.col(node))),
             "finite numbers");
-    REQUIRE(scene.initial.v.col(node).allFinite(), where("velocity"), text(Vec3(scene.initial.v.col(node))),
-            "finite numbers");
+    const Vec3 velocity = scene.initial.v.col(node);
+    REQUIRE(velocity.norm() <= most_speed, where("velocity"), text(velocity),
+            "a speed up to " + text(most_speed) + " m/s");
   }
   double lightest = infinity, heaviest = 0;
   for (const double mass : scene.mass)

@@ -10,15 +10,22 @@ namespace pbd {
 /// Largest coefficient of friction: beyond, rounding of mu |u_T| hides u_N in Coulomb's law.
 inline constexpr double most_friction = 1e7;
 
+/// Least mass (kg): products of lighter ones underflow.
+inline constexpr double least_mass = 1e-100;
+
+/// Largest speed at the start (m/s): beyond, rounding of a velocity exceeds 1 m/s.
+inline constexpr double most_speed = 1e15;
+
 /// Largest ratio of finite masses: beyond, what a step misses at the light ones is rounding beside the heavy
 /// ones.
 inline constexpr double most_mass_ratio = 1e15;
 
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
-/// out of range or repeated, masses <= 0 or NaN, compliances and damping times < 0, non-finite numbers,
-/// degenerate or inverted rest elements, elastic constants out of range, principal moments of inertia that no
-/// body has, axes that are not of length 1, links of rest length 0 without compliance (their direction is
-/// undefined), anchors on nodes of infinite mass (nothing moves these).
+/// out of range or repeated, masses <= 0 or NaN, masses and speeds beyond the bounds above, compliances and
+/// damping times < 0, non-finite numbers, degenerate or inverted rest elements, elastic constants out of
+/// range, principal moments of inertia that no body has, axes that are not of length 1, links of rest length
+/// 0 without compliance (their direction is undefined), anchors on nodes of infinite mass (nothing moves
+/// these).
 void validate(const Scene& scene);
 
 /// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume

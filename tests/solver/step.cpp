@@ -191,6 +191,14 @@ TEST_CASE("a scene that makes no sense is refused before anything is computed") 
     scene.mass[1] = 0;
     CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("mass[1]"));
   }
+  SECTION("a mass whose products underflow") {
+    scene.mass[1] = 1e-200;
+    CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("mass[1]") && Catch::Contains("1e-100"));
+  }
+  SECTION("a speed beyond rounding") {
+    scene.initial.v.col(1) = Vec3(0, 0, -1e18);
+    CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("velocity[1]") && Catch::Contains("m/s"));
+  }
   SECTION("a link to a node that is not there") {
     scene.effects.emplace_back(Distance{.node = {{0, 2}}, .rest_length = {1}, .compliance = {0}});
     CHECK_THROWS_WITH(Workspace(scene, {}), Catch::Contains("effects[2] distance node[0]"));

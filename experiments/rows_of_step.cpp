@@ -54,14 +54,14 @@ StepRows::StepRows(const Scene& scene, const State& state, double h, Friction la
   v_free_ = v + h * acceleration;
   const Configuration start{start_x_, start_poses_, time_};
   if (contacts_.listed())
-    contacts_.find(scene, bodies_, start, v, {start_x_, v_free_, h, h}, h, false, rows_.inverse_mass, rows_);
+    contacts_.find(scene, bodies_, start, v, {start_x_, v_free_, h, h, h}, false, rows_.inverse_mass, rows_);
 }
 
 void StepRows::linearise(const Points& v) {
-  const StepMap map{start_x_, v_free_, h_, h_};
+  const StepMap map{start_x_, v_free_, h_, h_, h_};
   const Points x = start_x_ + h_ * v;
   const Configuration start{start_x_, start_poses_, time_};
-  if (contacts_.listed()) contacts_.widen(scene_, bodies_, start, x, map, h_, rows_);
+  if (contacts_.listed()) contacts_.widen(scene_, bodies_, start, x, map, rows_);
   bodies_.place(x, poses_);
   const Configuration at{x, poses_, time_ + h_};
   for_each_block(rows_.blocks, [](auto& block) {

@@ -111,7 +111,7 @@ void ContactRows::add_pair(const Contact& effect, int first, int second) {
 }
 
 void ContactRows::find(const Scene& scene, const Bodies& bodies, const Configuration& start,
-                       const Points& start_v, const StepMap& map, double h, bool warm_start,
+                       const Points& start_v, const StepMap& map, bool warm_start,
                        const std::vector<double>& inverse_mass, Rows& rows) {
   const auto& effect = std::get<Contact>(scene.effects[static_cast<std::size_t>(effect_)]);
   start_v_ = start_v;
@@ -126,11 +126,11 @@ void ContactRows::find(const Scene& scene, const Bodies& bodies, const Configura
   }
   keep_impulses(rows);
   if (!warm_start) seeds_.clear();
-  fill(effect, bodies, start, map, h, rows);
+  fill(effect, bodies, start, map, rows);
 }
 
 bool ContactRows::widen(const Scene& scene, const Bodies& bodies, const Configuration& start, const Points& x,
-                        const StepMap& map, double h, Rows& rows) {
+                        const StepMap& map, Rows& rows) {
   bool farther = false;
   const auto extend = [&](double& reach, double reached) {
     constexpr double rounding = 1e-9, room = 2;
@@ -144,7 +144,7 @@ bool ContactRows::widen(const Scene& scene, const Bodies& bodies, const Configur
       extend(reach_[static_cast<std::size_t>(node)], (x.col(node) - start.x.col(node)).norm());
   if (!farther) return false;
   keep_impulses(rows);
-  fill(std::get<Contact>(scene.effects[static_cast<std::size_t>(effect_)]), bodies, start, map, h, rows);
+  fill(std::get<Contact>(scene.effects[static_cast<std::size_t>(effect_)]), bodies, start, map, rows);
   return true;
 }
 
@@ -155,7 +155,7 @@ void ContactRows::begin_contact(const Begin& begin, ActiveContact& contact, Bloc
   auto& jacobian = block.jacobian[i];
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
-  contact.target = std::min(0.0, gap + begin.effect.recovery * begin.h);
+  contact.target = std::min(0.0, gap + begin.effect.recovery * begin.map.h);
 
   const double closing = (jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(begin.free_shift, i))[0];
@@ -174,7 +174,7 @@ void ContactRows::begin_contact(const Begin& begin, ActiveContact& contact, Bloc
 }
 
 void ContactRows::fill(const Contact& effect, const Bodies& bodies, const Configuration& start,
-                       const StepMap& map, double h, Rows& rows) {
+                       const StepMap& map, Rows& rows) {
   for (auto& contacts : contacts_) contacts.clear();
   boxes_.clear();
   for (const Motion& motion : motions_) {
@@ -186,7 +186,7 @@ void ContactRows::fill(const Contact& effect, const Bodies& bodies, const Config
   for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(effect, first, second);
   if (surfaces_) add_surfaces(effect, start.x);
 
-  const Begin begin{effect, start, map, map.x0 + map.d * map.v_free - start.x, map.x0 - start.x, h};
+  const Begin begin{effect, start, map, map.x0 + map.d * map.v_free - start.x, map.x0 - start.x};
   for (std::size_t index = first_block_; index < rows.blocks.size(); ++index)
     with_contacts(rows, index, first_block_, contacts_, [&]<class Block>(Block& block, auto& contacts) {
       std::vector<typename Block::Shape::Nodes> before;

@@ -102,7 +102,7 @@ void ContactRows::linearise_contact(const Linearisation& to, ActiveContact& cont
       rates<Block>(contact, jacobian, found.gap, to.map, block.gather(start_v_, i), block.gather(to.v, i));
   block.bias[i] = rate - jacobian * block.gather(to.v, i);
   block.compliance[i].setZero();
-  block.compliance[i](0, 0) = contact.compliance / (to.map.s * to.map.d);
+  block.compliance[i](0, 0) = contact.compliance / (to.map.h * to.map.d);
   block.bounds[i] = {0, infinity};
   invert_diagonal(block, to.inverse_mass, i);
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
@@ -225,7 +225,7 @@ std::vector<ContactForce> ContactRows::forces(const Configuration& at, const Ste
         Vec3 slip = jacobian * block.gather(v, i);
         slip[0] = 0;
         all.push_back({collider, place_of(contacts[i], found), found.normal,
-                       directions.transpose() * impulse / map.s, directions.transpose() * slip, found.gap});
+                       directions.transpose() * impulse / map.h, directions.transpose() * slip, found.gap});
       }
     });
   return all;

@@ -55,13 +55,12 @@ class ContactRows {
   /// Finds the contacts of a step from `start`, of colliders as near as their free motions go, and fills the
   /// rows' blocks: impulses are those of the same contacts in the last step, or zero.
   void find(const Scene& scene, const Bodies& bodies, const Configuration& start, const Points& start_v,
-            const StepMap& map, double h, bool warm_start, const std::vector<double>& inverse_mass,
-            Rows& rows);
+            const StepMap& map, bool warm_start, const std::vector<double>& inverse_mass, Rows& rows);
 
   /// Finds the contacts anew if a collider has moved farther to x than was thought of; true if so: the rows
   /// are to be linearised again then.
   bool widen(const Scene& scene, const Bodies& bodies, const Configuration& start, const Points& x,
-             const StepMap& map, double h, Rows& rows);
+             const StepMap& map, Rows& rows);
 
   BlockResidual linearise(const Configuration& at, const Configuration* directions, const StepMap& map,
                           const Points& v, const std::vector<double>& inverse_mass, std::size_t block,
@@ -115,7 +114,6 @@ class ContactRows {
     const Configuration& at;
     const StepMap& map;
     Points free_shift, own_shift;  // m, to the free motion's end and to x0
-    double h;                      // s
   };
 
   struct Linearisation {
@@ -137,7 +135,7 @@ class ContactRows {
   double displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                       const Points& to) const;
   void fill(const Contact& effect, const Bodies& bodies, const Configuration& start, const StepMap& map,
-            double h, Rows& rows);
+            Rows& rows);
   void add_surfaces(const Contact& effect, const Points& x);
   void add_pair(const Contact& effect, int first, int second);
 

@@ -37,6 +37,7 @@ struct StepMap {
   Points v_free;  // m/s
   double d = 0;   // s
   double s = 0;   // s
+  double h = 0;   // s, of the whole step, in which impulses of contacts act
 };
 
 /// What an integrator knows of a step.

@@ -224,7 +224,7 @@ Report step(const Scene& scene, const Method& method, double h, State& state, Wo
                          !(now < falling * last_residual);
     last_residual = now;
     if (finished(method, velocity_rounding, rounding, first_residual, report)) {
-      if (report.status != Status::ok || !w.widen_contacts(scene, h)) break;
+      if (report.status != Status::ok || !w.widen_contacts(scene)) break;
       continue;
     }
     if (w.on_potential && report.outer_iterations > 0) {

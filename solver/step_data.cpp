@@ -75,7 +75,7 @@ void StepData::begin(const Scene& scene, const Method& method, double h, const S
   make_map(scene, method, h, state);
   begin_damping(scene, state.time);
   if (contacts.listed()) {
-    contacts.find(scene, bodies, {start_x, start_poses, state.time}, start_v, map, h, method.warm_start,
+    contacts.find(scene, bodies, {start_x, start_poses, state.time}, start_v, map, method.warm_start,
                   inverse_mass, rows);
     for (std::size_t b = 0; b < rows.blocks.size(); ++b)
       if (contacts.owns(b)) {
@@ -120,9 +120,9 @@ bool StepData::return_to_best(double residual) {
   return true;
 }
 
-bool StepData::widen_contacts(const Scene& scene, double h) {
+bool StepData::widen_contacts(const Scene& scene) {
   if (!contacts.listed()) return false;
-  if (!contacts.widen(scene, bodies, {start_x, start_poses, x_time}, x, map, h, rows)) return false;
+  if (!contacts.widen(scene, bodies, {start_x, start_poses, x_time}, x, map, rows)) return false;
   anderson.forget();
   accelerated = false;
   best_residual = infinity;

@@ -96,7 +96,7 @@ struct StepData {
   bool return_to_best(double residual);
 
   /// True if the iterates' motion has brought contacts that were not thought of.
-  bool widen_contacts(const Scene& scene, double h);
+  bool widen_contacts(const Scene& scene);
 
   /// Carries the solved map on to the step's end.
   void end(double h, State& state);

@@ -51,6 +51,7 @@ void StepData::make_map(const Scene& scene, const Method& method, double h, cons
   const StepCoefficients& c = coefficients;
   map.d = c.d;
   map.s = c.s;
+  map.h = h;
   map.x0 = start_x;
   map.v_free = start_v + map.s * acceleration;
   x_time = state.time + h / c.reach;

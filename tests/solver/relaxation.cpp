@@ -21,7 +21,7 @@ struct Planted {
   explicit Planted(const Scene& scene, double h = 1.0 / 60) {
     std::vector<std::size_t> effect_of_block;
     rows = allocate_rows(scene, effect_of_block);
-    StepMap map{scene.initial.x, scene.initial.v, h, h};
+    StepMap map{scene.initial.x, scene.initial.v, h, h, h};
     v_free = Points::Zero(3, scene.nodes());
     for (std::size_t b = 0; b < rows.blocks.size(); ++b)
       linearise(scene.effects[effect_of_block[b]], map, {scene.initial.x, {}, 0}, scene.initial.v,

@@ -24,6 +24,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       const typename Block::Value full = -block.inverse_diagonal[i] * r;
       typename Block::Value change = block.allowed(i, block.impulse[i], full);
+      const double missed = block.squared_residual(i, r, change);
       Free free = Free::all;
       if (!block.frictional()) {
         if (change.isZero(0) && !full.isZero(0)) free = Free::none;
@@ -38,7 +39,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
       changed |= free != free_[first_row + i];
       free_[first_row + i] = free;
       if (change.isZero(0)) continue;
-      squared += block.squared_residual(i, r, change);
+      squared += missed;
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
     }

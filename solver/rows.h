@@ -180,7 +180,7 @@ struct RowBlock : ConstraintShape<R, K> {
   double squared_residual(std::size_t i, const typename Shape::Value& r,
                           const typename Shape::Value& change) const {
     if (bounds.empty()) return -r.dot(change);
-    return inverse_diagonal[i](0, 0) > 0 ? change.squaredNorm() / inverse_diagonal[i](0, 0) : 0.0;
+    return inverse_diagonal[i](0, 0) == 0 ? 0.0 : change.squaredNorm() / inverse_diagonal[i](0, 0);
   }
 
   /// |W J_i^T p|_M^2 of constraint i's impulse p, J.

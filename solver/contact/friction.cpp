@@ -120,11 +120,12 @@ Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n,
                               const Eigen::Vector3d& start) {
   const double slip = std::hypot(q[1], q[2]);
   if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
-  Eigen::Vector3d sticking = -n.inverse() * q;
-  if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
   constexpr double singular = 1e-12;  // of a determinant over that of equal eigenvalues
-  const bool regular = n.determinant() > singular * std::pow(n.trace() / 3, 3);
-  if (regular && (law == Friction::coulomb || law == Friction::disc)) return slide(mu, n, q);
+  if (n.determinant() > singular * std::pow(n.trace() / 3, 3)) {
+    const Eigen::Vector3d sticking = -n.inverse() * q;
+    if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
+    if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
+  }
 
   constexpr int most = 30;
   constexpr double settled = 1e-14;

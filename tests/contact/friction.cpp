@@ -122,18 +122,22 @@ TEST_CASE("one contact's impulse obeys its law") {
 }
 
 TEST_CASE("one contact whose Delassus matrix is singular, and one without friction") {
-  const Eigen::Vector3d along(1, 0.5, -0.25);
-  const Matrix3d rank_one = along * along.transpose();
-  for (const double mu : {0.0, 0.5, 1e6}) {
-    const Vector3d q = -2 * along;
+  const auto check = [](Friction law, double mu, const Matrix3d& n, const Vector3d& q) {
     Vector3d p = Vector3d::Zero();
-    for (int call = 0; call < 1000; ++call) p = solve_contact(Friction::disc, mu, rank_one, q, p);
-    INFO(mu << " " << p.transpose());
-    CHECK(p.allFinite());
-    CHECK(p.norm() < 100);
+    for (int call = 0; call < 1000; ++call) p = solve_contact(law, mu, n, q, p);
+    INFO(friction_names[static_cast<std::size_t>(law)] << " " << mu << " " << p.transpose());
     CHECK(in_cone(mu, p, 1e-9));
-    CHECK((rank_one * p + q).norm() <= 1e-9 * q.norm());
-  }
+    CHECK((project(law, mu, p, -(n * p + q)) - p).norm() <= 1e-9 * q.norm());
+  };
+  const Vector3d along(1, 0.5, -0.25);
+  const Matrix3d rank_one = along * along.transpose();
+  Matrix3d rank_two;  // its inverse would be infinite, not NaN
+  rank_two << 2, -1, -1, -1, 2, -1, -1, -1, 2;
+  for (const Friction law : {Friction::disc, Friction::coulomb, Friction::cone})
+    for (const double mu : {0.0, 0.5})
+      for (const Matrix3d& n : {rank_one, rank_two})
+        for (const Vector3d& q : {Vector3d(-2 * along), Vector3d(-1, -1, -1)}) check(law, mu, n, q);
+  check(Friction::disc, 1e6, rank_one, -2 * along);
   CHECK(project_to_cone(0, {-1, 0, 0}).isZero(0));
   CHECK(project_derivative(Friction::cone, 0, {-1, 0, 0}, Vector3d::Zero()).by_p.isZero(0));
 }

@@ -1,5 +1,6 @@
 #include "files.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -26,19 +27,30 @@ std::atomic<const char*>* listed(const char* path) {
 
 }  // namespace
 
-PartialFile::PartialFile(std::filesystem::path path)
-    : path_(std::move(path)), partial_(path_.string() + ".partial") {
+PartialFile::PartialFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) refuse(EISDIR);
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
     refuse(EINVAL);  // a device or a pipe would be replaced
-  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored)) {
+  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored))
     path_ = std::filesystem::canonical(path_, ignored);
-    partial_ = path_.string() + ".partial";
-  }
+  make_partial();
   out_.open(partial_, std::ios::binary);
   if (!out_) refuse(errno);
   listed_ = listed(partial_.c_str());
+}
+
+/// A new file: one of that name is somebody else's, or what a killed run left.
+void PartialFile::make_partial() {
+  constexpr int most = 1000;
+  int made = -1;
+  for (int k = 0; k < most && made < 0; ++k) {
+    partial_ = path_.string() + (k > 0 ? "." + std::to_string(k) : "") + ".partial";
+    made = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+    if (made < 0 && errno != EEXIST) break;
+  }
+  if (made < 0) refuse(errno);
+  ::close(made);
 }
 
 PartialFile::~PartialFile() {

@@ -9,8 +9,8 @@
 
 namespace pbdcheck {
 
-/// A file written to `<path>.partial` until complete() puts it in its place; without that nothing is left of
-/// it. Every failure is a SetupError naming the path.
+/// A file written to `<path>.partial` (`<path>.1.partial`, ... where there is such a file) until complete()
+/// puts it in its place; without that nothing is left of it. Every failure is a SetupError naming the path.
 class PartialFile {
  public:
   explicit PartialFile(std::filesystem::path path);
@@ -24,6 +24,7 @@ class PartialFile {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void make_partial();
   [[noreturn]] void refuse(int error) const;
 
   std::filesystem::path path_;

@@ -126,7 +126,9 @@ void add_cone(CLI::App& app, ConeOptions& options) {
   command->add_option("--tolerance", options.tolerance, "Largest natural residual, |r - P_K(r - u)| / |q|")
       ->capture_default_str();
   command->add_flag("--json", options.json, "Print JSON")->check(no_value());
-  command->add_option("-o,--output", options.output, "Write problem and solution as FCLIB (HDF5)");
+  command->add_option("-o,--output", options.output, "Write problem and solution as FCLIB (HDF5)")
+      ->check(CLI::Validator(
+          [](const std::string& text) { return text.empty() ? "got ``; allowed: a file" : ""; }, ""));
 }
 
 /// A usage error in one line, with the nearest command if an unknown one was given.

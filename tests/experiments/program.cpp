@@ -195,15 +195,27 @@ TEST_CASE("a result that cannot be written is one error with its path, exit code
     CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
     CHECK(partial_files(folder.path).empty());
   }
-  for (const auto* name : {"run.json", "probes.csv"}) {
-    INFO("full disk: " << name);
+  for (const auto& [duration, name] : {std::pair{"0.01", "run.json"}, std::pair{"2", "probes.csv"}}) {
+    INFO("no file longer than 512 bytes: " << name);
     const TemporaryFolder folder;
-    std::filesystem::create_symlink("/dev/full", folder.path / (std::string(name) + ".partial"));
-    const auto ran = run_program({"simulate", scenes / "pendulum.toml", "-o", folder.path});
+    const std::string limited = "sh -c 'trap \"\" XFSZ; ulimit -f 1; exec \"$0\" \"$@\"'";
+    const auto ran = run_program({"simulate", scenes / "pendulum.toml", "--set",
+                                  std::string("step.duration_s=") + duration, "-o", folder.path},
+                                 limited);
     CHECK(ran.exit_code == 2);
-    CHECK_THAT(ran.err, Catch::Contains((folder.path / name).string()) && Catch::Contains("No space left"));
-    CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(folder.path / "probes.csv.partial")));
+    CHECK_THAT(ran.err, Catch::Contains((folder.path / name).string()) && Catch::Contains("too large"));
+    CHECK(partial_files(folder.path).empty());
   }
+}
+
+TEST_CASE("a file that is there already under a partial file's name stays as it is") {
+  const TemporaryFolder folder;
+  const auto own = folder.write("run.json.partial", "mine"), victim = folder.write("victim", "theirs");
+  std::filesystem::create_symlink(victim, folder.path / "probes.csv.partial");
+  CHECK(run_program({"simulate", scenes / "pendulum.toml", "-o", folder.path}).exit_code == 0);
+  CHECK(read_text(own) == "mine");
+  CHECK(read_text(victim) == "theirs");
+  CHECK(record_of(folder.path)["status"] == "complete");
 }
 
 TEST_CASE("messages that nobody takes do not end the program, lost output is an error") {

@@ -87,7 +87,8 @@ class Reader {
     const auto p = numbers<int>(name + "/p"), i = numbers<int>(name + "/i");
     const auto x = numbers<double>(name + "/x");
     const auto wrong = [&](const std::string& what) { refuse(name + " with " + what, "a sparse matrix"); };
-    if (rows < 0 || columns < 0 || kind < -2)
+    constexpr int most = 10000000;
+    if (rows < 0 || rows > most || columns < 0 || columns > most || kind < -2)
       wrong(fmt::format("m = {}, n = {}, nz = {}", rows, columns, kind));
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](int row, int column, std::size_t k) {

@@ -15,11 +15,9 @@ using Eigen::VectorXd;
 using pbd::SetupError;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double most = 1e100;  // so that products do not overflow
-
 /// False for NaN, too.
 bool usable(const VectorXd& numbers) {
-  return (numbers.array().abs() <= most).all();
+  return (numbers.array().abs() <= largest_in_cone).all();
 }
 
 double asymmetry(const Sparse& w) {
@@ -61,7 +59,7 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
   require(stored.free_velocity.size() == 3 * contacts, path,
           fmt::format("q of {} numbers for {} contacts", stored.free_velocity.size(), contacts),
           "three a contact");
-  const std::string allowed = fmt::format("finite numbers, at most {:g}", most);
+  const std::string allowed = fmt::format("finite numbers, at most {:g}", largest_in_cone);
   require(usable(Eigen::Map<const VectorXd>(w.valuePtr(), w.nonZeros())), path,
           "W with a number that is too large or none", allowed);
   require(usable(stored.free_velocity), path, "q with a number that is too large or none", allowed);

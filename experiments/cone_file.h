@@ -26,6 +26,9 @@ void write_cone_file(const std::filesystem::path& path, const pbd::reference::Co
 
 // The parts, one source each.
 
+/// Of a number in W and q, so that products do not overflow.
+inline constexpr double largest_in_cone = 1e100;
+
 /// A problem as it is stored. `transposed` is W with each block read row by row where that is in doubt.
 struct StoredCone {
   Eigen::SparseMatrix<double> delassus, transposed;

@@ -34,6 +34,8 @@ class Text {
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
     if (end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
+    if (!(std::abs(value) <= largest_in_cone))
+      refuse("`" + word + "` for " + what, fmt::format("a finite number, at most {:g}", largest_in_cone));
     return value;
   }
 
@@ -42,7 +44,8 @@ class Text {
     const double value = number(what);
     if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most) &&
           value == std::floor(value)))
-      refuse(fmt::format("{} = {}", what, value), fmt::format("an integer from {} to {}", least, most));
+      refuse(fmt::format("{} = {}", what, value),
+             least == most ? fmt::format("{}", least) : fmt::format("an integer from {} to {}", least, most));
     if (value > static_cast<double>(characters_))
       refuse(fmt::format("{} = {} in a file of {} characters", what, value, characters_),
              "the whole problem");

@@ -7,6 +7,7 @@
 
 #include "builder.h"
 #include "choices.h"
+#include "validate.h"
 
 namespace pbdcheck {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 /// What the keys state; the rest is as in `law`.
 pbd::ContactLaw read_law(Keys& keys, pbd::ContactLaw law) {
   law.friction = keys.number_or("friction", law.friction, Range::not_negative);
+  if (law.friction > pbd::most_friction)
+    keys.refuse("friction", fmt::format("a number from 0 to {:g}", pbd::most_friction));
   law.restitution = keys.number_or("restitution", law.restitution, Range::finite);
   if (law.restitution < 0 || law.restitution > 1) keys.refuse("restitution", "a number from 0 to 1");
   const bool soft = keys.has("compliance_m_per_n"), stiff = keys.has("stiffness_n_per_m");

@@ -144,7 +144,7 @@ TEST_CASE("methods that contact does not allow are refused where they are stated
     check_refused(run_program({"simulate", stack, "-o", out, "--set", setting}),
                   {"--set " + setting.substr(0, setting.find('=')), "contact"});
   check_refused(run_program({"simulate", stack, "-o", out, "--set", "contact.friction=1e20"}),
-                {"stack.toml", "friction", "0 to 10000000"});
+                {"--set contact.friction", "a number from 0 to 1e+07"});
   check_refused(run_program({"simulate", stack, "-o", out, "--set", "rigid_body.1.mass_kg=1e-50"}),
                 {"stack.toml", "mass", "within a factor of"});
 }

@@ -15,8 +15,6 @@ namespace {
 
 using pbd::reference::ConeSolution;
 
-constexpr int most_sweeps = 100000;
-
 std::vector<double> list_of(const Eigen::VectorXd& numbers) {
   return {numbers.begin(), numbers.end()};
 }

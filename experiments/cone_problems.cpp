@@ -101,14 +101,14 @@ class Solves {
       : context_(context), table_(context.table(table, columns())) {}
 
   void solve(const Problem& p, FrictionLaw law) {
-    const int most_sweeps = p.demanded ? 200000 : context_.full() && !p.large() ? 20000 : 2000;
+    const int sweeps = p.demanded ? most_sweeps : context_.full() && !p.large() ? 20000 : 2000;
     judged_.resize(0);
     for (const ConeSolver& solver : cone_solvers()) {
       if (!taken(solver, law, p, context_.full())) continue;
-      if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, most_sweeps});
+      if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, sweeps});
       const bool first = solver.name == "cone_interior_point";
       const ConeSolution last =
-          add(p, law, solver, {p.planted.problem, law, first ? certain : tolerance, most_sweeps});
+          add(p, law, solver, {p.planted.problem, law, first ? certain : tolerance, sweeps});
       if (!solver.judge && p.demanded) found.relaxed[solver.name].add(last.measures.natural_residual);
       if (first) {
         found.residual.add(last.measures.natural_residual);

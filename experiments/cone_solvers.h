@@ -9,6 +9,9 @@
 
 namespace pbdcheck {
 
+/// That relaxations may take to solve a problem.
+inline constexpr int most_sweeps = 200000;
+
 struct ConeSolver {
   std::string name;
   std::vector<std::string> laws;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -32,12 +33,13 @@ Method contact_method(std::string_view relaxation, std::string_view friction) {
   method.relaxation = relaxation;
   method.friction = friction;
   method.tolerance = 1e-12;
-  method.max_outer = 1000;
   return method;
 }
 
-bool accurate(const Method& method) {
-  return method.relaxation == "direct" || method.relaxation == "conjugate_gradients";
+Method patient_method(std::string_view relaxation, std::string_view friction) {
+  Method method = contact_method(relaxation, friction);
+  method.max_outer = 10000;
+  return method;
 }
 
 double relative_difference(double a, double b) {
@@ -65,6 +67,7 @@ void KnownAnswers::add(std::string_view quantity, std::string_view scene, const 
                        double measured, double expected, double error, const ContactRun& run, bool judged) {
   const auto asked = std::find_if(quantities_.begin(), quantities_.end(),
                                   [&](const Quantity& each) { return each.name == quantity; });
+  if (asked == quantities_.end()) throw std::logic_error("no quantity " + std::string(quantity));
   if (run.status == Status::diverged) measured = error = std::nan("");
   table_.row({asked->name, std::string(scene), method.integrator, method.outer, method.relaxation,
               method.friction, h, measured, expected, asked->unit, error,
@@ -80,12 +83,17 @@ void KnownAnswers::add(std::string_view quantity, std::string_view scene, const 
 
 void KnownAnswers::close() {
   table_.close();
-  for (const Quantity& quantity : quantities_)
+  for (const Quantity& quantity : quantities_) {
+    bool met = false;
     for (const Judged& each : judged_)
-      if (each.quantity == quantity.name)
+      if (each.quantity == quantity.name) {
+        met = true;
         context_.verdict(fmt::format("{}.{}.{}", experiment_, quantity.name, each.relaxation),
                          fmt::format("{} ({})", quantity.statement, each.relaxation),
                          "largest error, " + quantity.unit, each.error.value(), quantity.bound);
+      }
+    if (!met) throw std::logic_error("nothing measured of " + quantity.name);
+  }
 }
 
 }  // namespace pbdcheck

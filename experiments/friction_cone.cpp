@@ -29,7 +29,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double tolerance = 1e-8, h = 0.01;
-constexpr int most_sweeps = 20000;
 
 struct Errors {
   double complementarity, dissipation, allowed;  // J

@@ -121,7 +121,7 @@ void stack(Context& context) {
        {"redundant_motion", "it moves the same on them", "m", 1e-9}});
   context.begin(std::ssize(relaxations) + 2 * std::ssize(accurate));
   for (const auto relaxation : relaxations) {
-    const Method method = contact_method(relaxation);
+    const Method method = patient_method(relaxation);
     for (const int count : context.full() ? std::vector{2, 5, 10, 20, 50} : std::vector{2, 5, 10})
       rest(answers, method, fmt::format("column of {}", count), column(count), true);
     for (const double ratio : {1e2, 1e4})

@@ -15,12 +15,11 @@ using namespace pbdcheck;
 
 namespace {
 
-/// True if the natural residual falls to a step's tolerance of what it was.
-bool converges(Rows& rows, Points& v) {
+/// True if the natural residual falls to a step's tolerance of what it was in that many calls.
+bool converges(Rows& rows, Points& v, int calls = Method{}.max_outer) {
   const double target = Method{}.tolerance * natural_residual(rows, v);
   AugmentedLagrangian augmented;
-  for (int k = 0; k < Method{}.max_outer && natural_residual(rows, v) > target; ++k)
-    CHECK(augmented.improve(rows, v) > 0);
+  for (int k = 0; k < calls && natural_residual(rows, v) > target; ++k) CHECK(augmented.improve(rows, v) > 0);
   return natural_residual(rows, v) <= target;
 }
 
@@ -36,7 +35,7 @@ TEST_CASE("the augmented Lagrangian solves the convex law's rows, from any impul
     });
     Points v = step.v_free;
     apply_impulses(rows, v);
-    CHECK(converges(rows, v));
+    CHECK(converges(rows, v, 3));
     Points rebuilt = step.v_free;
     apply_impulses(rows, rebuilt);
     CHECK((rebuilt - v).norm() < 1e-12 * v.norm());

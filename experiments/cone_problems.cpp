@@ -127,7 +127,7 @@ class Solves {
  private:
   /// A row: the error is to the planted velocity.
   ConeSolution add(const Problem& p, FrictionLaw law, const ConeSolver& solver, const ConeTask& task) {
-    const ConeSolution now = solver.solve(task);
+    ConeSolution now = solver.solve(task);
     if (solver.name == "cone_interior_point") judged_ = now.velocity;
     const auto& m = now.measures;
     table_.row({p.family, std::int64_t{p.number}, std::int64_t{p.planted.problem.contacts()}, p.condition,

@@ -149,10 +149,12 @@ double SemismoothNewton::iterate(Rows& rows, Points& v) {
     shift_ = std::min(1e-2, shift_ * change);
   }
   if (augments) {
-    further_sweeps_ += augmented_.improve(rows, v);
-    if (natural_residual(rows, v) < enough * residual) {
-      shift_ = least_shift;
-      return residual;
+    for (int call = 0; call <= idle_; ++call) {
+      further_sweeps_ += augmented_.improve(rows, v);
+      if (natural_residual(rows, v) < enough * residual) {
+        shift_ = least_shift;
+        return residual;
+      }
     }
     restore_impulses_and_biases(kept_, rows);
     v = start_;

@@ -7,8 +7,8 @@
 // least, a proximal term, which the iteration removes. Where there are more rows than velocities, impulses
 // are eliminated (not those of local problems). Where no step reduces the residual the part grows, and
 // shrinks again where steps succeed (Levenberg 1944); where none of two does, that of the augmented
-// Lagrangian may (augmented.h; where there is none, a third step), or else sweeps of Gauss-Seidel,
-// the more the longer nothing has been gained. (Semismooth Newton: Qi, Sun 1993; for friction Alart, Curnier
+// Lagrangian may (augmented.h; where there is none, a third step), or else sweeps of Gauss-Seidel, of
+// both the more the longer nothing has been gained. (Semismooth Newton: Qi, Sun 1993; for friction Alart, Curnier
 // 1991.)
 #pragma once
 

@@ -8,8 +8,8 @@
 // are eliminated (not those of local problems). Where no step reduces the residual the part grows, and
 // shrinks again where steps succeed (Levenberg 1944); where none of two does, that of the augmented
 // Lagrangian may (augmented.h; where there is none, a third step), or else sweeps of Gauss-Seidel, of
-// both the more the longer nothing has been gained. (Semismooth Newton: Qi, Sun 1993; for friction Alart, Curnier
-// 1991.)
+// both the more the longer nothing has been gained. (Semismooth Newton: Qi, Sun 1993; for friction Alart,
+// Curnier 1991.)
 #pragma once
 
 #include <Eigen/SparseLU>

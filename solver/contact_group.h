@@ -61,7 +61,7 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
       for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
       return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
     }
-  const Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
+  Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
   const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
   const Vec3 place = place_of(contact, found);
   for (const int side : {0, 1}) {

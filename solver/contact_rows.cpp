@@ -157,7 +157,8 @@ void ContactRows::add_geometric_inertia(const StepMap& map, const Configuration&
           for (const int side : {0, 1}) {
             const int column = column_of<Block>(contact, side);
             const auto node = [&](int k) {
-              return static_cast<std::size_t>(block.node[i][static_cast<std::size_t>(column + k)]);
+              return static_cast<std::size_t>(
+                  block.node[i][static_cast<std::size_t>(column) + static_cast<std::size_t>(k)]);
             };
             inertia[node(0)] += map.d / 2 * apart;
             if (side == contact.node_side) continue;

@@ -142,7 +142,7 @@ struct RowBlock : ConstraintShape<R, K> {
   };
   Derivatives derivatives(Friction by, std::size_t i, const typename Shape::Value& p,
                           const typename Shape::Value& change) const {
-    const Derivatives held{Shape::Square::Zero(), Shape::Square::Zero()},
+    Derivatives held{Shape::Square::Zero(), Shape::Square::Zero()},
         free{Shape::Square::Identity(), Shape::Square::Identity()};
     if (bounds.empty()) return free;
     if constexpr (R == 1) {

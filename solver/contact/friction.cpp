@@ -122,7 +122,7 @@ Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n,
   if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
   constexpr double singular = 1e-12;  // of a determinant over that of equal eigenvalues
   if (n.determinant() > singular * std::pow(n.trace() / 3, 3)) {
-    const Eigen::Vector3d sticking = -n.inverse() * q;
+    Eigen::Vector3d sticking = -n.inverse() * q;
     if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
     if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
   }

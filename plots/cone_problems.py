@@ -3,14 +3,9 @@
 import numpy as np
 
 from common import curve_points, figure, footnote, panels, shared_legend, style
-from reading import drawable, failed, text_number
+from reading import drawable, failed, text_number, tightest
 
 TOLERANCES = (1e-4, 1e-8)
-
-
-def at_tolerance(frame):
-    """The solves to the smallest tolerance."""
-    return frame[frame["tolerance"] == frame["tolerance"].min()]
 
 
 def performance(frame, tolerance):
@@ -54,8 +49,8 @@ def profiles(frame):
 
 @figure("cone_problems", "large", table="large")
 def large(frame):
-    """Seconds to the smaller tolerance over the number of contacts, a panel a law and family, a marker a problem."""
-    groups = list(at_tolerance(frame).groupby(["law", "family"], sort=False))
+    """Seconds to the smallest tolerance over the number of contacts, a panel a law and family, a marker a problem."""
+    groups = list(tightest(frame).groupby(["law", "family"], sort=False))
     fig, axes = panels(len(groups), columns=2, height=2.0, sharex=True, sharey=True)
     for ax, ((law, family), rows) in zip(axes, groups):
         for name, solves in rows.groupby("relaxation", sort=False):
@@ -66,6 +61,6 @@ def large(frame):
     fig.supxlabel("contacts", fontsize=8)
     fig.supylabel("wall time (s)", fontsize=8)
     shared_legend(fig, axes)
-    missed = len(failed(at_tolerance(frame), "wall_s"))
+    missed = len(failed(tightest(frame), "wall_s"))
     footnote(fig, f"Crossed: {missed} solves that missed their tolerance." if missed else "")
     return fig

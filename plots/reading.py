@@ -199,6 +199,11 @@ def failed(frame, *columns):
     return frame.drop(good(frame, *columns).index)
 
 
+def tightest(frame):
+    """The rows of each relaxation's smallest tolerance; judges may be asked for another than the rest."""
+    return frame[frame["tolerance"] == frame.groupby("relaxation")["tolerance"].transform("min")]
+
+
 def rule_names(frame):
     """The integrator of each row, with newmark's alpha."""
     return frame["integrator"].where(frame["alpha"].isna(), frame["integrator"] + frame["alpha"].map(" {:g}".format))

@@ -61,6 +61,10 @@ class Drawing(unittest.TestCase):
                     figure.draw_without_rendering()
                     common.plt.close(figure)
 
+    def test_every_solver_counts_at_its_own_tightest_tolerance(self):
+        frame = pd.DataFrame({"relaxation": ["judge", "a", "a", "b", "b"], "tolerance": [1e-10, 1e-4, 1e-8, 1e-4, 1e-8]})
+        self.assertEqual(list(reading.tightest(frame).index), [0, 2, 4])
+
     def test_a_map_without_a_single_rate(self):
         entry = next(e for e in common.FIGURES if e.name == "map")
         frame = self.table(entry).assign(measured_rate=np.nan, predicted_rate=np.nan, behaviour="diverging")

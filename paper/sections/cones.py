@@ -1,6 +1,7 @@
 """Contact with friction: are the problems of one step solved?"""
 
 from content import Figure, Section, Table, counted, listed, number, span
+from reading import tightest
 
 AGREEMENT = 1e-6  # m/s
 
@@ -26,23 +27,18 @@ def cone_problems(results):
     return section.tell(results.table("cone_problems", "large"), large_text)
 
 
-def tight(frame):
-    """The solves to the smallest tolerance."""
-    return frame[frame["tolerance"] == frame["tolerance"].min()]
-
-
 def solves_text(frame):
     return "Natural residuals reached: " + "; ".join(
         f"{listed(key)} {span(rows['natural_residual'])} on {counted(len(rows), 'problem')}, "
         f"{int((rows['status'] == 'ok').sum())} of them within 1e-8"
-        for key, rows in tight(frame).groupby(["law", "relaxation"], sort=False)) + \
+        for key, rows in tightest(frame).groupby(["law", "relaxation"], sort=False)) + \
         f". Solves that missed ended after {span(frame[frame['status'] != 'ok']['sweeps'])} iterations" \
         ". Under Coulomb's law a problem may have several solutions, so the planted velocity is not expected there."
 
 
 def solves_table(frame):
     rows = []
-    for (law, relaxation, family), group in tight(frame).groupby(["law", "relaxation", "family"], sort=False):
+    for (law, relaxation, family), group in tightest(frame).groupby(["law", "relaxation", "family"], sort=False):
         rows.append([f"`{law}`", f"`{relaxation}`", f"`{family}`", f"{len(group)}", number(group["natural_residual"].max()),
                      f"{int((group['status'] == 'ok').sum())}", number(group["gap"].max()), number(group["error_m_per_s"].max()),
                      number(group["sweeps"].median()),
@@ -72,7 +68,7 @@ def apart_table(frame):
 def large_text(frame):
     return "Large problems, natural residuals and seconds: " + "; ".join(
         f"{listed(key)} {span(rows['natural_residual'])} in {span(rows['wall_s'])} s"
-        for key, rows in tight(frame).groupby(["law", "family", "relaxation"], sort=False)) + "."
+        for key, rows in tightest(frame).groupby(["law", "family", "relaxation"], sort=False)) + "."
 
 
 def friction_cone(results):

@@ -36,7 +36,11 @@ PartialFile::PartialFile(std::filesystem::path path) : path_(std::move(path)) {
     path_ = std::filesystem::canonical(path_, ignored);
   make_partial();
   out_.open(partial_, std::ios::binary);
-  if (!out_) refuse(errno);
+  if (!out_) {
+    const int error = errno;
+    ::unlink(partial_.c_str());
+    refuse(error);
+  }
   listed_ = listed(partial_.c_str());
 }
 

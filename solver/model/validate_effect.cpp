@@ -78,6 +78,18 @@ struct EffectCheck {
             "damping of a finite young");
   }
 
+  /// Nodes, compliance, damping and the finite value at rest of each constraint.
+  template <class OfNodes, class Values>
+  void of_nodes(const OfNodes& effect, const Values& rest, std::string_view field) const {
+    const std::size_t count = effect.node.size();
+    same_size(count, rest, field);
+    same_size(count, effect.compliance, "compliance");
+    node_indices(effect.node);
+    finite(rest, field);
+    not_negative(effect.compliance, "compliance");
+    retardation_times(count, effect.damping);
+  }
+
   void body_index(int body, std::size_t i) const {
     const auto count = static_cast<int>(scene.bodies.size());
     REQUIRE(
@@ -251,37 +263,21 @@ struct EffectCheck {
   }
 
   void operator()(const Anchor& effect) const {
-    same_size(effect.node.size(), effect.target, "target");
-    same_size(effect.node.size(), effect.compliance, "compliance");
-    node_indices(effect.node);
+    of_nodes(effect, effect.target, "target");
     for (std::size_t i = 0; i < effect.node.size(); ++i)
       REQUIRE(std::isfinite(scene.mass[static_cast<std::size_t>(effect.node[i])]), at(i, "node"),
               text(effect.node[i]) + ", of infinite mass", "a node of finite mass, which an anchor can hold");
-    finite(effect.target, "target");
-    not_negative(effect.compliance, "compliance");
-    retardation_times(effect.node.size(), effect.damping);
   }
 
   void operator()(const Distance& effect) const {
-    same_size(effect.node.size(), effect.rest_length, "rest_length");
-    same_size(effect.node.size(), effect.compliance, "compliance");
-    node_indices(effect.node);
+    of_nodes(effect, effect.rest_length, "rest_length");
     not_negative(effect.rest_length, "rest_length");
-    not_negative(effect.compliance, "compliance");
-    retardation_times(effect.node.size(), effect.damping);
     for (std::size_t i = 0; i < effect.rest_length.size(); ++i)
       REQUIRE(effect.rest_length[i] > 0 || effect.compliance[i] > 0, at(i, "rest_length"),
               "0 and compliance 0", "a rest length > 0 for a link without compliance");
   }
 
-  void operator()(const Bending& effect) const {
-    same_size(effect.node.size(), effect.rest_angle, "rest_angle");
-    same_size(effect.node.size(), effect.compliance, "compliance");
-    node_indices(effect.node);
-    finite(effect.rest_angle, "rest_angle");
-    not_negative(effect.compliance, "compliance");
-    retardation_times(effect.node.size(), effect.damping);
-  }
+  void operator()(const Bending& effect) const { of_nodes(effect, effect.rest_angle, "rest_angle"); }
 
   void operator()(const TriangleStrain& effect) const {
     same_size(effect.node.size(), effect.rest, "rest");

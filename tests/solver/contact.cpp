@@ -110,17 +110,18 @@ TEST_CASE("soft ground carries a box's weight, sunk in by its share of it, under
   build.ground();
   build.box(Vec3(0.2, 0.2, 0.1), 4, {Vec3(0, 0, 0.05)});
   const Scene scene = build.finish();
-  for (const auto* integrator : {"implicit_euler", "newmark", "symplectic_euler"})
-    for (const double alpha : {0.55, 0.75, 1.0}) {
-      Method method = method_of("direct");
-      method.integrator = integrator;
-      method.alpha = alpha;
-      Workspace workspace(scene, method);
-      const State end = run(scene, method, 0.01, 500, workspace);  // contact springs are damped by the step
-      INFO(integrator << " " << alpha);
-      CHECK(std::abs(ground_force(workspace).z() / weight(scene) - 1) <= 1e-9);
-      CHECK(std::abs(end.x(2, 1) - 0.05 + weight(scene) * compliance / 4) <= 1e-11);  // four contacts
-    }
+  for (const auto& [integrator, alpha] :
+       {std::pair{"implicit_euler", 1.0}, std::pair{"symplectic_euler", 1.0}, std::pair{"newmark", 0.55},
+        std::pair{"newmark", 0.75}}) {
+    Method method = method_of("direct");
+    method.integrator = integrator;
+    method.alpha = alpha;
+    Workspace workspace(scene, method);
+    const State end = run(scene, method, 0.01, 500, workspace);  // contact springs are damped by the step
+    INFO(integrator << " " << alpha);
+    CHECK(std::abs(ground_force(workspace).z() / weight(scene) - 1) <= 1e-9);
+    CHECK(std::abs(end.x(2, 1) - 0.05 + weight(scene) * compliance / 4) <= 1e-11);  // four contacts
+  }
 }
 
 TEST_CASE("a ball rolls when it has slid for 2/7 of its speed") {

@@ -1,4 +1,4 @@
-// pbdcheck: the command line. Everything it does is in command_*.cpp.
+// pbdcheck: the command line. Everything it does is in commands/.
 #include <malloc.h>
 
 #include <fmt/format.h>
@@ -12,15 +12,15 @@
 #include <system_error>
 #include <thread>
 
-#include "choices.h"
-#include "commands.h"
-#include "cone_solvers.h"
+#include "commands/commands.h"
+#include "cones/cone_solvers.h"
 #include "error.h"
-#include "interrupt.h"
-#include "judges.h"
-#include "progress.h"
-#include "provenance.h"
+#include "harness/interrupt.h"
+#include "harness/judges.h"
+#include "harness/progress.h"
+#include "harness/provenance.h"
 #include "rivals/blas.h"
+#include "scenes/choices.h"
 
 namespace {
 

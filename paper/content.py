@@ -11,6 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
 import reading  # noqa: E402
+import selecting  # noqa: E402
 import tables  # noqa: E402
 
 
@@ -98,7 +99,7 @@ def number(value):
     """A number for a text or a table, with three digits."""
     if np.isnan(value):
         return "not a number"
-    return reading.text_number(value) if np.isfinite(value) else ("inf" if value > 0 else "-inf")
+    return selecting.text_number(value) if np.isfinite(value) else ("inf" if value > 0 else "-inf")
 
 
 def span(values):

@@ -77,16 +77,17 @@ def references(text):
     entries = {}
     for key, body in re.findall(r"@\w+\{(\w+),\n(.*?)\n\}", text, re.S):
         fields = {name: plain_bibtex(value) for name, value in re.findall(r"(\w+) = \{(.*)\},?", body)}
-        where = fields.get("journal") or fields.get("booktitle") or fields.get("school")
+        who = (fields.get("author") or fields["editor"]).replace(" and ", "; ")
+        where = next((fields[name] for name in ("journal", "booktitle", "school", "publisher") if name in fields), "")
         volume = f" {fields['volume']}" if "volume" in fields else ""
         doi = f", doi:{fields['doi']}" if "doi" in fields else ""
-        entries[key] = f"{fields['author']}: {fields['title']}. {where}{volume}, {fields['year']}{doi}."
+        entries[key] = f"{who}: {fields['title']}. {where}{volume}{', ' if where else ''}{fields['year']}{doi}."
     return entries
 
 
 def plain_bibtex(text):
     for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
-                         ("{$O(1/k^2)$}", "O(1/k²)"), (" and ", "; "), ("--", "–")):
+                         ("{$O(1/k^2)$}", "O(1/k²)"), ("--", "–")):
         text = text.replace(mark, letter)
     return text.replace("{", "").replace("}", "")
 

@@ -6,7 +6,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from command import command
-from common import FALLBACK, literal, save
+from common import literal
+from saving import save
+from styles import FALLBACK
 from reading import InputError, read_table
 from tables import columns
 from work_precision import REFERENCE, draw_methods

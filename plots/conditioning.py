@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import curve_points, figure, footnote, panels, shared_legend, style
-from reading import failed, reasons_note
+from common import curve_points, figure, footnote, panels, shared_legend
+from styles import style
+from selecting import failed, reasons_note
 
 PANELS = {"mass_ratio": "mass ratio, tip to other nodes", "young_pa": "Young's modulus (Pa)", "poisson": "1 - 2 nu"}
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import curve_points, figure, footnote, panels, shared_legend, style
-from reading import drawable, failed, text_number, tightest
+from common import curve_points, figure, footnote, panels, shared_legend
+from styles import style
+from selecting import drawable, failed, text_number, tightest
 
 TOLERANCES = (1e-4, 1e-8)
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import BLACK, BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
-from reading import drawable, failed, good, reasons_note, stiffens
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLACK, BLUE, GREEN, RED
+from selecting import drawable, failed, good, reasons_note, stiffens
 
 LEAST, MOST = 1e-3, 1e3  # rates that are measured, and the largest drawn
 SHOWN = (("bound", "bound of the effect", {"color": GREEN, "marker": "^"}),

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import (BLACK, FALLBACK, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend)
-from reading import drawable, failed, good, reasons_note
+from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLACK, FALLBACK
+from selecting import drawable, failed, good, reasons_note
 
 
 def looks(frame):

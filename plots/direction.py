@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from common import (BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, curve_points, draw_failed, figure, footnote, panels,
-                    shared_legend)
-from reading import failed, good, reasons_note, step_text
+from common import curve_points, draw_failed, figure, footnote, panels, shared_legend
+from styles import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY
+from selecting import failed, good, reasons_note, step_text
 
 GREY = "#777777"
 BLENDS = {0: (RED, "o"), 0.25: (ORANGE, "s"), 0.5: (GREEN, "^"), 0.75: (SKY, "D"), 1: (BLUE, "v")}

@@ -3,8 +3,10 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import PURPLE, SKY, curve, figure, footnote, on_log, panels, shared_legend, style
-from reading import LARGEST, failed, reasons_note, text_number
+from common import curve, figure, footnote, on_log, panels, shared_legend
+from styles import PURPLE, SKY, style
+from reading import LARGEST
+from selecting import failed, reasons_note, text_number
 
 METHOD = ["outer", "relaxation"]
 MATERIAL = ["scene", "strain", "young_pa", "poisson"]

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import BLACK, BLUE, curve_points, figure, footnote, on_log, panels, style
-from reading import failed, good, reasons_note, text_number
+from common import curve_points, figure, footnote, on_log, panels
+from styles import BLACK, BLUE, style
+from selecting import failed, good, reasons_note, text_number
 
 
 @figure("effects_cost", "scaling", table="scaling")

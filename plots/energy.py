@@ -3,9 +3,10 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import (BLACK, BLUE, GREEN, ORANGE, RED, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle,
-                    style, trace)
-from reading import LARGEST, failed, good, reasons_note, rule_names, step_text, text_number
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, trace
+from styles import BLACK, BLUE, GREEN, ORANGE, RED, style
+from reading import LARGEST
+from selecting import failed, good, reasons_note, rule_names, step_text, text_number
 
 RUN = ["scene", "step_s", "rule"]
 

@@ -1,8 +1,8 @@
 """Contact beside known answers: the errors of every quantity, friction over the heading, and the convex law's gap."""
 
-from common import (BLACK, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend,
-                    style, ticks)
-from reading import failed, good, reasons_note, text_number
+from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, ticks
+from styles import BLACK, style
+from selecting import failed, good, reasons_note, text_number
 
 SHORT = {"gauss_seidel": "GS", "jacobi": "J", "nesterov_jacobi": "NJ", "conjugate_gradients": "CG", "direct": "direct"}
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import failed, good, reasons_note
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import style
+from selecting import failed, good, reasons_note
 
 ERRORS = {"complementarity_share": "complementarity", "dissipation_share": "dissipation", "velocity_share": "velocity"}
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import BLACK, FALLBACK, draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import failed, good, reasons_note
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLACK, FALLBACK, style
+from selecting import failed, good, reasons_note
 
 
 @figure("generated_scenes", "outcomes", table="outcomes")

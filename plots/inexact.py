@@ -1,7 +1,8 @@
 """What is saved where linear problems are solved no further than the step can use?"""
 
-from common import BLACK, BLUE, GREEN, ORANGE, RED, curve_points, figure, footnote, panels, shared_legend
-from reading import failed, reasons_note, step_text
+from common import curve_points, figure, footnote, panels, shared_legend
+from styles import BLACK, BLUE, GREEN, ORANGE, RED
+from selecting import failed, reasons_note, step_text
 
 LOOKS = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "^"), (RED, "D"), (BLACK, "P"))
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from common import BLACK, curve, draw_failed, figure, footnote, panels, shared_legend, style
-from reading import failed, good, reasons_note
+from common import curve, draw_failed, figure, footnote, panels, shared_legend
+from styles import BLACK, style
+from selecting import failed, good, reasons_note
 
 
 def traces(frame, x, label):

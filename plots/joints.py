@@ -1,8 +1,8 @@
 """How accurately do joints carry mechanisms, and what does a chain of bodies cost?"""
 
-from common import (BLACK, curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, slope_triangle,
-                    style, ticks)
-from reading import drawable, failed, good, missed_note, reasons_note, rule_names
+from common import curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, slope_triangle, ticks
+from styles import BLACK, style
+from selecting import drawable, failed, good, missed_note, reasons_note, rule_names
 
 BOUND = 1e-10  # of the joints' errors, of the verdicts
 

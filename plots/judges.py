@@ -2,8 +2,9 @@
 
 import re
 
-from common import BLUE, GREEN, RED, draw_failed, figure, footnote, on_log, panels, shared_legend
-from reading import failed, good, reasons_note
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLUE, GREEN, RED
+from selecting import failed, good, reasons_note
 
 SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
           ("residual_b", "residual of the second", GREEN, "^"))

@@ -30,7 +30,8 @@ import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
-from common import FIGURES, KINDS, literal, save
+from common import FIGURES, literal
+from saving import KINDS, save
 from reading import InputError, provenance, read_run, read_table, shortfall
 from tables import OWN_TABLES, columns
 

@@ -1,8 +1,8 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
-from common import (BLUE, RED, curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle,
-                    style, ticks)
-from reading import failed, good, reasons_note
+from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, ticks
+from styles import BLUE, RED, style
+from selecting import failed, good, reasons_note
 
 QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
 MODELS = {"tet_p1": "linear tetrahedra, constraint solver", "tet_p1 reference": "linear tetrahedra, finite element judge",

@@ -4,8 +4,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
-from reading import CONTRACTING, LARGEST, failed, good, reasons_note, scene_text, step_text, text_number
+from common import curve, draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLACK, BLUE, RED, style
+from reading import CONTRACTING, LARGEST
+from selecting import failed, good, reasons_note, scene_text, step_text, text_number
 
 
 def cases(frame):

@@ -5,8 +5,9 @@ import textwrap
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
-from common import BLUE, GREEN, RED, crossed, figure, footnote, panels, shared_legend, style
-from reading import drawable, text_number
+from common import crossed, figure, footnote, panels, shared_legend
+from styles import BLUE, GREEN, RED, style
+from selecting import drawable, text_number
 
 HOLDS, FAILS, SKIPPED = 1.0, 0.0, 0.5
 UNSWEPT = "quasi-Newton, no sweeps"

@@ -1,7 +1,8 @@
 """Does a mechanism move as before when joints hold what others hold already?"""
 
-from common import BLACK, crossed, curve_points, figure, footnote, panels, shared_legend, style
-from reading import missed_note, reasons_note
+from common import crossed, curve_points, figure, footnote, panels, shared_legend
+from styles import BLACK, style
+from selecting import missed_note, reasons_note
 
 COLUMNS = {"position_difference_m": "positions: difference (m)", "net_force_difference": "net forces: difference",
            "split": "joints of one place: difference"}

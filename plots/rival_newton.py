@@ -1,7 +1,8 @@
 """When is the constraint solver faster than Newton's method?"""
 
-from common import curve, curve_points, figure, footnote, panels, shared_legend, style
-from reading import failed, reasons_note, text_number
+from common import curve, curve_points, figure, footnote, panels, shared_legend
+from styles import style
+from selecting import failed, reasons_note, text_number
 
 CONTRASTED = {"quasi_newton": "quasi_newton", "newton": "newton, the rival"}
 

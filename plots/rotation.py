@@ -1,8 +1,9 @@
 """What do the integrators and the two forms of the gyroscopic torque make of rotating bodies? The figures of its orders are
 those of time_order."""
 
-from common import curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, style, ticks, trace
-from reading import failed, reasons_note, rule_names, text_number
+from common import curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, ticks, trace
+from styles import style
+from selecting import failed, reasons_note, rule_names, text_number
 
 LINEAR_BELOW = 1e-6  # changes of the energy, on an axis with both signs
 

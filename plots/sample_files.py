@@ -1,8 +1,10 @@
-"""Writes a made-up table or run record."""
+"""Writes a made-up table or run record; the relaxations that made-up tables name."""
 
 import csv
 import json
 from pathlib import Path
+
+RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "direct")
 
 
 def write(directory, experiment, table, columns, rows):

@@ -1,7 +1,8 @@
 """How accurate and how fast is contact, beside five engines' published figures?"""
 
-from common import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, curve_points, figure, footnote, panels, shared_legend
-from reading import reasons_note
+from common import curve_points, figure, footnote, panels, shared_legend
+from styles import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED
+from selecting import reasons_note
 
 LOOKS = {"pbdcheck": (BLUE, "o", "-"), "RaiSim": (ORANGE, "s", ":"), "Bullet": (RED, "^", ":"),
          "ODE": (GREEN, "D", ":"), "DART": (PURPLE, "v", ":"), "MuJoCo": (BLACK, "X", ":")}

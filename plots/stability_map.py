@@ -4,9 +4,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import BLACK, BLUE, RED, curve, draw_failed, figure, footnote, on_log, panels, shared_legend, style
+from common import curve, draw_failed, figure, footnote, on_log, panels, shared_legend
+from styles import BLACK, BLUE, RED, style
 from outer_convergence import edges
-from reading import CONTRACTING, LARGEST, cost_ratios, failed, good, reasons_note, step_text, text_number
+from reading import CONTRACTING, LARGEST
+from selecting import cost_ratios, failed, good, reasons_note, step_text, text_number
 
 MARKS = {"not_converged": "x", "diverged": "^", "skipped": "_", "ok": "o"}  # of a cell that is not solved, by status
 MEANING = {"ok": "ok, but farther than 1e-8"}

@@ -13,9 +13,12 @@ import numpy as np
 import pandas as pd
 
 import common
+import saving
+import saving
 import compare
 import make
 import reading
+import selecting
 import sample
 import tables
 
@@ -57,13 +60,13 @@ class Drawing(unittest.TestCase):
                 frame = frame.assign(status="diverged", reason="non-finite")
                 figure = entry.draw(frame)
                 if figure:
-                    common._give_empty_axes_limits(figure)
+                    saving.give_empty_axes_limits(figure)
                     figure.draw_without_rendering()
                     common.plt.close(figure)
 
     def test_every_solver_counts_at_its_own_tightest_tolerance(self):
         frame = pd.DataFrame({"relaxation": ["judge", "a", "a", "b", "b"], "tolerance": [1e-10, 1e-4, 1e-8, 1e-4, 1e-8]})
-        self.assertEqual(list(reading.tightest(frame).index), [0, 2, 4])
+        self.assertEqual(list(selecting.tightest(frame).index), [0, 2, 4])
 
     def test_a_map_without_a_single_rate(self):
         entry = next(e for e in common.FIGURES if e.name == "map")
@@ -96,7 +99,7 @@ class Drawing(unittest.TestCase):
             for limits in ((low, high), (high, low)):
                 figure, (ax,) = common.panels(1)
                 ax.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
-                common._label_log_axes(figure)
+                saving.label_log_axes(figure)
                 figure.draw_without_rendering()
                 for axis in (ax.xaxis, ax.yaxis):
                     first, last = axis.get_view_interval()
@@ -121,7 +124,7 @@ class Drawing(unittest.TestCase):
         entry = next(e for e in common.FIGURES if e.experiment == "mesh_refinement" and e.name == "mms")
         written = []
         for _ in range(2):
-            common.save(entry.draw(self.table(entry)), self.directory / "figures", "twice", "foot")
+            saving.save(entry.draw(self.table(entry)), self.directory / "figures", "twice", "foot")
             written.append([(self.directory / "figures" / f"twice.{kind}").read_bytes()
                             for kind in ("png", "svg", "pdf")])
         self.assertEqual(written[0], written[1])

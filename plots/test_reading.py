@@ -11,6 +11,7 @@ import numpy as np
 import common
 import judges
 import reading
+import selecting
 import sample
 
 
@@ -140,16 +141,16 @@ class Failures(unittest.TestCase):
     def test_every_row_is_good_or_failed(self):
         frame = reading.pd.DataFrame({"error": [1.0, np.nan, 1e308, -1.0, 0.0, 2.0],
                                      "status": ["ok", "ok", "ok", "ok", "ok", "diverged"], "reason": [""] * 5 + ["far"]})
-        self.assertEqual(reading.good(frame, "error").index.tolist(), [0, 4])
-        self.assertEqual(reading.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
+        self.assertEqual(selecting.good(frame, "error").index.tolist(), [0, 4])
+        self.assertEqual(selecting.failed(frame, "error").index.tolist(), [1, 2, 3, 5])
 
     def test_reasons_are_counted(self):
         frame = reading.pd.DataFrame({"status": ["diverged", "diverged", "ok"], "reason": ["far", "far", ""]})
-        self.assertEqual(reading.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
+        self.assertEqual(selecting.reasons_note(frame), "Crossed, not ok: 2 x diverged: far; 1 x ok, but no number that can be drawn")
 
     def test_a_long_reason_is_cut_with_a_mark(self):
         frame = reading.pd.DataFrame({"status": ["diverged"], "reason": ["far away " * 30]})
-        self.assertRegex(reading.reasons_note(frame), r"far away \.\.\.$")
+        self.assertRegex(selecting.reasons_note(frame), r"far away \.\.\.$")
 
     def test_traces_that_fail_are_crossed(self):
         for values, place in (([1.0, np.nan], (0.1, 1.0)), ([1.0, 3.0], (0.2, 2.0)), ([np.nan, np.nan], (0.2, 0.97))):
@@ -163,7 +164,7 @@ class Failures(unittest.TestCase):
     def test_scenes_read_with_short_numbers(self):
         for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
                             ("chain20 tip x100", "chain20 tip x100")):
-            self.assertEqual(reading.scene_text(scene), text)
+            self.assertEqual(selecting.scene_text(scene), text)
 
     def test_families_of_scenes(self):
         for scene, family in (("contraction: triangle_strain  1e+06 Pa, -2 N", "contraction: triangle_strain"),
@@ -175,7 +176,7 @@ class Failures(unittest.TestCase):
             self.assertEqual(judges.family(scene), family)
 
     def test_steps_read_as_fractions(self):
-        self.assertEqual([reading.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
+        self.assertEqual([selecting.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])
 
 
 if __name__ == "__main__":

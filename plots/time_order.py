@@ -1,7 +1,8 @@
 """At which order does each integrator approach motions in continuous time, those of particles and of rotating bodies?"""
 
-from common import BLACK, curve_points, draw_failed, figure, footnote, order_triangles, panels, shared_legend, style
-from reading import failed, good, reasons_note, rule_names
+from common import curve_points, draw_failed, figure, footnote, order_triangles, panels, shared_legend
+from styles import BLACK, style
+from selecting import failed, good, reasons_note, rule_names
 
 
 @figure("time_order", "errors", table="errors")

@@ -2,8 +2,9 @@
 
 import matplotlib.pyplot as plt
 
-from common import BLACK, draw_failed, figure, footnote, on_log, panels, style
-from reading import failed, good, reasons_note, scene_text, step_text
+from common import draw_failed, figure, footnote, on_log, panels
+from styles import BLACK, style
+from selecting import failed, good, reasons_note, scene_text, step_text
 
 RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "conjugate_gradients": "P", "direct": "D"}
 REFERENCE = {"color": BLACK, "marker": "*", "linestyle": "none", "markersize": 7, "markerfacecolor": BLACK}

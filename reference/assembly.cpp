@@ -1,9 +1,9 @@
 #include "assembly.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "dense.h"
 #include "polar.h"
 
 namespace pbd::reference {
@@ -16,35 +16,33 @@ RowMatrix tangent(const Element& e, const Multipliers& m) {
 
 /// Negative eigenvalues set to zero.
 void project(LocalMatrix& h) {
-  const Eigen::SelfAdjointEigenSolver<LocalMatrix> eigen(h);
-  if (eigen.eigenvalues()(0) >= 0) return;
-  h = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  const auto [values, vectors] = symmetric_eigen(h);
+  if (values(0) >= 0) return;
+  h = vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose();
 }
 
 /// d2L/dF2 of an element: J^T A^-1 J + sum_k (dL/dc)_k d2c_k/dF2.
 LocalMatrix curvature_of(const Local& local, const RowVector& s, const RowMatrix& t) {
-  LocalMatrix h = local.jacobian.transpose() * (t * local.jacobian).eval();
-  for (int k = 0; k < s.size(); ++k) h += s(k) * local.hessian[static_cast<std::size_t>(k)];
+  LocalMatrix h = transposed_product(local.jacobian, (t * local.jacobian).eval());
+  for (int k = 0; k < s.size(); ++k) h += s(k) * local.hessian[k];
   return h;
 }
 
 }  // namespace
 
 Assembly::Assembly(const Model& model) : model_(&model), offset_(model.elements.size()) {
-  std::vector<Eigen::Triplet<double>> pattern;
+  Triplets pattern;
   const auto each_pair = [&](const Element& e, const auto& use) {
     for (int a = 0; a < e.nodes; ++a)
       for (int b = 0; b < e.nodes; ++b) {
         const int i = model.unknown(e, a), j = model.unknown(e, b);
-        if (i >= 0 && j >= 0)
-          use(4 * static_cast<std::size_t>(a) + static_cast<std::size_t>(b), i / 3, j / 3);
+        if (i >= 0 && j >= 0) use(4 * a + b, i / 3, j / 3);
       }
   };
   for (int i = 0; i < model.unknowns / 3; ++i) pattern.emplace_back(i, i, 1.0);
   for (const Element& e : model.elements)
     each_pair(e, [&](std::size_t, int i, int j) { pattern.emplace_back(i, j, 1.0); });
-  SparseMatrix blocks(model.unknowns / 3, model.unknowns / 3);
-  blocks.setFromTriplets(pattern.begin(), pattern.end());
+  const SparseMatrix blocks = from_triplets(model.unknowns / 3, model.unknowns / 3, pattern);
 
   auto& h = result_.hessian;
   h.resize(model.unknowns, model.unknowns);
@@ -74,8 +72,7 @@ const Derivatives& Assembly::at(const Points& x, const Multipliers& multipliers,
     differentiate(model_->elements[n], x, local_);
     add(model_->elements[n], n, multipliers, curvature);
   }
-  result_.jacobian.resize(model_->hard_rows, model_->unknowns);
-  result_.jacobian.setFromTriplets(jacobian_.begin(), jacobian_.end());
+  result_.jacobian = from_triplets(model_->hard_rows, model_->unknowns, jacobian_);
   return result_;
 }
 
@@ -105,7 +102,7 @@ void Assembly::add(const Element& e, std::size_t index, const Multipliers& multi
       if (j < 0) continue;
       Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
       for (int q = 0; q < e.columns; ++q) block += e.weight(b, q) * half.middleCols<3>(3 * q);
-      const int offset = offset_[index][4 * static_cast<std::size_t>(a) + static_cast<std::size_t>(b)];
+      const int offset = offset_[index][4 * a + b];
       for (int d = 0; d < 3; ++d) Eigen::Map<Vec3>(values + outer[j + d] + offset) += block.col(d);
     }
     if (e.hard()) add_jacobian(e, a, i);
@@ -153,7 +150,7 @@ Rows all_rows(const Model& model, const Points& x, const Vector& gamma) {
     LocalMatrix h = curvature_of(local, multiplier, RowMatrix::Zero(e.rows, e.rows));
     if (e.kind == Kind::corotational) {
       const HeldRotation held = held_rotation(local_matrix(e, x), multiplier);
-      h = held.turning + held.jacobian.transpose() * e.stiffness * (held.jacobian - local.jacobian);
+      h = held.turning + product(held.jacobian.transpose() * e.stiffness, held.jacobian - local.jacobian);
       local.jacobian = held.jacobian;
     }
     for (int a = 0; a < e.nodes; ++a) {

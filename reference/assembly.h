@@ -39,7 +39,7 @@ class Assembly {
   Local local_;
   Derivatives result_;
   std::vector<std::array<int, 16>> offset_;  // of each node pair's block within its columns of the Hessian
-  std::vector<Eigen::Triplet<double>> jacobian_;
+  Triplets jacobian_;
 };
 
 /// dU/dx of the compliant constraints by the unknowns, N.

@@ -1,10 +1,11 @@
 #include "circling.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+
+#include "dense.h"
 
 namespace pbd::reference {
 namespace {
@@ -29,8 +30,8 @@ Quartic product(const Quadratic& p, const Quadratic& q) {
 std::array<Complex, 4> roots(const Quartic& c) {
   Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
   companion.diagonal(-1).setOnes();
-  for (int i = 0; i < 4; ++i) companion(i, 3) = -c[static_cast<std::size_t>(i)] / c[4];
-  const Eigen::Vector4cd found = companion.eigenvalues();
+  for (int i = 0; i < 4; ++i) companion(i, 3) = -c[i] / c[4];
+  const Eigen::VectorXcd found = eigenvalues(companion);
   return {found[0], found[1], found[2], found[3]};
 }
 

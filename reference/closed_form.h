@@ -93,7 +93,7 @@ struct Beam {
   double length, width, height, young, poisson, density;
   double area() const { return width * height; }
   double second_moment() const { return width * height * height * height / 12; }
-  double shear_stiffness() const;  // kappa G A with kappa = 10 (1 + nu)/(12 + 11 nu) (Cowper 1966), N
+  double shear_stiffness() const;  // kappa G A with kappa = 10 (1 + nu)/(12 + 11 nu) (cowper1966shear), N
 };
 enum class BeamTheory { euler_bernoulli, timoshenko };
 /// Tip deflection of a cantilever (m) under a tip force (N), and under its weight.
@@ -102,7 +102,7 @@ double weight_deflection(const Beam& beam, double g, BeamTheory theory);
 /// Frequency (Hz) of mode n = 1, 2, ...; free-free modes without the rigid ones, Euler-Bernoulli.
 double cantilever_frequency(const Beam& beam, int mode);
 double free_beam_frequency(const Beam& beam, int mode);
-/// Timoshenko's: root of Huang's (1961) equation for the clamped-free beam.
+/// Timoshenko's: root of the equation of (huang1961effect) for the clamped-free beam.
 double timoshenko_cantilever_frequency(const Beam& beam, int mode);
 /// The same as det of the free end's block of exp(L A) for the first-order system of (w, phi, M, Q): zero at
 /// a frequency.

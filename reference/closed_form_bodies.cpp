@@ -68,7 +68,7 @@ Vec3 free_body_spin(const Vec3& inertia, const Vec3& spin, double time) {
   gsl_sf_elljac_e(p.rate * time + start, p.parameter, &sn, &cn, &dn);
   const Vec3 own(p.amplitude[0] * cn, across * p.amplitude[1] * sn, side * p.amplitude[2] * dn);
   Vec3 result;
-  for (int i = 0; i < 3; ++i) result[p.axis[static_cast<std::size_t>(i)]] = p.parity * own[i];
+  for (int i = 0; i < 3; ++i) result[p.axis[i]] = p.parity * own[i];
   return result;
 }
 

@@ -5,7 +5,7 @@
 // moment, index 3 below, 2 the middle moment's and 1 the last:
 //   w = (a1 cn, +-a2 sn, +-a3 dn)(rate t + phase),  a_i^2 = (L^2 - 2 T I_k)/(I_i (I_i - I_k)), k = 3 for
 //   i = 1, 2 and k = 1 for i = 3,   rate^2 = (I3 - I2) (L^2 - 2 T I1)/(I1 I2 I3)
-// of parameter m = a1^2 I1 (I2 - I1)/(a3^2 I3 (I3 - I2)) (Landau, Lifshitz, Mechanics, section 37).
+// of parameter m = a1^2 I1 (I2 - I1)/(a3^2 I3 (I3 - I2)) (landau1976mechanics, section 37).
 #pragma once
 
 #include "scene.h"

@@ -1,4 +1,4 @@
-// Coulomb's law as a sequence of convex problems (de Saxce, Feng 1998).
+// Coulomb's law as a sequence of convex problems (desaxce1998bipotential).
 //
 //   s <- mu |u_T(s)|,   u(s) the solution of the law `cone` with q_N + s in the place of q_N
 // s is moved by a part of the way only where whole steps do not come closer. There may be no solution, or

@@ -1,6 +1,5 @@
 #include "cone_interior_point.h"
 
-#include <Eigen/CholmodSupport>
 #include <chrono>
 #include <cmath>
 
@@ -13,7 +12,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Sparse = Eigen::SparseMatrix<double>;
 
 // Lorentz cone |x_1| <= x_0 with the product x o y = (x.y, x_0 y_1 + y_0 x_1), contact by contact.
 
@@ -81,7 +79,7 @@ class InteriorPoint {
       const double mu = problem.friction(i);
       unscale_.segment<3>(3 * i) = mu > 0 ? Vector3d(1 / mu, 1, 1) : Vector3d(1, 0, 0);
     }
-    n_ = unscale_.asDiagonal() * problem.delassus * unscale_.asDiagonal();
+    n_ = scaled(unscale_, problem.delassus, unscale_);
     c_ = unscale_.cwiseProduct(problem.free_velocity);
     x_.setZero(3 * contacts_), z_.setZero(3 * contacts_);
     for (int i = 0; i < contacts_; ++i) x_(3 * i) = z_(3 * i) = 1;  // in the middle of both cones
@@ -127,7 +125,7 @@ class InteriorPoint {
   /// One step of predictor and corrector; false if the factorisation fails or nothing moves.
   bool advance(const VectorXd& residual) {
     std::vector<Scaling> scaling;
-    std::vector<Eigen::Triplet<double>> entries;
+    Triplets entries;
     for (int i = 0; i < contacts_; ++i) {
       const Matrix3d& theta = scaling.emplace_back(x(i), z(i)).theta;
       const Matrix3d square = theta * theta;
@@ -135,22 +133,16 @@ class InteriorPoint {
         for (int column = 0; column < 3; ++column)
           entries.emplace_back(3 * i + row, 3 * i + column, square(row, column));
     }
-    Sparse matrix(n_.rows(), n_.cols());
-    matrix.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix matrix = from_triplets(n_.rows(), n_.cols(), entries);
     matrix += n_;
-    Eigen::CholmodSupernodalLLT<Sparse> factor;
-    factor.cholmod().print = 0;  // a matrix that is not definite is no news here
-    factor.compute(matrix);
-    if (factor.info() != Eigen::Success) return false;
+    SparseCholesky factor;
+    if (!factor.compute(matrix)) return false;
 
     const auto theta = [&](const VectorXd& b) {
-      return each(
-          [&](int i) { return Vector3d(scaling[static_cast<std::size_t>(i)].theta * b.segment<3>(3 * i)); });
+      return each([&](int i) { return Vector3d(scaling[i].theta * b.segment<3>(3 * i)); });
     };
     const auto inverse = [&](const VectorXd& b) {
-      return each([&](int i) {
-        return Vector3d(scaling[static_cast<std::size_t>(i)].inverse * b.segment<3>(3 * i));
-      });
+      return each([&](int i) { return Vector3d(scaling[i].inverse * b.segment<3>(3 * i)); });
     };
     const VectorXd lambda = theta(x_);
     const VectorXd square =
@@ -184,7 +176,7 @@ class InteriorPoint {
 
   int contacts_;
   VectorXd unscale_;  // r = unscale x, z = unscale u
-  Sparse n_;
+  SparseMatrix n_;
   VectorXd c_, x_, z_;
 };
 

@@ -1,10 +1,10 @@
 // The first judge of contact with friction: interior point, then semismooth Newton.
 //
 //   min 1/2 r.W r + q.r over |r_T| <= mu r_N   by   x = (mu r_N, r_T), z = (u_N / mu, u_T) in Lorentz cones
-// Nesterov-Todd scaling Theta (Theta x = Theta^-1 z), Mehrotra's predictor and corrector; each Newton step is
-// (N + Theta^2) dx = rhs, solved by a sparse Cholesky factorisation. Contacts are equilibrated by one
-// positive number each; one with mu = 0 has a half line. Vandenberghe 2010 (CVXOPT), Nesterov, Todd 1997.
-// Coulomb's law is solved as a sequence of such problems (cone_fixed_point.h).
+// Scaling Theta (Theta x = Theta^-1 z) (nesterov1997selfscaled), predictor and corrector
+// (mehrotra1992implementation); each Newton step is (N + Theta^2) dx = rhs, solved by a sparse Cholesky
+// factorisation. Contacts are equilibrated by one positive number each; one with mu = 0 has a half line
+// (vandenberghe2010cvxopt). Coulomb's law is solved as a sequence of such problems (cone_fixed_point.h).
 #pragma once
 
 #include "cone_problem.h"

@@ -1,6 +1,5 @@
 #include "cone_newton.h"
 
-#include <Eigen/UmfPackSupport>
 #include <cmath>
 
 namespace pbd::reference {
@@ -10,24 +9,21 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Sparse = Eigen::SparseMatrix<double>;
 
 /// D and I - D + D G W at `impulse`.
 struct Derivative {
-  Sparse projection, matrix;
+  SparseMatrix projection, matrix;
 };
 
-Sparse block_diagonal(int contacts, const std::function<Matrix3d(int)>& block) {
-  std::vector<Eigen::Triplet<double>> entries;
+SparseMatrix block_diagonal(int contacts, const std::function<Matrix3d(int)>& block) {
+  Triplets entries;
   for (int i = 0; i < contacts; ++i) {
     const Matrix3d b = block(i);
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         if (b(row, column) != 0) entries.emplace_back(3 * i + row, 3 * i + column, b(row, column));
   }
-  Sparse matrix(3 * contacts, 3 * contacts);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return from_triplets(3 * contacts, 3 * contacts, entries);
 }
 
 Derivative derivative(const ConeProblem& p, FrictionLaw law, const VectorXd& impulse) {
@@ -36,16 +32,16 @@ Derivative derivative(const ConeProblem& p, FrictionLaw law, const VectorXd& imp
   d.projection = block_diagonal(p.contacts(), [&](int i) {
     return cone_projection_derivative(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), p.friction(i));
   });
-  const Sparse shift = block_diagonal(p.contacts(), [&](int i) {
+  const SparseMatrix shift = block_diagonal(p.contacts(), [&](int i) {
     Matrix3d g = Matrix3d::Identity();
     const Vector2d slip = u.segment<2>(3 * i + 1);
     if (law == FrictionLaw::coulomb && slip.norm() > 0)
       g.block<1, 2>(0, 1) = p.friction(i) * slip.normalized().transpose();
     return g;
   });
-  Sparse identity(d.projection.rows(), d.projection.cols());
+  SparseMatrix identity(d.projection.rows(), d.projection.cols());
   identity.setIdentity();
-  const Sparse outer = d.projection * shift;
+  const SparseMatrix outer = d.projection * shift;
   d.matrix = outer * p.delassus;
   d.matrix += identity - d.projection;
   return d;
@@ -53,10 +49,10 @@ Derivative derivative(const ConeProblem& p, FrictionLaw law, const VectorXd& imp
 
 /// Solves A d = b by the regular A + e D, refined while that helps.
 bool solve(const Derivative& at, double regularisation, const VectorXd& b, VectorXd& step) {
-  Sparse regular = at.matrix + regularisation * at.projection;
+  SparseMatrix regular = at.matrix + regularisation * at.projection;
   regular.makeCompressed();
-  Eigen::UmfPackLU<Sparse> lu(regular);
-  if (lu.info() != Eigen::Success) return false;
+  SparseLu lu;
+  if (!lu.compute(regular)) return false;
   step = lu.solve(b);
   if (!step.allFinite()) return false;
   VectorXd missing = b - at.matrix * step;

@@ -5,7 +5,7 @@
 // regular, and refinement takes e out of the step again, which stays in the range of W: least norm. Steps are
 // halved until |F| falls; e grows where they do not (Levenberg, Marquardt) and falls with success. Solutions
 // do not change if u~ is weighed; F does: contacts are equilibrated, and u~ counts sqrt(|r| / |u|) of the
-// start, so that neither is lost beside the other. Qi, Sun 1993; Li, Sun, Toh 2018.
+// start, so that neither is lost beside the other. (qi1993nonsmooth), (li2018highly).
 #pragma once
 
 #include "cone_problem.h"

@@ -11,6 +11,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+VectorXd ConeProblem::velocity(const VectorXd& impulse) const {
+  return delassus * impulse + free_velocity;
+}
+
 Vector3d project_on_cone(const Vector3d& point, double mu) {
   const double n = point.x(), tau = point.tail<2>().norm();
   if (mu * tau <= -n) return Vector3d::Zero();  // first, or mu = 0 would keep n < 0
@@ -114,7 +118,7 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
 
 EquilibratedCone equilibrate(const ConeProblem& problem) {
   EquilibratedCone scaled{problem, equilibrating(problem)};
-  scaled.problem.delassus = scaled.scale.asDiagonal() * problem.delassus * scaled.scale.asDiagonal();
+  scaled.problem.delassus = reference::scaled(scaled.scale, problem.delassus, scaled.scale);
   scaled.problem.free_velocity = scaled.scale.cwiseProduct(problem.free_velocity);
   return scaled;
 }

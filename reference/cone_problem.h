@@ -7,13 +7,13 @@
 // Contact i owns rows 3 i .. 3 i + 2: normal, tangent 1, tangent 2.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 
 #include "judge.h"
+#include "sparse.h"
 
 namespace pbd::reference {
 
@@ -21,14 +21,12 @@ enum class FrictionLaw { cone, coulomb, box };
 inline constexpr std::array<std::string_view, 3> friction_law_names{"cone", "coulomb", "box"};
 
 struct ConeProblem {
-  Eigen::SparseMatrix<double> delassus;  // W, 1/kg, symmetric positive semidefinite, all its blocks 3 x 3
-  Eigen::VectorXd free_velocity;         // q, m/s
-  Eigen::VectorXd friction;              // mu of each contact
+  SparseMatrix delassus;          // W, 1/kg, symmetric positive semidefinite, all its blocks 3 x 3
+  Eigen::VectorXd free_velocity;  // q, m/s
+  Eigen::VectorXd friction;       // mu of each contact
 
   int contacts() const { return static_cast<int>(friction.size()); }
-  Eigen::VectorXd velocity(const Eigen::VectorXd& impulse) const {
-    return delassus * impulse + free_velocity;
-  }
+  Eigen::VectorXd velocity(const Eigen::VectorXd& impulse) const;  // u, m/s
 };
 
 /// The point of {|t| <= mu n} nearest to (n, t).

@@ -14,7 +14,7 @@ std::array<Triple<T>, Q> columns_of(const Eigen::Matrix3d& f) {
   std::array<Triple<T>, Q> columns;
   for (int j = 0; j < Q; ++j)
     for (int i = 0; i < 3; ++i) {
-      T& entry = columns[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+      T& entry = columns[j][i];
       if constexpr (std::is_same_v<T, double>)
         entry = f(i, j);
       else
@@ -40,7 +40,7 @@ void with_value(const Element& element, const Eigen::Matrix3d& f, const Use& use
   switch (element.kind) {
     case Kind::anchor: {
       auto columns = columns_of<typename Number<3>::Type, 1>(f);
-      for (std::size_t i = 0; i < 3; ++i) columns[0][i] -= element.rest(static_cast<int>(i));
+      for (std::size_t i = 0; i < 3; ++i) columns[0][i] -= element.rest(i);
       return use(columns[0]);
     }
     case Kind::distance: {
@@ -95,7 +95,7 @@ void differentiate_rows(const Element& element, const Eigen::Matrix3d& f, Local&
 
 Eigen::Matrix3d local_matrix(const Element& e, const Points& x) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Zero();
-  for (int a = 0; a < e.nodes; ++a) f += x.col(e.node[static_cast<std::size_t>(a)]) * e.weight.row(a);
+  for (int a = 0; a < e.nodes; ++a) f += x.col(e.node[a]) * e.weight.row(a);
   return f;
 }
 
@@ -104,7 +104,7 @@ RowVector constraint_value(const Element& element, const Points& x) {
   if (element.kind == Kind::corotational) return corotational_strain(f);
   RowVector c(element.rows);
   with_value<Plain>(element, f, [&](const auto& value) {
-    for (std::size_t i = 0; i < value.size(); ++i) c(static_cast<int>(i)) = value[i];
+    for (std::size_t i = 0; i < value.size(); ++i) c(i) = value[i];
   });
   return c;
 }

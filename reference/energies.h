@@ -11,16 +11,13 @@
 // x_a w_a^T (see constraint_values.h), so derivatives are taken by F and chained with the constant w.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
 #include "scene.h"
+#include "sparse.h"
 
 namespace pbd::reference {
-
-using Vector = Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Rows and variables of one constraint: at most 6 rows and 9 entries of F, without allocation.
 using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -62,9 +59,7 @@ struct Model {
   Vector force;            // gravity and external forces per unknown, N
 
   /// First unknown of an element's node a, or -1.
-  int unknown(const Element& element, int a) const {
-    return first[static_cast<std::size_t>(element.node[static_cast<std::size_t>(a)])];
-  }
+  int unknown(const Element& element, int a) const { return first[element.node[a]]; }
 };
 
 /// Throws SetupError for a scene that `validate` refuses, with rigid bodies, or without a node of finite

@@ -4,7 +4,7 @@
 //   (a b)'  = a b' + b a',     (a b)''  = a b'' + b a'' + a' b'^T + b' a'^T
 //   phi(a)' = phi'(a) a',      phi(a)'' = phi'(a) a'' + phi''(a) a' a'^T
 //
-// The judges state effects by their values only; this type supplies the derivatives (Griewank, Walther 2008).
+// The judges state effects by their values only; this type supplies the derivatives (griewank2008evaluating).
 // Of order 1 it carries the gradient alone.
 #pragma once
 

@@ -1,8 +1,5 @@
 #include "kkt.h"
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/SPQRSupport>
-#include <Eigen/UmfPackSupport>
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +7,9 @@ namespace pbd::reference {
 namespace {
 
 /// J with unit mass and rows of unit length in the metric of inverse masses: R J M^-1/2.
-SparseMatrix scaled(const Model& model, const SparseMatrix& jacobian, const Vector& row_scale) {
+SparseMatrix weighed(const Model& model, const SparseMatrix& jacobian, const Vector& row_scale) {
   const Vector inverse_root = model.mass.cwiseSqrt().cwiseInverse();
-  return row_scale.asDiagonal() * jacobian * inverse_root.asDiagonal();
+  return scaled(row_scale, jacobian, inverse_root);
 }
 
 Vector row_scales(const Model& model, const SparseMatrix& jacobian) {
@@ -32,27 +29,26 @@ struct System {
 System make_system(const Objective& o, const Derivatives& d, const std::vector<int>& keep) {
   const int n = o.model->unknowns, rows = static_cast<int>(keep.size());
   System k{o.model->mass.cwiseSqrt().cwiseInverse(), row_scales(*o.model, d.jacobian), 1, {}};
-  std::vector<int> position(static_cast<std::size_t>(o.model->hard_rows), -1);
-  for (int i = 0; i < rows; ++i) position[static_cast<std::size_t>(keep[static_cast<std::size_t>(i)])] = i;
+  std::vector<int> position(o.model->hard_rows, -1);
+  for (int i = 0; i < rows; ++i) position[keep[i]] = i;
 
   SparseMatrix h = d.hessian;
   h.diagonal() += o.inertia;
-  h = k.unknown_scale.asDiagonal() * h * k.unknown_scale.asDiagonal();
+  h = scaled(k.unknown_scale, h, k.unknown_scale);
   k.s = 1 / std::max(h.diagonal().cwiseAbs().mean(), 1e-300);
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int j = 0; j < n; ++j)
     for (SparseMatrix::InnerIterator it(h, j); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), j, k.s * it.value());
-  const SparseMatrix jacobian = scaled(*o.model, d.jacobian, k.row_scale);
+  const SparseMatrix jacobian = weighed(*o.model, d.jacobian, k.row_scale);
   for (int j = 0; j < n; ++j)
     for (SparseMatrix::InnerIterator it(jacobian, j); it; ++it) {
-      const int row = position[static_cast<std::size_t>(it.row())];
+      const int row = position[it.row()];
       if (row < 0) continue;
       entries.emplace_back(n + row, j, it.value());
       entries.emplace_back(j, n + row, it.value());
     }
-  k.matrix.resize(n + rows, n + rows);
-  k.matrix.setFromTriplets(entries.begin(), entries.end());
+  k.matrix = from_triplets(n + rows, n + rows, entries);
   return k;
 }
 
@@ -73,26 +69,11 @@ Vector Objective::magnitude(const Vector& u, const Derivatives& d) const {
 }
 
 Vector inverse_effective_mass(const Model& model, const SparseMatrix& jacobian) {
-  const SparseMatrix squares = jacobian.cwiseProduct(jacobian);
-  return squares * model.mass.cwiseInverse();
+  return squared_rows(jacobian, model.mass.cwiseInverse());
 }
 
 std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian, double threshold) {
-  return independent_rows(scaled(model, jacobian, row_scales(model, jacobian)), threshold);
-}
-
-std::vector<int> independent_rows(const SparseMatrix& scaled_jacobian, double threshold) {
-  std::vector<int> rows;
-  if (scaled_jacobian.rows() == 0) return rows;
-  SparseMatrix transposed = scaled_jacobian.transpose();
-  transposed.makeCompressed();
-  Eigen::SPQR<SparseMatrix> qr;
-  qr.setPivotThreshold(threshold);
-  qr.compute(transposed);
-  const auto permutation = qr.colsPermutation();
-  for (int i = 0; i < qr.rank(); ++i) rows.push_back(static_cast<int>(permutation.indices()(i)));
-  std::sort(rows.begin(), rows.end());
-  return rows;
+  return independent_rows(weighed(model, jacobian, row_scales(model, jacobian)), threshold);
 }
 
 Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma) {
@@ -102,7 +83,8 @@ Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma) {
   SparseMatrix normal = jacobian * jacobian.transpose();
   const double shift = relative_shift * normal.diagonal().maxCoeff();
   for (int i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
-  Eigen::CholmodSupernodalLLT<SparseMatrix> factor(normal);
+  SparseCholesky factor;
+  factor.compute(normal);
   const Vector force = jacobian.transpose() * gamma;
   Vector least = Vector::Zero(gamma.size()), missing = force;
   for (int i = 0; i < 50 && missing.norm() > met * force.norm(); ++i) {
@@ -116,7 +98,7 @@ void measure(const Objective& o, const Derivatives& d, const Vector& u, double d
              Judgement& judgement) {
   judgement.residual =
       o.gradient(u, d).cwiseAbs().maxCoeff() / std::max(o.magnitude(u, d).maxCoeff(), 1e-300);
-  const Vector squares = SparseMatrix(d.jacobian.cwiseProduct(d.jacobian)) * Vector::Ones(u.size());
+  const Vector squares = squared_rows(d.jacobian, Vector::Ones(u.size()));
   judgement.infeasible = 0;
   for (int i = 0; i < d.hard.size(); ++i) {
     const double length = squares(i) > 0 ? std::sqrt(squares(i)) : 1;
@@ -130,7 +112,7 @@ Polish polish(const Objective& o, Assembly& assembly, const PolishSettings& sett
   constexpr double rounding = 1e-15, converged = 1e-9;
   const Vector start_u = u, start_gamma = gamma;
   Polish result;
-  Eigen::UmfPackLU<SparseMatrix> lu;
+  SparseLu lu;
   double previous = std::numeric_limits<double>::infinity();
   for (int it = 0; it < most; ++it) {
     const Points x = o.positions(u);
@@ -141,17 +123,15 @@ Polish polish(const Objective& o, Assembly& assembly, const PolishSettings& sett
     const Vector g = o.gradient(u, d) + d.jacobian.transpose() * gamma;
     Vector rhs(k.matrix.rows());
     rhs.head(u.size()) = -k.s * k.unknown_scale.cwiseProduct(g);
-    for (std::size_t i = 0; i < keep.size(); ++i)
-      rhs(u.size() + static_cast<int>(i)) = -k.row_scale(keep[i]) * d.hard(keep[i]);
-    lu.compute(k.matrix);
-    if (lu.info() != Eigen::Success) break;
+    for (std::size_t i = 0; i < keep.size(); ++i) rhs(u.size() + i) = -k.row_scale(keep[i]) * d.hard(keep[i]);
+    if (!lu.compute(k.matrix)) break;
     const Vector solution = lu.solve(rhs);
     if (!solution.allFinite()) break;
     const Vector dx = k.unknown_scale.cwiseProduct(solution.head(u.size()));
     u += dx;
     gamma.setZero();
     for (std::size_t i = 0; i < keep.size(); ++i)
-      gamma(keep[i]) = -solution(u.size() + static_cast<int>(i)) * k.row_scale(keep[i]) / k.s;
+      gamma(keep[i]) = -solution(u.size() + i) * k.row_scale(keep[i]) / k.s;
     ++result.iterations;
     shown(u);
     result.correction = dx.cwiseAbs().maxCoeff() / settings.displacement;

@@ -33,8 +33,6 @@ Vector inverse_effective_mass(const Model& model, const SparseMatrix& jacobian);
 
 /// Indices of a largest set of rows that are independent by more than `threshold`, ascending.
 std::vector<int> independent_rows(const Model& model, const SparseMatrix& jacobian, double threshold);
-/// The same of a Jacobian whose rows have unit length already.
-std::vector<int> independent_rows(const SparseMatrix& scaled_jacobian, double threshold);
 
 /// Multipliers of least 2-norm with the same force J^T gamma.
 Vector least_norm(const SparseMatrix& jacobian, const Vector& gamma);

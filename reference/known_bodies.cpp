@@ -56,7 +56,7 @@ void free_bodies(Rows& rows) {
     for (int i = 0; i < 3; ++i)
       rows.push_back({"free_body",
                       of + " from (1, 1, 1) rad/s: w" + number(i + 1) + " after " + number(at.time) + " s",
-                      "rad/s", w[i], at.stated[static_cast<std::size_t>(i)], integrated[i]});
+                      "rad/s", w[i], at.stated[i], integrated[i]});
   }
   // From w3 = 0 to w2 = 0 is a quarter.
   for (const auto& [start, stated] : {std::pair{1e-2, "41.5092195"}, {1e-3, "57.4628489"}}) {

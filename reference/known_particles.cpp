@@ -1,8 +1,8 @@
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "closed_form.h"
 #include "closed_form_bodies.h"
+#include "dense.h"
 #include "known_answers_rows.h"
 #include "numerics.h"
 
@@ -31,7 +31,7 @@ double damped_spring_by_ode(double stiffness, double damping, double time) {
 
 void damped_springs(Rows& rows) {
   const DampedSpring spring = damped_spring(100, 1, 1);
-  const Eigen::Vector2cd poles = Eigen::Matrix2d{{0, 1}, {-100, -1}}.eigenvalues();
+  const Eigen::VectorXcd poles = eigenvalues(Eigen::Matrix2d{{0, 1}, {-100, -1}});
   const double ratio = damped_spring_by_ode(100, 1, 2 * pi / spring.frequency);
   rows.push_back({"damped_spring", "damped spring k = 100 N/m, m = 1 kg, c = 1 Ns/m: damping ratio", "1",
                   spring.ratio, "0.05", -poles(0).real() / std::abs(poles(0))});
@@ -133,12 +133,12 @@ void double_pendulums(Rows& rows) {
     const auto& [m1, m2, l1, l2] = c.pendulum;
     const Eigen::Matrix2d inertia{{(m1 + m2) * l1 * l1, m2 * l1 * l2}, {m2 * l1 * l2, m2 * l2 * l2}};
     const Eigen::Matrix2d stiffness = Eigen::Vector2d((m1 + m2) * g * l1, m2 * g * l2).asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(stiffness, inertia);
+    const Eigen::VectorXd modes = generalised_eigenvalues(stiffness, inertia);
     for (const int mode : {1, 2})
       rows.push_back({"double_pendulum",
                       std::string(c.name) + (mode == 1 ? ": slow" : ": fast") + " frequency", "Hz",
                       double_pendulum_frequency(c.pendulum, g, mode), mode == 1 ? c.slow : c.fast,
-                      std::sqrt(modes.eigenvalues()(mode - 1)) / (2 * pi)});
+                      std::sqrt(modes(mode - 1)) / (2 * pi)});
   }
 }
 
@@ -195,8 +195,8 @@ void particles(Rows& rows) {
     chain(i, i) = i < 19 ? 2e4 : 1e4;
     if (i > 0) chain(i, i - 1) = chain(i - 1, i) = -1e4;
   }
-  const Eigen::VectorXd hung = chain.ldlt().solve(Eigen::VectorXd::Constant(20, g));
-  const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(chain).eigenvalues()(0);
+  const Eigen::VectorXd hung = solve_definite(chain, Eigen::VectorXd(Eigen::VectorXd::Constant(20, g)));
+  const double lowest = symmetric_eigen(chain).values(0);
   rows.push_back({"spring_chain", "20 springs of 1e4 N/m with 1 kg each, hung: stretch", "m",
                   spring_chain_stretch(20, 1e4, 1, g), "0.206010", hung(19)});
   rows.push_back({"spring_chain", "their lowest frequency", "Hz", spring_chain_frequency(20, 1e4, 1),

@@ -2,13 +2,12 @@
 
 #include <gsl/gsl_integration.h>
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "assembly.h"
+#include "dense.h"
 
 namespace pbd::reference {
 namespace {
@@ -33,7 +32,7 @@ System assemble(const LinearSolid& solid) {
 
 Points corners(const TetMesh& mesh, const std::array<int, 4>& tet) {
   Points x(3, 4);
-  for (int a = 0; a < 4; ++a) x.col(a) = mesh.x.col(tet[static_cast<std::size_t>(a)]);
+  for (int a = 0; a < 4; ++a) x.col(a) = mesh.x.col(tet[a]);
   return x;
 }
 
@@ -45,21 +44,18 @@ double volume_of(const Points& x) {
 }
 
 SparseMatrix mass_matrix(const System& s, const LinearSolid& solid, MassMatrix kind) {
-  SparseMatrix mass(s.model.unknowns, s.model.unknowns);
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (const auto& tet : solid.mesh.tets) {
     const double weight = solid.density * volume_of(corners(solid.mesh, tet));
     for (const int a : tet)
       for (const int b : tet) {
-        const int i = s.model.first[static_cast<std::size_t>(a)],
-                  j = s.model.first[static_cast<std::size_t>(b)];
+        const int i = s.model.first[a], j = s.model.first[b];
         const double share = kind == MassMatrix::consistent ? (a == b ? 0.1 : 0.05) : (a == b ? 0.25 : 0);
         for (int d = 0; d < 3 && i >= 0 && j >= 0 && share > 0; ++d)
           entries.emplace_back(i + d, j + d, weight * share);
       }
   }
-  mass.setFromTriplets(entries.begin(), entries.end());
-  return mass;
+  return from_triplets(s.model.unknowns, s.model.unknowns, entries);
 }
 
 /// u, its gradient and the body force of the manufactured solution at x.
@@ -140,7 +136,7 @@ Points face_loads(const TetMesh& mesh, const std::function<bool(const Vec3&)>& o
     for (std::size_t apex = 0; apex < 4; ++apex) {
       const std::array<int, 3> face{tet[(apex + 1) % 4], tet[(apex + 2) % 4], tet[(apex + 3) % 4]};
       Eigen::Matrix3d x;
-      for (int a = 0; a < 3; ++a) x.col(a) = mesh.x.col(face[static_cast<std::size_t>(a)]);
+      for (int a = 0; a < 3; ++a) x.col(a) = mesh.x.col(face[a]);
       if (!on_face(x.col(0)) || !on_face(x.col(1)) || !on_face(x.col(2))) continue;
       const double area = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).norm() / 2;
       for (const int a : face) loads.col(a) += area / 3 * traction;
@@ -150,7 +146,8 @@ Points face_loads(const TetMesh& mesh, const std::function<bool(const Vec3&)>& o
 
 Points linear_static(const LinearSolid& solid, const Points& loads) {
   const System s = assemble(solid);
-  const Eigen::CholmodSupernodalLLT<SparseMatrix> factor(s.stiffness);
+  SparseCholesky factor;
+  factor.compute(s.stiffness);
   const Vector u = factor.solve(gather(s.model, loads));
   return scatter(s.model, Points::Zero(3, loads.cols()), u);
 }
@@ -160,7 +157,8 @@ std::vector<double> linear_modes(const LinearSolid& solid, int count, MassMatrix
   constexpr double converged = 1e-12;
   const System s = assemble(solid);
   const SparseMatrix mass = mass_matrix(s, solid, kind);
-  const Eigen::CholmodSupernodalLLT<SparseMatrix> factor(s.stiffness);
+  SparseCholesky factor;
+  factor.compute(s.stiffness);
   // A fixed, irregular start: no mode is orthogonal to all of these columns.
   Eigen::MatrixXd x(s.model.unknowns, std::min(count + guard, s.model.unknowns));
   for (int j = 0; j < x.cols(); ++j)
@@ -168,10 +166,10 @@ std::vector<double> linear_modes(const LinearSolid& solid, int count, MassMatrix
   Vector values = Vector::Zero(count);
   for (int it = 0; it < most; ++it) {
     const Eigen::MatrixXd y = factor.solve(Eigen::MatrixXd(mass * x));
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
-        y.transpose() * (s.stiffness * y).eval(), y.transpose() * (mass * y).eval());
-    x = y * ritz.eigenvectors();
-    const Vector next = ritz.eigenvalues().head(count);
+    const auto [ritz, combination] =
+        generalised_eigen(transposed_product(y, s.stiffness * y), transposed_product(y, mass * y));
+    x = product(y, combination);
+    const Vector next = ritz.head(count);
     const double change = ((next - values).array() / next.array()).abs().maxCoeff();
     values = next;
     if (change < converged) break;
@@ -190,8 +188,7 @@ ManufacturedError manufactured_cube(int n, const Material& material) {
   integrate(mesh,
             [&](const auto& tet, const Points&, const Eigen::Vector4d& b, const Vec3& at, double weight) {
               const Vec3 force = manufactured(at, material).force;
-              for (int a = 0; a < 4; ++a)
-                loads.col(tet[static_cast<std::size_t>(a)]) += weight * b(a) * force;
+              for (int a = 0; a < 4; ++a) loads.col(tet[a]) += weight * b(a) * force;
             });
   const Points u = linear_static(solid, loads);
   double l2 = 0, h1 = 0;
@@ -199,7 +196,7 @@ ManufacturedError manufactured_cube(int n, const Material& material) {
             [&](const auto& tet, const Points& x, const Eigen::Vector4d& b, const Vec3& at, double weight) {
               const Manufactured exact = manufactured(at, material);
               Eigen::Matrix<double, 3, 4> nodal;
-              for (int a = 0; a < 4; ++a) nodal.col(a) = u.col(tet[static_cast<std::size_t>(a)]);
+              for (int a = 0; a < 4; ++a) nodal.col(a) = u.col(tet[a]);
               const Eigen::Matrix3d edges = x.rightCols<3>().colwise() - x.col(0);
               const Eigen::Matrix3d difference = nodal.rightCols<3>().colwise() - nodal.col(0);
               l2 += weight * (nodal * b - exact.u).squaredNorm();

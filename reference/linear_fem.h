@@ -8,7 +8,7 @@
 //   manufactured  u_i = a sin(pi x) sin(pi y) sin(pi z) on the unit cube, u = 0 on the boundary
 //                 body force b_i = -div sigma(u)_i = -(lambda + mu) d_i(div u) + 3 pi^2 mu u_i
 //
-// Hughes 2000, ch. 3, 7; subspace iteration: Bathe 2014, ch. 11.
+// (hughes2000finite), ch. 3, 7; subspace iteration: (bathe2014finite), ch. 11.
 #pragma once
 
 #include <functional>

@@ -7,6 +7,7 @@
 
 #include "energies.h"
 #include "error.h"
+#include "judged_effects.h"
 #include "validate.h"
 
 namespace pbd::reference {
@@ -48,6 +49,18 @@ Element element_of(Kind kind, const std::array<int, K>& node, int columns, int r
   return element;
 }
 
+Kind kind_of(Strain strain) {
+  switch (strain) {
+    case Strain::green:
+      return Kind::green;
+    case Strain::corotational:
+      return Kind::corotational;
+    case Strain::linear:
+      return Kind::linear;
+  }
+  throw SetupError("tet_strain strain", std::to_string(int(strain)), "green, corotational, linear");
+}
+
 /// Numbers the element's rows if it is hard, else stores its stiffness.
 struct Builder {
   Model& model;
@@ -74,7 +87,7 @@ struct Builder {
   }
   void operator()(const ExternalForce& external) {
     for (std::size_t i = 0; i < external.node.size(); ++i) {
-      const int unknown = model.first[static_cast<std::size_t>(external.node[i])];
+      const int unknown = model.first[external.node[i]];
       if (unknown >= 0) model.force.segment<3>(unknown) += external.force[i];
     }
   }
@@ -84,9 +97,9 @@ struct Builder {
         "none: this judge knows equations only; the judges of contact are cone_interior_point and "
         "cone_ipopt");
   }
-  /// Effects of rigid bodies (rigid_model.h).
-  template <class BodyEffect>
-  void operator()(const BodyEffect&) {}
+  /// Stated by rigid_model.cpp.
+  template <Among<BodyEffects> E>
+  void operator()(const E&) {}
   void operator()(const Anchor& anchor) {
     for (std::size_t i = 0; i < anchor.node.size(); ++i) {
       Element element = element_of(Kind::anchor, std::array{anchor.node[i]}, 1, 3);
@@ -124,9 +137,7 @@ struct Builder {
     }
   }
   void operator()(const TetStrain& strain) {
-    const Kind kind = strain.strain == Strain::green    ? Kind::green
-                      : strain.strain == Strain::linear ? Kind::linear
-                                                        : Kind::corotational;
+    const Kind kind = kind_of(strain.strain);
     for (std::size_t i = 0; i < strain.node.size(); ++i) {
       Element element = element_of(kind, strain.node[i], 3, 6);
       const Eigen::Matrix3d dm = strain.rest[i].rightCols<3>().colwise() - strain.rest[i].col(0);
@@ -138,6 +149,10 @@ struct Builder {
     }
   }
 };
+
+static_assert(AllJudged<Effect>::value);
+static_assert(states<Builder>(NodeEffects{}), "an effect of nodes without its statement");
+static_assert(states<Builder>(RefusedEffects{}), "a refused effect without its refusal");
 
 }  // namespace
 
@@ -177,14 +192,14 @@ Model make_node_model(const Scene& scene) {
 Vector gather(const Model& model, const Points& x) {
   Vector unknowns(model.unknowns);
   for (std::size_t a = 0; a < model.first.size(); ++a)
-    if (model.first[a] >= 0) unknowns.segment<3>(model.first[a]) = x.col(static_cast<int>(a));
+    if (model.first[a] >= 0) unknowns.segment<3>(model.first[a]) = x.col(a);
   return unknowns;
 }
 
 Points scatter(const Model& model, const Points& x, const Vector& unknowns) {
   Points result = x;
   for (std::size_t a = 0; a < model.first.size(); ++a)
-    if (model.first[a] >= 0) result.col(static_cast<int>(a)) = unknowns.segment<3>(model.first[a]);
+    if (model.first[a] >= 0) result.col(a) = unknowns.segment<3>(model.first[a]);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "newton_search.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pbd::reference {
@@ -42,13 +43,24 @@ double line_search(const Search& s, const Slope& slope, const Vector& dx) {
 
 }  // namespace
 
+double Search::displacement() const {
+  const double target = objective.inertia.any() ? (objective.target - start).cwiseAbs().maxCoeff() : 0;
+  return std::max(
+      {(u - start).cwiseAbs().maxCoeff(), target, smallest_displacement * u.cwiseAbs().maxCoeff(), 1e-300});
+}
+
+void Search::show(const Vector& unknowns) {
+  if (!settings.observer) return;
+  const double seconds = clock.seconds();
+  clock.pause();
+  settings.observer(seconds, objective.positions(unknowns));
+  clock.resume();
+}
+
 bool factorise(Search& s, const SparseMatrix& hessian, double shift) {
   SparseMatrix h = hessian;
   h.diagonal() += s.objective.inertia + shift * s.model().mass;
-  if (!s.analysed) s.factor.analyzePattern(h);
-  s.analysed = true;
-  s.factor.factorize(h);
-  return s.factor.info() == Eigen::Success;
+  return s.factor.compute(h);
 }
 
 bool descend(Search& s, double tolerance) {

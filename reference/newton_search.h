@@ -4,11 +4,9 @@
 //
 // with t = 1, 1/2, ... until the objective decreases sufficiently.
 // An indefinite Hessian is replaced by the sum of the elements' positive semidefinite parts, and shifted by a
-// multiple of the masses if that is singular. Nocedal, Wright 2006, sections 3.1, 3.4.
+// multiple of the masses if that is singular. (nocedal2006numerical), sections 3.1, 3.4.
 #pragma once
 
-#include <Eigen/CholmodSupport>
-#include <algorithm>
 #include <chrono>
 
 #include "kkt.h"
@@ -43,8 +41,7 @@ struct Search {
   Multipliers multipliers;
   NewtonSettings settings;
   Clock clock;
-  Eigen::CholmodSupernodalLLT<SparseMatrix> factor;
-  bool analysed = false;
+  SparseCholesky factor;
   int iterations = 0, projected = 0, shifted = 0, rank = 0;
   double correction = 0;
 
@@ -55,23 +52,11 @@ struct Search {
         start(first),
         settings(std::move(s)) {
     multipliers.gamma.setZero(objective.model->hard_rows);
-    factor.cholmod().print = 0;
-    factor.cholmod().quick_return_if_not_posdef = 1;
   }
 
   const Model& model() const { return *objective.model; }
-  double displacement() const {
-    const double target = objective.inertia.any() ? (objective.target - start).cwiseAbs().maxCoeff() : 0;
-    return std::max(
-        {(u - start).cwiseAbs().maxCoeff(), target, smallest_displacement * u.cwiseAbs().maxCoeff(), 1e-300});
-  }
-  void show(const Vector& unknowns) {
-    if (!settings.observer) return;
-    const double seconds = clock.seconds();
-    clock.pause();
-    settings.observer(seconds, objective.positions(unknowns));
-    clock.resume();
-  }
+  double displacement() const;  // m
+  void show(const Vector& unknowns);
 };
 
 /// Factorises diag(inertia) + hessian + shift M; false if that is not positive definite.

@@ -184,7 +184,7 @@ Judgement ipopt(const Scene& scene, const State& state, double h) {
   j.x = program->objective().positions(program->u);
   j.v = (j.x - state.x) / h;
   for (std::size_t a = 0; a < scene.mass.size(); ++a)
-    if (model.first[a] < 0) j.v.col(static_cast<int>(a)) = state.v.col(static_cast<int>(a));
+    if (model.first[a] < 0) j.v.col(a) = state.v.col(a);
   j.multiplier = program->gamma;
   measure(program->objective(), program->derivatives(), program->u, program->displacement(), j);
   j.rank = -1;

@@ -4,7 +4,7 @@
 // Own scaling, so that masses and lengths do not matter: unknowns z = sqrt(M/m) (x - x_l)/d with m the mean
 // mass and d the displacement of the free step; objective in units of m d^2/h^2; each row of J of unit length
 // at the start. Independent of primal_newton in its path: interior point code with MUMPS, inertia correction
-// and filter line search (Waechter, Biegler 2006); shared with it are the energies and their derivatives.
+// and filter line search (waechter2006implementation); shared with it are the energies and their derivatives.
 #pragma once
 
 #include "judge.h"

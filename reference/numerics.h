@@ -31,8 +31,8 @@ struct OdeSolution {
 struct OdeFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// y' = f(t, y) from y(0), at increasing times >= 0, by Prince and Dormand's method 8(7) with step control.
-/// Throws OdeFailure, and std::invalid_argument for other times.
+/// y' = f(t, y) from y(0), at increasing times >= 0, by the method 8(7) of (prince1981high) with step
+/// control. Throws OdeFailure, and std::invalid_argument for other times.
 OdeSolution solve_ode(const Slope& f, Eigen::VectorXd y, const std::vector<double>& times,
                       const OdeSettings& settings = {});
 

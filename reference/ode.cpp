@@ -25,7 +25,7 @@ struct Motion {
 /// Energy of nodes; none where supports move.
 std::function<Energy(const State&)> node_energy(const Scene& scene, const Model& model) {
   for (int a = 0; a < scene.nodes(); ++a)
-    if (model.first[static_cast<std::size_t>(a)] < 0 && !scene.initial.v.col(a).isZero(0)) return {};
+    if (model.first[a] < 0 && !scene.initial.v.col(a).isZero(0)) return {};
   return [&model, start = gather(model, scene.initial.x)](const State& state) -> Energy {
     const double kinetic = gather(model, state.v).cwiseAbs2().dot(model.mass) / 2;
     const double potential = lagrangian(model, state.x, {}) - model.force.dot(gather(model, state.x) - start);
@@ -37,7 +37,7 @@ Motion compliant_motion(const Scene& scene, const Model& model) {
   const int n = model.unknowns;
   Points drift = Points::Zero(3, scene.nodes());  // velocities of nodes of infinite mass
   for (int a = 0; a < scene.nodes(); ++a)
-    if (model.first[static_cast<std::size_t>(a)] < 0) drift.col(a) = scene.initial.v.col(a);
+    if (model.first[a] < 0) drift.col(a) = scene.initial.v.col(a);
   const auto positions = [&scene, &model, drift, n](double t, const Vector& y) {
     return scatter(model, scene.initial.x + t * drift, y.head(n));
   };

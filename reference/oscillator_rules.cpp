@@ -1,8 +1,9 @@
 #include "oscillator_rules.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
+
+#include "dense.h"
 
 namespace pbd::reference {
 namespace {
@@ -59,7 +60,7 @@ Discrete generalised_alpha(double h, double w, double retardation) {
         (1 - alpha_m + pull * (beta * h * h + retardation * gamma * h));
     matrix.col(k) << q_next + h * h * beta * a_next, v_next + h * gamma * a_next, a_next;
   }
-  const Eigen::Vector3cd roots = matrix.eigenvalues();
+  const Eigen::VectorXcd roots = eigenvalues(matrix);
   Eigen::Index largest = 0;
   roots.cwiseAbs().maxCoeff(&largest);
   return discrete(roots[largest]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense.h"
 #include "energies.h"
 #include "error.h"
 
@@ -44,8 +45,7 @@ Order order_of(const Scene& scene, const Model& model) {
     if (e.kind != Kind::distance)
       throw SetupError(where, "another effect than links", "distance links alone");
     if (!e.hard()) throw SetupError(where, "a compliant link among hard ones", "hard links alone");
-    for (int a = 0; a < 2; ++a)
-      at[static_cast<std::size_t>(e.node[static_cast<std::size_t>(a)])].push_back(&e);
+    for (int a = 0; a < 2; ++a) at[e.node[a]].push_back(&e);
   }
   const auto fixed = [&](std::size_t node) { return std::isinf(scene.mass[node]); };
   Order order;
@@ -57,14 +57,13 @@ Order order_of(const Scene& scene, const Model& model) {
                        "an open chain: two links, or one at the node it hangs from");
     if (!fixed(node)) continue;
     if (!order.node.empty()) throw SetupError(where, "another node of infinite mass", "one, to hang from");
-    if (!scene.initial.v.col(static_cast<int>(node)).isZero(0))
-      throw SetupError(where, "a moving support", "one at rest");
+    if (!scene.initial.v.col(node).isZero(0)) throw SetupError(where, "a moving support", "one at rest");
     order.node.push_back(static_cast<int>(node));
   }
   if (order.node.empty()) throw SetupError("mass", "finite masses alone", "one of infinity, to hang from");
   for (;;) {
     const int here = order.node.back();
-    const auto& links = at[static_cast<std::size_t>(here)];
+    const auto& links = at[here];
     const auto next = std::find_if(links.begin(), links.end(), [&](const Element* e) {
       return order.link.empty() || e != order.link.back();
     });
@@ -117,7 +116,7 @@ VectorXd PlanarChain::acceleration(const VectorXd& angle, const VectorXd& rate) 
       load(j) += gyration * rate(i) * rate(i);
     }
   }
-  return inertia.llt().solve(load);
+  return solve_definite(inertia, load);
 }
 
 Eigen::Matrix2Xd PlanarChain::positions(const VectorXd& angle) const {
@@ -136,7 +135,7 @@ State HungChain::state(const State& initial, double time, const VectorXd& at, co
   state.time += time;
   const Points x = plane * chain.positions(at), v = plane * chain.velocities(at, turning);
   for (int i = 0; i < chain.links(); ++i) {
-    const int below = node[static_cast<std::size_t>(i) + 1];
+    const int below = node[i + 1];
     state.x.col(below) = initial.x.col(node[0]) + x.col(i);
     state.v.col(below) = v.col(i);
   }
@@ -152,18 +151,16 @@ HungChain hung_chain(const Scene& scene) {
   hung.chain.mass.resize(n), hung.chain.length.resize(n), hung.angle.resize(n), hung.rate.resize(n);
   Points link(3, n), turning(3, n), force(3, n);  // along each link, change of velocity along it, on its bob
   for (int i = 0; i < n; ++i) {
-    const int above = order.node[static_cast<std::size_t>(i)],
-              below = order.node[static_cast<std::size_t>(i) + 1];
-    hung.chain.mass(i) = scene.mass[static_cast<std::size_t>(below)];
-    hung.chain.length(i) = order.link[static_cast<std::size_t>(i)]->rest(0);
+    const int above = order.node[i], below = order.node[i + 1];
+    hung.chain.mass(i) = scene.mass[below];
+    hung.chain.length(i) = order.link[i]->rest(0);
     link.col(i) = scene.initial.x.col(below) - scene.initial.x.col(above);
     turning.col(i) = scene.initial.v.col(below) - scene.initial.v.col(above);
-    force.col(i) = model.force.segment<3>(model.first[static_cast<std::size_t>(below)]);
+    force.col(i) = model.force.segment<3>(model.first[below]);
   }
   const double extent = hung.chain.length.sum(), speed = scene.initial.v.cwiseAbs().maxCoeff();
   for (int i = 0; i < n; ++i) {
-    const std::string where =
-        "link above node " + std::to_string(order.node[static_cast<std::size_t>(i) + 1]);
+    const std::string where = "link above node " + std::to_string(order.node[i + 1]);
     const double longer = link.col(i).norm() - hung.chain.length(i);
     if (std::abs(longer) > rounding * extent)
       throw SetupError(where, text(longer) + " m longer than its rest length",

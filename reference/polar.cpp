@@ -51,7 +51,7 @@ Eigen::Matrix<double, 6, 6> to_space(const Eigen::Matrix3d& v) {
   static constexpr std::array<std::array<int, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
   Eigen::Matrix<double, 6, 6> t;
   for (int k = 0; k < 6; ++k) {
-    const auto [i, j] = pair[static_cast<std::size_t>(k)];
+    const auto [i, j] = pair[k];
     Eigen::Matrix3d e = v.col(i) * v.col(j).transpose();
     if (i != j) e = (e + e.transpose()).eval() / 2;
     t.col(k) = components(e);
@@ -74,14 +74,14 @@ struct Polar {
         space(to_space(svd.v)) {
     for (int a = 0; a < 9; ++a) {
       const Eigen::Matrix3d half = svd.s.asDiagonal() * unit(a);
-      first[static_cast<std::size_t>(a)] = (half + half.transpose()).cwiseProduct(inverse);
+      first[a] = (half + half.transpose()).cwiseProduct(inverse);
     }
   }
 
   Strain6 strain() const { return components(symmetric_factor(svd) - Eigen::Matrix3d::Identity()); }
   Eigen::Matrix<double, 6, 9> jacobian() const {
     Eigen::Matrix<double, 6, 9> local;
-    for (int a = 0; a < 9; ++a) local.col(a) = components(first[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 9; ++a) local.col(a) = components(first[a]);
     return space * local * frame;
   }
 };
@@ -115,11 +115,10 @@ StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f) {
   std::array<Matrix9, 6> second;
   for (int a = 0; a < 9; ++a)
     for (int b = 0; b <= a; ++b) {
-      const auto &da = polar.first[static_cast<std::size_t>(a)],
-                 &db = polar.first[static_cast<std::size_t>(b)];
+      const auto &da = polar.first[a], &db = polar.first[b];
       const Eigen::Matrix3d half = unit(a).transpose() * unit(b) - da * db;
       const Strain6 d2 = components((half + half.transpose()).cwiseProduct(polar.inverse));
-      for (std::size_t k = 0; k < 6; ++k) second[k](a, b) = second[k](b, a) = d2(static_cast<int>(k));
+      for (std::size_t k = 0; k < 6; ++k) second[k](a, b) = second[k](b, a) = d2(k);
     }
 
   StrainDerivatives result;
@@ -127,8 +126,8 @@ StrainDerivatives corotational_derivatives(const Eigen::Matrix3d& f) {
   result.jacobian = polar.jacobian();
   for (int k = 0; k < 6; ++k) {
     Matrix9 sum = Matrix9::Zero();
-    for (std::size_t l = 0; l < 6; ++l) sum += polar.space(k, static_cast<int>(l)) * second[l];
-    result.hessian[static_cast<std::size_t>(k)] = polar.frame.transpose() * sum * polar.frame;
+    for (std::size_t l = 0; l < 6; ++l) sum += polar.space(k, l) * second[l];
+    result.hessian[k] = polar.frame.transpose() * sum * polar.frame;
   }
   return result;
 }

@@ -9,7 +9,7 @@
 //   (s_i + s_j) d2S[a,b]_ij = (dF_a^T dF_b + dF_b^T dF_a - dS_a dS_b - dS_b dS_a)_ij
 //
 // S is not differentiable where s_2 + s_3 = 0; there the sums are bounded from below by `smallest_sum`. The
-// Hessian of tr S has the twist modes of Smith, de Goes, Kim 2019 as eigenvectors, which a test checks.
+// Hessian of tr S has the twist modes of (smith2019analytic) as eigenvectors, which a test checks.
 #pragma once
 
 #include <Eigen/Core>

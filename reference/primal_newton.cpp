@@ -125,7 +125,7 @@ Judgement primal_newton(const Scene& scene, const State& state, double h, const 
   Judgement j = judge(search, converged);
   j.v = (j.x - state.x) / h;
   for (std::size_t a = 0; a < scene.mass.size(); ++a)
-    if (model.first[a] < 0) j.v.col(static_cast<int>(a)) = state.v.col(static_cast<int>(a));
+    if (model.first[a] < 0) j.v.col(a) = state.v.col(a);
   return j;
 }
 

@@ -6,7 +6,7 @@
 // positive definite the elements' Hessians are made so, and the note says it. Every step is accepted by a
 // line search on the objective. Hard constraints enter through the augmented Lagrangian with increasing
 // weight and are then solved to rounding by Newton on the KKT system (kkt.h). Nodes of infinite mass move
-// with their velocity and are no unknowns. Nocedal, Wright 2006, ch. 3, 17, 18.
+// with their velocity and are no unknowns. (nocedal2006numerical), ch. 3, 17, 18.
 #pragma once
 
 #include "judge.h"

@@ -1,10 +1,10 @@
 #include "residual.h"
 
 #include <Eigen/Dense>
-#include <Eigen/SPQRSupport>
 #include <cmath>
 #include <limits>
 
+#include "dense.h"
 #include "energies.h"
 
 namespace pbd::reference {
@@ -29,7 +29,7 @@ Directions directions_of(const Model& model, const Element& e, const Local& loca
 
 /// Least squares |A q - b| whose columns are impulses in the metric of N_ii: q_i = N_ii^1/2 p_i.
 struct Squares {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   std::vector<double> right;
   int columns = 0;
   double rounding_squared = 0;
@@ -41,7 +41,7 @@ void add(const Model& model, const Element& e, const Local& local, const Points&
          Squares& s) {
   const Directions j = directions_of(model, e, local);
   RowMatrix sigma = RowMatrix::Zero(e.rows, e.rows);
-  if (!e.hard()) sigma = e.stiffness.inverse() / (h * h);
+  if (!e.hard()) sigma = inverse(e.stiffness) / (h * h);
   const RowMatrix n = j * j.transpose() + sigma;
   const Eigen::SelfAdjointEigenSolver<RowMatrix> eigen(n);
   constexpr double definite = 1e-14;
@@ -55,8 +55,7 @@ void add(const Model& model, const Element& e, const Local& local, const Points&
   const RowVector value = inverse_root * local.value / h;
   for (int k = 0; k < e.rows; ++k) s.right.push_back(-value(k));
   double size = 0;
-  for (int a = 0; a < e.nodes; ++a)
-    size = std::max(size, x.col(e.node[static_cast<std::size_t>(a)]).cwiseAbs().maxCoeff());
+  for (int a = 0; a < e.nodes; ++a) size = std::max(size, x.col(e.node[a]).cwiseAbs().maxCoeff());
   double gradient_squared = 0;
   for (int q = 0; q < e.columns; ++q)
     for (int a = 0; a < e.nodes; ++a)
@@ -79,16 +78,11 @@ void add(const Model& model, const Element& e, const Local& local, const Points&
 
 /// Smallest |A q - b|, and the rounding of finding it.
 void solve(const Squares& s, StepResidual& result) {
-  const auto rows = static_cast<Eigen::Index>(s.right.size());
+  const Eigen::Index rows = s.right.size();
   const Eigen::Map<const Vector> b(s.right.data(), rows);
   Vector q = Vector::Zero(s.columns);
-  SparseMatrix a(rows, s.columns);
-  if (s.columns > 0) {
-    a.setFromTriplets(s.entries.begin(), s.entries.end());
-    Eigen::SPQR<SparseMatrix> qr;
-    qr.compute(a);
-    q = qr.solve(b);
-  }
+  const SparseMatrix a = from_triplets(rows, s.columns, s.entries);
+  if (s.columns > 0) q = least_squares(a, b);
   result.residual = (a * q - b).norm();
   result.own = std::sqrt(static_cast<double>(rows)) * roundoff * (q.norm() + b.norm());
 }

@@ -1,7 +1,7 @@
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "contraction.h"
+#include "dense.h"
 #include "error.h"
 #include "rigid_step.h"
 
@@ -15,11 +15,11 @@ Vector all_multipliers(const RigidModel& model, const RigidSystem& system, const
   Matrix compliance = system.compliance;
   Vector right = -system.value;
   for (int i = 0, next = 0; i < model.rows(); ++i)
-    if (model.hard[static_cast<std::size_t>(i)]) {
+    if (model.hard[i]) {
       compliance(i, i) = 1;
       right(i) = of_hard(next++);
     }
-  return compliance.partialPivLu().solve(right);
+  return solve(compliance, right);
 }
 
 /// Increments (dx, d) by changes of the velocities.
@@ -27,7 +27,7 @@ Matrix increments(const RigidStep& step, const Vector& velocity) {
   const auto n = velocity.size();
   Matrix inverse(n, n);
   for (Eigen::Index i = 0; i < n; ++i) inverse.col(i) = velocity_change(step, velocity, Vector::Unit(n, i));
-  return inverse.inverse();
+  return reference::inverse(inverse);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, 
   Matrix left(n + rows, n + rows), right(n + rows, n);
   left << inertia, -jacobian.transpose(), h * jacobian, Matrix(system.compliance);
   right << inertia - Matrix(system.tangent) * turn, h * jacobian - jacobian * turn;
-  const Matrix map = left.partialPivLu().solve(right).topRows(n);
+  const Matrix map = solve(left, right).topRows(n);
   return extremes(map);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "error.h"
+#include "judged_effects.h"
 
 namespace pbd::reference {
 namespace {
@@ -17,16 +18,29 @@ std::array<Vec3, 2> normals(const Vec3& axis) {
   return {first, axis.cross(first)};
 }
 
+template <class>
+inline constexpr bool never = false;
+
 template <class E>
 constexpr JointKind kind_of() {
-  if constexpr (std::is_same_v<E, AxisJoint>) return JointKind::axis;
-  if constexpr (std::is_same_v<E, PerpendicularJoint>) return JointKind::perpendicular;
-  if constexpr (std::is_same_v<E, RotationJoint>) return JointKind::rotation;
-  if constexpr (std::is_same_v<E, LineJoint>) return JointKind::line;
-  if constexpr (std::is_same_v<E, BodyDistance>) return JointKind::distance;
-  if constexpr (std::is_same_v<E, AngleJoint>) return JointKind::angle;
-  if constexpr (std::is_same_v<E, SlideJoint>) return JointKind::slide;
-  return JointKind::point;
+  if constexpr (std::is_same_v<E, PointJoint> || std::is_same_v<E, Attachment>)
+    return JointKind::point;
+  else if constexpr (std::is_same_v<E, AxisJoint>)
+    return JointKind::axis;
+  else if constexpr (std::is_same_v<E, PerpendicularJoint>)
+    return JointKind::perpendicular;
+  else if constexpr (std::is_same_v<E, RotationJoint>)
+    return JointKind::rotation;
+  else if constexpr (std::is_same_v<E, LineJoint>)
+    return JointKind::line;
+  else if constexpr (std::is_same_v<E, BodyDistance>)
+    return JointKind::distance;
+  else if constexpr (std::is_same_v<E, AngleJoint>)
+    return JointKind::angle;
+  else if constexpr (std::is_same_v<E, SlideJoint>)
+    return JointKind::slide;
+  else
+    static_assert(never<E>, "a joint without its kind: state its value in joint_values.h, or refuse it");
 }
 
 constexpr int rows_of(JointKind kind) {
@@ -37,9 +51,13 @@ constexpr int rows_of(JointKind kind) {
     case JointKind::axis:
     case JointKind::line:
       return 2;
-    default:
+    case JointKind::perpendicular:
+    case JointKind::distance:
+    case JointKind::angle:
+    case JointKind::slide:
       return 1;
   }
+  return 0;
 }
 
 struct Builder {
@@ -52,7 +70,7 @@ struct Builder {
   }
   void operator()(const ExternalTorque& external) {
     for (std::size_t i = 0; i < external.body.size(); ++i)
-      model.rotors[static_cast<std::size_t>(external.body[i])].torque += external.torque[i];
+      model.rotors[external.body[i]].torque += external.torque[i];
   }
   void operator()(const Attachment& attachment) {
     for (std::size_t i = 0; i < attachment.body.size(); ++i) {
@@ -62,15 +80,21 @@ struct Builder {
       model.joints.push_back(joint);
     }
   }
-  template <class E>
+  /// Joints of two bodies.
+  template <Among<BodyEffects> E>
   void operator()(const E& stated) {
     if constexpr (requires { stated.bounds; })
       if (!stated.bounds.empty())
-        throw SetupError(std::string(stated.name), "limits or motors of limited force",
+        throw SetupError(stated.name, "limits or motors of limited force",
                          "equations: the judges know no bounds of forces");
-    if constexpr (requires { stated.body; })
-      for (std::size_t i = 0; i < stated.body.size(); ++i) model.joints.push_back(joint_of(stated, i));
+    for (std::size_t i = 0; i < stated.body.size(); ++i) model.joints.push_back(joint_of(stated, i));
   }
+  /// Stated by model.cpp.
+  template <Among<NodeEffects> E>
+  void operator()(const E&) {}
+  /// Never reached: make_node_model has refused it.
+  template <Among<RefusedEffects> E>
+  void operator()(const E&) {}
 
   template <class E>
   Joint made(const std::array<int, 2>& body, double compliance) const {
@@ -81,7 +105,7 @@ struct Builder {
     joint.body = body;
     joint.compliance = compliance;
     for (std::size_t k = 0; k < 2; ++k)
-      if (body[k] >= 0) joint.node[k] = model.rotors[static_cast<std::size_t>(body[k])].node;
+      if (body[k] >= 0) joint.node[k] = model.rotors[body[k]].node;
     return joint;
   }
 
@@ -104,13 +128,16 @@ struct Builder {
   }
 };
 
+static_assert(AllJudged<Effect>::value);
+static_assert(states<Builder>(BodyEffects{}), "an effect of rigid bodies without its statement");
+
 void add_rotors(const Scene& scene, RigidModel& model) {
   model.unknowns = model.nodes.unknowns;
   for (const auto& [node, inertia] : scene.bodies) {
     Rotor rotor;
     rotor.node = node;
     rotor.inertia = inertia;
-    const double mass = scene.mass[static_cast<std::size_t>(node)];
+    const double mass = scene.mass[node];
     if (inertia.allFinite()) {
       rotor.unknown = model.unknowns;
       model.unknowns += 3;
@@ -137,7 +164,7 @@ void number_rows(RigidModel& model) {
   model.element_row.resize(elements.size());
   const auto number = [&](int& first, int rows, bool hard) {
     first = model.rows();
-    model.hard.insert(model.hard.end(), static_cast<std::size_t>(rows), hard);
+    model.hard.insert(model.hard.end(), rows, hard);
   };
   while (element < elements.size() || joint < model.joints.size())
     if (joint == model.joints.size() ||

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense.h"
 #include "error.h"
 
 namespace pbd::reference {
@@ -19,6 +20,11 @@ Vector block_velocity(const Block& block, const State& state) {
   return velocity;
 }
 
+/// A^-1 c of a compliant block.
+RowVector pull(const Block& block) {
+  return block.compliance.ldlt().solve(block.value);
+}
+
 /// A block's Jacobian by all unknowns.
 Eigen::MatrixXd by_unknowns(const RigidModel& model, const Block& block) {
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(block.rows(), model.unknowns);
@@ -26,8 +32,8 @@ Eigen::MatrixXd by_unknowns(const RigidModel& model, const Block& block) {
     if (unknown >= 0) jacobian.middleCols<3>(unknown) += block.jacobian.middleCols<3>(offset);
   };
   for (const auto& [node, body, offset] : block.parts) {
-    add(model.nodes.first[static_cast<std::size_t>(node)], offset);
-    if (body >= 0) add(model.rotors[static_cast<std::size_t>(body)].unknown, offset + 3);
+    add(model.nodes.first[node], offset);
+    if (body >= 0) add(model.rotors[body].unknown, offset + 3);
   }
   return jacobian;
 }
@@ -55,7 +61,7 @@ Vector RigidMotion::start() const {
   for (std::size_t b = 0; b < model_.rotors.size(); ++b) {
     const int i = model_.rotors[b].unknown;
     if (i < 0) continue;
-    y.segment<3>(n + i) = scene_.initial.spin.col(static_cast<int>(b));
+    y.segment<3>(n + i) = scene_.initial.spin.col(b);
     const Eigen::Quaterniond& q = scene_.initial.orientation[b];
     y.segment<4>(at) << q.w(), q.vec();
     at += 4;
@@ -91,7 +97,7 @@ void RigidMotion::slope(double t, const Vector& y, Vector& slope) const {
   for (std::size_t b = 0; b < model_.rotors.size(); ++b) {
     const Rotor& rotor = model_.rotors[b];
     if (rotor.unknown < 0) continue;
-    const Vec3 w = now.spin.col(static_cast<int>(b));
+    const Vec3 w = now.spin.col(b);
     Vec3 torque = now.orientation[b].conjugate() * rotor.torque;
     if (model_.gyroscopic != GyroscopicTorque::none) torque -= w.cross(rotor.inertia.cwiseProduct(w));
     force.segment<3>(rotor.unknown) = torque;
@@ -101,13 +107,12 @@ void RigidMotion::slope(double t, const Vector& y, Vector& slope) const {
   for (const Block& block : blocks_at(model_, {now.x, now.orientation, now.time}, Coordinates::turns)) {
     const Eigen::MatrixXd own = by_unknowns(model_, block);
     if (!block.hard) {
-      force -= own.transpose() * block.compliance.ldlt().solve(block.value);
+      force -= own.transpose() * pull(block);
       continue;
     }
     const Vector moving = block_velocity(block, now);
     jacobian.middleRows(block.row, block.rows()) = own;
-    for (int k = 0; k < block.rows(); ++k)
-      wanted(block.row + k) = -moving.dot(block.second[static_cast<std::size_t>(k)] * moving);
+    for (int k = 0; k < block.rows(); ++k) wanted(block.row + k) = -moving.dot(block.second[k] * moving);
   }
   const Vector root = model_.inertia.cwiseSqrt().cwiseInverse();
   Vector acceleration = root.cwiseProduct(force);
@@ -115,13 +120,12 @@ void RigidMotion::slope(double t, const Vector& y, Vector& slope) const {
   const Vector lengths = jacobian.rowwise().norm().unaryExpr([](double l) { return l > 0 ? l : 1.0; });
   jacobian.array().colwise() /= lengths.array();
   if (model_.rows() > 0) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
     constexpr double dependent = 1e-9;
-    decomposition.setThreshold(dependent);
-    decomposition.compute(jacobian);
-    acceleration += decomposition.solve(wanted.cwiseQuotient(lengths) - jacobian * acceleration);
-    least_rank_ = std::min(least_rank_, static_cast<int>(decomposition.rank()));
-    most_rank_ = std::max(most_rank_, static_cast<int>(decomposition.rank()));
+    const auto [change, rank] =
+        least_squares(jacobian, wanted.cwiseQuotient(lengths) - jacobian * acceleration, dependent);
+    acceleration += change;
+    least_rank_ = std::min(least_rank_, rank);
+    most_rank_ = std::max(most_rank_, rank);
   }
   slope.head(n) = y.segment(n, n);
   slope.segment(n, model_.unknowns) = root.cwiseProduct(acceleration);
@@ -160,20 +164,19 @@ Energy RigidMotion::energy(const State& state) const {
   double potential = -nodes.force.dot(gather(nodes, state.x) - gather(nodes, scene_.initial.x));
   for (std::size_t b = 0; b < model_.rotors.size(); ++b)
     if (model_.rotors[b].unknown >= 0) {
-      const Vec3 w = state.spin.col(static_cast<int>(b));
+      const Vec3 w = state.spin.col(b);
       kinetic += w.dot(model_.rotors[b].inertia.cwiseProduct(w)) / 2;
     }
   for (const Block& block : blocks_at(model_, {state.x, state.orientation, state.time}, Coordinates::turns))
-    if (!block.hard) potential += block.value.dot(block.compliance.ldlt().solve(block.value)) / 2;
+    if (!block.hard) potential += block.value.dot(pull(block)) / 2;
   return {kinetic + potential, kinetic + std::abs(potential)};
 }
 
 bool RigidMotion::conservative() const {
   for (int a = 0; a < scene_.nodes(); ++a)
-    if (model_.nodes.first[static_cast<std::size_t>(a)] < 0 && !scene_.initial.v.col(a).isZero(0))
-      return false;
+    if (model_.nodes.first[a] < 0 && !scene_.initial.v.col(a).isZero(0)) return false;
   for (std::size_t b = 0; b < model_.rotors.size(); ++b) {
-    if (model_.rotors[b].unknown < 0 && !scene_.initial.spin.col(static_cast<int>(b)).isZero(0)) return false;
+    if (model_.rotors[b].unknown < 0 && !scene_.initial.spin.col(b).isZero(0)) return false;
     if (!model_.rotors[b].torque.isZero(0)) return false;
   }
   return std::all_of(model_.joints.begin(), model_.joints.end(), [](const Joint& j) { return j.rate == 0; });

@@ -1,7 +1,5 @@
 #include "rigid_newton.h"
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/UmfPackSupport>
 #include <cmath>
 
 #include "kkt.h"
@@ -23,8 +21,8 @@ struct Scales {
 
 Scales scales_of(const RigidStep& s, const RigidSystem& system) {
   Scales scales{s.model.inertia.cwiseSqrt().cwiseInverse(), {}};
-  const SparseMatrix own = system.jacobian * scales.unknown.asDiagonal();
-  scales.row = SparseMatrix(own.cwiseProduct(own)) * Vector::Ones(s.model.unknowns);
+  const SparseMatrix own = scaled(system.jacobian, scales.unknown);
+  scales.row = squared_rows(own, Vector::Ones(s.model.unknowns));
   scales.row += Vector(system.compliance.diagonal()) / (s.h * s.h);
   scales.row = scales.row.unaryExpr([](double n) { return n > 0 ? 1 / std::sqrt(n) : 1.0; });
   return scales;
@@ -33,13 +31,11 @@ Scales scales_of(const RigidStep& s, const RigidSystem& system) {
 /// Sets the scale of hard rows to zero that depend on others but for `threshold`, and returns how many do
 /// not.
 int drop_dependent(const RigidModel& model, const RigidSystem& system, double threshold, Scales& scales) {
-  const SparseMatrix hard =
-      hard_rows(model, scales.row.asDiagonal() * system.jacobian * scales.unknown.asDiagonal());
+  const SparseMatrix hard = hard_rows(model, scaled(scales.row, system.jacobian, scales.unknown));
   const std::vector<int> independent = independent_rows(hard, threshold);
   int position = 0;
   for (int i = 0; i < model.rows(); ++i)
-    if (model.hard[static_cast<std::size_t>(i)] &&
-        !std::binary_search(independent.begin(), independent.end(), position++))
+    if (model.hard[i] && !std::binary_search(independent.begin(), independent.end(), position++))
       scales.row(i) = 0;
   return static_cast<int>(independent.size());
 }
@@ -77,7 +73,7 @@ bool newton_step(const RigidSearch& s, const RigidSystem& system, const Scales& 
   const RigidModel& model = s.step.model;
   const double h2 = s.step.h * s.step.h;
   const int n = model.unknowns, rows = model.rows();
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   const auto add = [&](const SparseMatrix& part, const auto& use) {
     for (int j = 0; j < part.outerSize(); ++j)
       for (SparseMatrix::InnerIterator it(part, j); it; ++it) use(static_cast<int>(it.row()), j, it.value());
@@ -95,12 +91,11 @@ bool newton_step(const RigidSearch& s, const RigidSystem& system, const Scales& 
   });
   for (int i = 0; i < rows; ++i)
     if (scales.row(i) == 0) entries.emplace_back(n + i, n + i, 1.0);
-  SparseMatrix matrix(n + rows, n + rows);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix matrix = from_triplets(n + rows, n + rows, entries);
   Vector rhs(n + rows);
   rhs << -h2 * scales.unknown.cwiseProduct(system.load), -scales.row.cwiseProduct(system.value);
-  Eigen::UmfPackLU<SparseMatrix> lu(matrix);
-  if (lu.info() != Eigen::Success) return false;
+  SparseLu lu;
+  if (!lu.compute(matrix)) return false;
   const Vector solution = lu.solve(rhs);
   if (!solution.allFinite()) return false;
   increment = scales.unknown.cwiseProduct(solution.head(n));
@@ -176,23 +171,18 @@ double violation(const RigidStep& step, const Point& at) {
 bool certify(const RigidStep& step, const Point& at) {
   const RigidSystem system = system_at(step, at.velocity, at.gamma);
   const Scales scales = scales_of(step, system);
-  const SparseMatrix own =
-      step.h * step.h * scales.unknown.asDiagonal() * system.tangent * scales.unknown.asDiagonal();
+  const SparseMatrix own = scaled(step.h * step.h * scales.unknown, system.tangent, scales.unknown);
   const SparseMatrix symmetric = (own + SparseMatrix(own.transpose())) / 2;
   for (const double weight : {1e4, 1e7}) {
     // A scaled compliance is at most one: a spring's rows weigh as the spring does, up to `weight`.
     Vector weights(step.model.rows());
     for (int i = 0; i < step.model.rows(); ++i) {
       const double softness = system.compliance.coeff(i, i) * std::pow(scales.row(i) / step.h, 2);
-      weights(i) = step.model.hard[static_cast<std::size_t>(i)] ? weight : 1 / std::max(softness, 1 / weight);
+      weights(i) = step.model.hard[i] ? weight : 1 / std::max(softness, 1 / weight);
     }
-    const SparseMatrix j = scales.row.asDiagonal() * system.jacobian * scales.unknown.asDiagonal();
+    const SparseMatrix j = scaled(scales.row, system.jacobian, scales.unknown);
     const SparseMatrix matrix = symmetric + SparseMatrix(j.transpose() * weights.asDiagonal() * j);
-    Eigen::CholmodSupernodalLLT<SparseMatrix> factor;
-    factor.cholmod().print = 0;
-    factor.cholmod().quick_return_if_not_posdef = 1;
-    factor.compute(matrix);
-    if (factor.info() == Eigen::Success) return true;
+    if (SparseCholesky().compute(matrix)) return true;
   }
   return false;
 }
@@ -204,11 +194,11 @@ void take_least_norm(const RigidStep& step, Point& at) {
   Vector hard(jacobian.rows());
   int position = 0;
   for (int i = 0; i < model.rows(); ++i)
-    if (model.hard[static_cast<std::size_t>(i)]) hard(position++) = at.gamma(i);
+    if (model.hard[i]) hard(position++) = at.gamma(i);
   hard = least_norm(jacobian, hard);
   position = 0;
   for (int i = 0; i < model.rows(); ++i)
-    if (model.hard[static_cast<std::size_t>(i)]) at.gamma(i) = hard(position++);
+    if (model.hard[i]) at.gamma(i) = hard(position++);
 }
 
 }  // namespace

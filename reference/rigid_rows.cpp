@@ -1,7 +1,6 @@
 #include "rigid_rows.h"
 
-#include <Eigen/Dense>
-
+#include "dense.h"
 #include "joint_values.h"
 
 namespace pbd::reference {
@@ -13,7 +12,7 @@ Eigen::Matrix3d cross_matrix(const Vec3& a) {
 
 const Eigen::Quaterniond& orientation(const Joint& joint, std::size_t k, const Placement& at) {
   static const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
-  return joint.body[k] < 0 ? upright : at.orientation[static_cast<std::size_t>(joint.body[k])];
+  return joint.body[k] < 0 ? upright : at.orientation[joint.body[k]];
 }
 
 template <class T>
@@ -28,17 +27,17 @@ Frame<T> moving_frame(const Joint& joint, std::size_t k, const Placement& at) {
   constexpr int size = C == Coordinates::turns ? 6 : 7;
   const int first = size * static_cast<int>(k);
   Frame<T> frame = fixed_frame<T>(joint, k, at);
-  for (int i = 0; i < 3; ++i) frame.x[static_cast<std::size_t>(i)].gradient(first + i) = 1;
+  for (int i = 0; i < 3; ++i) frame.x[i].gradient(first + i) = 1;
   if (joint.body[k] < 0) return frame;
   if constexpr (C == Coordinates::turns) {
     // exp(d/2) to second order: cos(|d|/2) = 1 - |d|^2/8, sin(|d|/2)/|d| = 1/2.
     Triple<T> d;
-    for (int i = 0; i < 3; ++i) d[static_cast<std::size_t>(i)] = T::variable(0, first + 3 + i);
+    for (int i = 0; i < 3; ++i) d[i] = T::variable(0, first + 3 + i);
     const T w = T(1) - dot(d, d) * 0.125;
     frame.q = product(frame.q, {w, {d[0] * 0.5, d[1] * 0.5, d[2] * 0.5}});
   } else {
     frame.q.w.gradient(first + 3) = 1;
-    for (int i = 0; i < 3; ++i) frame.q.v[static_cast<std::size_t>(i)].gradient(first + 4 + i) = 1;
+    for (int i = 0; i < 3; ++i) frame.q.v[i].gradient(first + 4 + i) = 1;
   }
   return frame;
 }
@@ -56,10 +55,10 @@ Block joint_block(const Joint& joint, const Placement& at) {
   block.jacobian.resize(joint.rows, 2 * size);
   block.compliance = joint.compliance * RowMatrix::Identity(joint.rows, joint.rows);
   for (int k = 0; k < joint.rows; ++k) {
-    const T& row = c[static_cast<std::size_t>(k)];
+    const T& row = c[k];
     block.value(k) = row.value;
     block.jacobian.row(k) = row.gradient;
-    block.second[static_cast<std::size_t>(k)] = row.hessian;
+    block.second[k] = row.hessian;
   }
   for (std::size_t k = 0; k < 2; ++k)
     block.parts.push_back({joint.node[k], joint.body[k], size * static_cast<int>(k)});
@@ -78,11 +77,10 @@ Block element_block(const Element& e, int row, const Points& x) {
   block.row = row;
   block.hard = e.hard();
   block.value = local.value;
-  block.jacobian = local.jacobian * by_x;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(e.rows); ++k)
-    block.second[k] = by_x.transpose() * local.hessian[k] * by_x;
-  block.compliance = e.hard() ? RowMatrix(RowMatrix::Zero(e.rows, e.rows)) : RowMatrix(e.stiffness.inverse());
-  for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[static_cast<std::size_t>(a)], -1, 3 * a});
+  block.jacobian = product(local.jacobian, by_x);
+  for (int k = 0; k < e.rows; ++k) block.second[k] = congruence(local.hessian[k], by_x);
+  block.compliance = e.hard() ? RowMatrix(RowMatrix::Zero(e.rows, e.rows)) : RowMatrix(inverse(e.stiffness));
+  for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[a], -1, 3 * a});
   return block;
 }
 
@@ -90,7 +88,7 @@ Block element_block(const Element& e, int row, const Points& x) {
 
 Block::Square Block::geometric(const RowVector& gamma, Coordinates coordinates) const {
   Square sum = Square::Zero(jacobian.cols(), jacobian.cols());
-  for (int k = 0; k < rows(); ++k) sum += gamma(k) * second[static_cast<std::size_t>(k)];
+  for (int k = 0; k < rows(); ++k) sum += gamma(k) * second[k];
   if (coordinates == Coordinates::turns)
     for (const auto& [node, body, offset] : parts) {
       if (body < 0) continue;
@@ -119,7 +117,7 @@ Vector values_at(const RigidModel& model, const Placement& at) {
   for (const Joint& joint : model.joints) {
     const auto value = joint_value<double>(joint, fixed_frame<double>(joint, 0, at),
                                            fixed_frame<double>(joint, 1, at), at.time);
-    for (int k = 0; k < joint.rows; ++k) c(joint.row + k) = value[static_cast<std::size_t>(k)];
+    for (int k = 0; k < joint.rows; ++k) c(joint.row + k) = value[k];
   }
   return c;
 }

@@ -6,8 +6,6 @@
 namespace pbd::reference {
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
 Eigen::Matrix3d cross_matrix(const Vec3& a) {
   return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
 }
@@ -31,8 +29,8 @@ void add_square(Triplets& entries, int row, int column, const Eigen::Matrix3d& s
 std::vector<std::pair<int, int>> unknowns_of(const RigidModel& model, const Block& block) {
   std::vector<std::pair<int, int>> list;
   for (const auto& [node, body, offset] : block.parts) {
-    list.emplace_back(offset, model.nodes.first[static_cast<std::size_t>(node)]);
-    if (body >= 0) list.emplace_back(offset + 3, model.rotors[static_cast<std::size_t>(body)].unknown);
+    list.emplace_back(offset, model.nodes.first[node]);
+    if (body >= 0) list.emplace_back(offset + 3, model.rotors[body].unknown);
   }
   return list;
 }
@@ -42,7 +40,7 @@ void add_rotations(const RigidStep& s, const Vector& velocity, RigidSystem& syst
   for (std::size_t b = 0; b < s.model.rotors.size(); ++b) {
     const Rotor& rotor = s.model.rotors[b];
     if (rotor.unknown < 0) continue;
-    const Vec3 w = velocity.segment<3>(rotor.unknown), before = s.start.spin.col(static_cast<int>(b));
+    const Vec3 w = velocity.segment<3>(rotor.unknown), before = s.start.spin.col(b);
     const Vec3 torque = s.start.orientation[b].conjugate() * rotor.torque;
     const Vec3 momentum = rotor.inertia.cwiseProduct(w);
     Eigen::Matrix3d by_w = Eigen::Matrix3d(rotor.inertia.asDiagonal()) / s.h;
@@ -68,8 +66,7 @@ Vector RigidStep::start_velocity() const {
   Vector velocity(model.unknowns);
   velocity.head(model.nodes.unknowns) = gather(model.nodes, start.v);
   for (std::size_t b = 0; b < model.rotors.size(); ++b)
-    if (const int i = model.rotors[b].unknown; i >= 0)
-      velocity.segment<3>(i) = start.spin.col(static_cast<int>(b));
+    if (const int i = model.rotors[b].unknown; i >= 0) velocity.segment<3>(i) = start.spin.col(b);
   return velocity;
 }
 
@@ -89,6 +86,13 @@ State RigidStep::end(const Vector& velocity) const {
 Placement RigidStep::placement(const Vector& velocity) const {
   State state = end(velocity);
   return {std::move(state.x), std::move(state.orientation), state.time};
+}
+
+Vector RigidSystem::force(const Vector& gamma) const {
+  return load - jacobian.transpose() * gamma;
+}
+Vector RigidSystem::gap(const Vector& gamma) const {
+  return value + compliance * gamma;
 }
 
 RigidSystem system_at(const RigidStep& s, const Vector& velocity, const Vector& gamma) {
@@ -126,12 +130,9 @@ RigidSystem system_at(const RigidStep& s, const Vector& velocity, const Vector& 
         if (column >= 0) add_square(tangent, unknown, column, -geometric.block<3, 3>(at, other));
     }
   }
-  system.tangent.resize(model.unknowns, model.unknowns);
-  system.tangent.setFromTriplets(tangent.begin(), tangent.end());
-  system.jacobian.resize(model.rows(), model.unknowns);
-  system.jacobian.setFromTriplets(jacobian.begin(), jacobian.end());
-  system.compliance.resize(model.rows(), model.rows());
-  system.compliance.setFromTriplets(compliance.begin(), compliance.end());
+  system.tangent = from_triplets(model.unknowns, model.unknowns, tangent);
+  system.jacobian = from_triplets(model.rows(), model.unknowns, jacobian);
+  system.compliance = from_triplets(model.rows(), model.rows(), compliance);
   return system;
 }
 
@@ -160,17 +161,16 @@ void report(const RigidStep& s, const Vector& velocity, const Vector& gamma, Jud
   j.residual = system.force(gamma).cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                std::max(system.magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
   const double displacement = displacement_of(s, velocity);
-  const SparseMatrix by_length = system.jacobian * per_length.asDiagonal();
-  const Vector squares = SparseMatrix(by_length.cwiseProduct(by_length)) * Vector::Ones(s.model.unknowns);
+  const Vector squares = squared_rows(scaled(system.jacobian, per_length), Vector::Ones(s.model.unknowns));
   std::vector<double> hard;
   j.infeasible = 0;
   for (int i = 0; i < s.model.rows(); ++i) {
-    if (!s.model.hard[static_cast<std::size_t>(i)]) continue;
+    if (!s.model.hard[i]) continue;
     hard.push_back(gamma(i));
     const double length = squares(i) > 0 ? std::sqrt(squares(i)) : 1;
     j.infeasible = std::max(j.infeasible, std::abs(system.value(i)) / length / displacement);
   }
-  j.multiplier = Eigen::Map<const Vector>(hard.data(), static_cast<Eigen::Index>(hard.size()));
+  j.multiplier = Eigen::Map<const Vector>(hard.data(), hard.size());
 }
 
 SparseMatrix hard_rows(const RigidModel& model, const SparseMatrix& rows) {
@@ -180,11 +180,8 @@ SparseMatrix hard_rows(const RigidModel& model, const SparseMatrix& rows) {
   Triplets entries;
   for (int j = 0; j < rows.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
-      if (const int row = position[static_cast<std::size_t>(it.row())]; row >= 0)
-        entries.emplace_back(row, j, it.value());
-  SparseMatrix result(count, rows.cols());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+      if (const int row = position[it.row()]; row >= 0) entries.emplace_back(row, j, it.value());
+  return from_triplets(count, rows.cols(), entries);
 }
 
 }  // namespace pbd::reference

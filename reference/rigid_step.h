@@ -36,8 +36,9 @@ struct RigidSystem {
   SparseMatrix compliance;
   Vector value;  // c, all rows
 
-  Vector force(const Vector& gamma) const { return load - jacobian.transpose() * gamma; }
-  Vector gap(const Vector& gamma) const { return value + compliance * gamma; }
+  /// load - J^T gamma and c + A gamma: zero at the end of the step.
+  Vector force(const Vector& gamma) const;
+  Vector gap(const Vector& gamma) const;
 };
 RigidSystem system_at(const RigidStep& step, const Vector& velocity, const Vector& gamma);
 

@@ -153,7 +153,7 @@ bool Newton::find_direction() {
 }
 
 /// Moves to now + t dx with the largest t of 1, 1/2, 1/4 ... that decreases phi enough (Armijo); false if
-/// none does. Where rounding hides the decrease, its derivative tells (Hager, Zhang 2005, eq. 27).
+/// none does. Where rounding hides the decrease, its derivative tells (hager2005new, eq. 27).
 bool Newton::search() {
   constexpr double enough = 1e-4, smallest_step = 1e-6, rounding = 1e-9;
   const double slope = now_.gradient.cwiseProduct(direction_).sum();

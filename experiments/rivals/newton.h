@@ -6,8 +6,8 @@
 // factorisation, dx shortened by a line search. With p = -h A^-1 c the residual |v - v_free - W J^T p|_M is h
 // |grad phi|_{M^-1}. H is the true Hessian (hinges aside, see elements.h); where it is not
 // positive definite, that of every element made positive semidefinite. Nodes of infinite mass move with their
-// velocity and are no unknowns. Nocedal, Wright 2006, ch. 3; Gast et al. 2015, Optimization integrator for
-// large time steps.
+// velocity and are no unknowns. (nocedal2006numerical, ch. 3;
+// gast2015optimization)
 #pragma once
 
 #include "rivals/rival.h"

@@ -13,8 +13,8 @@
 //
 // Positive semidefinite in closed form: green with S replaced by its positive part (the rest is J^T C J);
 // corotational with t_k >= -mu, as the twists are eigenvectors of eigenvalue 2 mu + 2 t_k and those of the
-// rest are positive (Smith, de Goes, Kim 2019, Analytic eigensystems for isotropic distortion energies). A
-// triangle is green in two dimensions, with the constants of plane stress.
+// rest are positive (smith2019analytic). A triangle is green in two dimensions, with the constants of plane
+// stress.
 #pragma once
 
 #include "rivals/elements.h"

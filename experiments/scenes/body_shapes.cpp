@@ -1,4 +1,4 @@
-#include "body_shapes.h"
+#include "scenes/body_shapes.h"
 
 #include <numbers>
 

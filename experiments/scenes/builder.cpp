@@ -1,12 +1,12 @@
-#include "builder.h"
+#include "scenes/builder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "choices.h"
 #include "error.h"
-#include "lines.h"
+#include "scenes/choices.h"
+#include "scenes/lines.h"
 
 namespace pbdcheck {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "error.h"
-#include "keys.h"
-#include "named.h"
 #include "scene.h"
-#include "script.h"
+#include "scenes/keys.h"
+#include "scenes/named.h"
+#include "scenes/script.h"
 
 namespace pbdcheck {
 

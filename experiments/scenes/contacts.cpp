@@ -8,6 +8,12 @@ namespace pbdcheck {
 
 using namespace pbd;
 
+const Contact* contact_of(const Scene& scene) {
+  for (const auto& effect : scene.effects)
+    if (const auto* contact = std::get_if<Contact>(&effect)) return contact;
+  return nullptr;
+}
+
 BodyScene::BodyScene(const ContactLaw& law, double gravity) {
   contact_.law = {law};
   scene_.effects = {Gravity{{0, 0, -gravity}}, Gyroscopic{}};

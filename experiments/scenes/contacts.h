@@ -5,6 +5,9 @@
 
 namespace pbdcheck {
 
+/// The contact of a scene, null if it has none.
+const pbd::Contact* contact_of(const pbd::Scene& scene);
+
 /// Where a body stands, and how it moves.
 struct Placing {
   pbd::Vec3 position;  // m

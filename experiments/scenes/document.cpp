@@ -1,4 +1,4 @@
-#include "document.h"
+#include "scenes/document.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "error.h"
-#include "lines.h"
+#include "scenes/lines.h"
 
 namespace pbdcheck {
 namespace {

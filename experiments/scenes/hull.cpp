@@ -8,8 +8,8 @@ extern "C" {
 }
 #undef infinity  // a macro of Qhull's
 
-#include "body_shapes.h"
 #include "error.h"
+#include "scenes/body_shapes.h"
 
 namespace pbdcheck {
 namespace {

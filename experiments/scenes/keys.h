@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scene.h"
+#include "scenes/values.h"
 
 namespace pbdcheck {
 
@@ -22,11 +23,6 @@ struct Origin {
   std::string file;
   std::string option = "--set";
 };
-
-/// Which numbers a key takes. Finite ones are at most `largest_number` in size, so that squares and cubes of
-/// them stay finite.
-inline constexpr double largest_number = 1e100;
-enum class Range { finite, not_negative, positive, positive_or_infinite };
 
 class Keys {
  public:

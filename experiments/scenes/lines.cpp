@@ -1,4 +1,4 @@
-#include "lines.h"
+#include "scenes/lines.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "mechanisms.h"
+#include "scenes/mechanisms.h"
 
 #include <cmath>
 #include <numbers>

@@ -24,7 +24,7 @@ pbd::Scene point_pendulum();
 pbd::Scene four_bars(int loops, int extra = 0);
 
 /// IFToMM A03, Andrews' squeezing mechanism: seven planar bodies, a spring and a constant torque on the crank
-/// (Schiehlen 1990; Hairer, Wanner 1996). Bodies 1 to 7 are K1 to K7, body 0 the ground.
+/// (schiehlen1990multibody, hairer1996solving). Bodies 1 to 7 are K1 to K7, body 0 the ground.
 pbd::Scene andrews_squeezer();
 
 /// Crank of 0.2 m turned by a motor at `rate` rad/s, rod of 0.5 m, and a slider of 1 kg on the x axis.

@@ -1,9 +1,9 @@
-#include "mesh_file.h"
+#include "scenes/mesh_file.h"
 
 #include <algorithm>
 
 #include "error.h"
-#include "mesh_readers.h"
+#include "scenes/mesh_readers.h"
 
 namespace pbdcheck {
 namespace {

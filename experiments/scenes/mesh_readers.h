@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lines.h"
+#include "scenes/lines.h"
 
 namespace pbdcheck {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "body_shapes.h"
+#include "scenes/body_shapes.h"
 
 namespace pbdcheck {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "boundary.h"
-#include "builder.h"
-#include "mesh_file.h"
+#include "scenes/builder.h"
+#include "scenes/mesh_file.h"
 
 namespace pbdcheck {
 namespace {

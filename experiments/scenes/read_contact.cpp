@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "builder.h"
-#include "choices.h"
+#include "scenes/builder.h"
+#include "scenes/choices.h"
 #include "validate.h"
 
 namespace pbdcheck {

@@ -1,5 +1,5 @@
-#include "choices.h"
-#include "mesh_readers.h"
+#include "scenes/choices.h"
+#include "scenes/mesh_readers.h"
 
 namespace pbdcheck {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh_readers.h"
+#include "scenes/mesh_readers.h"
 
 namespace pbdcheck {
 

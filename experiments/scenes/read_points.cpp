@@ -1,9 +1,9 @@
 // Tables of particles, chains and what acts on single nodes: gravity, forces, anchors, links, hinges.
 #include <fmt/format.h>
 
-#include "builder.h"
 #include "error.h"
 #include "mesh.h"
+#include "scenes/builder.h"
 
 namespace pbdcheck {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <set>
 
-#include "builder.h"
-#include "choices.h"
-#include "contact_sums.h"
-#include "integrators.h"
 #include "names.h"
-#include "read_probes.h"
+#include "scenes/builder.h"
+#include "scenes/choices.h"
+#include "scenes/contacts.h"
+#include "scenes/read_probes.h"
+#include "step/integrators.h"
 
 namespace pbdcheck {
 namespace {

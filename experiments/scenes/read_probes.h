@@ -1,8 +1,8 @@
 // The tables [[probe]] of a scene file.
 #pragma once
 
-#include "keys.h"
-#include "scene_file.h"
+#include "scenes/keys.h"
+#include "scenes/scene_file.h"
 
 namespace pbdcheck {
 

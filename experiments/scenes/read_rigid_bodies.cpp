@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "builder.h"
-#include "choices.h"
-#include "mesh_file.h"
+#include "scenes/builder.h"
+#include "scenes/choices.h"
+#include "scenes/mesh_file.h"
 
 namespace pbdcheck {
 namespace {

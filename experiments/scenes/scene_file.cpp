@@ -1,15 +1,15 @@
-#include "scene_file.h"
+#include "scenes/scene_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <sstream>
 
-#include "builder.h"
-#include "choices.h"
-#include "document.h"
 #include "error.h"
-#include "read_probes.h"
+#include "scenes/builder.h"
+#include "scenes/choices.h"
+#include "scenes/document.h"
+#include "scenes/read_probes.h"
 #include "validate.h"
 
 namespace pbdcheck {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "named.h"
 #include "scene.h"
-#include "script.h"
-#include "step.h"
+#include "scenes/named.h"
+#include "scenes/script.h"
+#include "step/step.h"
 
 namespace pbdcheck {
 

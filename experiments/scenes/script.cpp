@@ -1,4 +1,4 @@
-#include "script.h"
+#include "scenes/script.h"
 
 #include <algorithm>
 #include <variant>
@@ -55,6 +55,17 @@ void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, p
     state.v.col(node) = factor * stated.initial.v.col(node);
     state.spin.col(body) = factor * stated.initial.spin.col(body);
   }
+}
+
+void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {
+  const auto follows = [&](const pbd::Effect& effect) {
+    return (std::holds_alternative<pbd::ExternalForce>(effect) && !forces_.empty()) ||
+           (std::holds_alternative<pbd::ExternalTorque>(effect) && !torques_.empty()) ||
+           (std::holds_alternative<pbd::AngleJoint>(effect) && !angles_.empty()) ||
+           (std::holds_alternative<pbd::SlideJoint>(effect) && !slides_.empty());
+  };
+  for (std::size_t i = 0; i < scene.effects.size(); ++i)
+    if (follows(scene.effects[i])) workspace.change(i, scene.effects[i]);
 }
 
 }  // namespace pbdcheck

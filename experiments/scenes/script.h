@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene.h"
+#include "step/step.h"
 
 namespace pbdcheck {
 
@@ -32,6 +32,9 @@ class Script {
   /// `scene` as `stated` but for the step of h seconds from `state`, whose moving bodies get their
   /// velocities.
   void begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const;
+
+  /// Hands what `begin_step` has set in `scene` on to a workspace of that scene.
+  void hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const;
 
  private:
   struct Entry {

@@ -1,7 +1,7 @@
 """Do solutions agree with the references, and with the continuum?"""
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import failed, good, step_text
+from selecting import failed, good, step_text
 
 
 def judges(results):

@@ -1,7 +1,7 @@
 """Contact and friction."""
 
 from content import Figure, Section, Table, counted, number, span
-from reading import step_text
+from selecting import step_text
 from sections.robustness import failed_gates, gates_text
 
 ENERGY = (

@@ -3,7 +3,7 @@
 import numpy as np
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import failed, good, rule_names, step_text
+from selecting import failed, good, rule_names, step_text
 from sections.time import lost_text, orders_table, resolved_text
 
 GYROSCOPIC = (

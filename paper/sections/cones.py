@@ -1,7 +1,7 @@
 """Contact with friction: are the problems of one step solved?"""
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import tightest
+from selecting import tightest
 
 AGREEMENT = 1e-6  # m/s
 

@@ -1,7 +1,7 @@
 """Contact with friction beside known answers."""
 
 from content import Figure, Section, Table, counted, number, span
-from reading import failed, good
+from selecting import failed, good
 
 ANSWERS = ("Largest errors by relaxation and law of friction (GS `gauss_seidel`, J `jacobi`, NJ `nesterov_jacobi`, CG "
            "`conjugate_gradients`); dashed: the bound. Crossed: some step was not solved, or the run diverged.")

@@ -1,7 +1,7 @@
 """What accuracy and effects cost."""
 
 from content import Figure, Section, Table, counted, number, span
-from reading import failed, good, step_text
+from selecting import failed, good, step_text
 
 
 def work_precision(results):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import good, rule_names, step_text
+from selecting import good, rule_names, step_text
 
 MARGINAL = (
     "Why the trapezoidal rule blows up with hard constraints. With a weight alpha of the step's end, a hard constraint of"

@@ -1,7 +1,7 @@
 """What constraints do to the motion: their directions and their damping."""
 
 from content import Figure, Section, Table, counted, number, span
-from reading import failed, good, step_text
+from selecting import failed, good, step_text
 
 
 def direction(results):

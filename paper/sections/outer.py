@@ -3,7 +3,8 @@
 from functools import partial
 
 from content import Figure, Section, Table, counted, span
-from reading import CONTRACTING, cost_ratios, failed, good, stiffens
+from reading import CONTRACTING
+from selecting import cost_ratios, failed, good, stiffens
 
 
 def outer_convergence(results):

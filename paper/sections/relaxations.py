@@ -3,7 +3,7 @@
 import numpy as np
 
 from content import Figure, Section, Table, counted, number, span
-from reading import good
+from selecting import good
 
 
 def inner_convergence(results):

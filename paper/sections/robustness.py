@@ -1,7 +1,7 @@
 """Which scenes the methods survive."""
 
 from content import Figure, Section, Table, counted, listed, number, span
-from reading import good, step_text
+from selecting import good, step_text
 
 
 def point_hard_cases(results):

@@ -1,7 +1,7 @@
 """How the integrators follow the motion in continuous time."""
 
 from content import Figure, Section, Table, number, span
-from reading import failed, good, rule_names, step_text
+from selecting import failed, good, rule_names, step_text
 
 
 def time_order(results):

@@ -3,16 +3,15 @@
 
 #include <cmath>
 
-#include "effects/constraint.h"
+#include "rows/constraint.h"
 
 namespace pbd {
 
 template <>
 struct Force<Gravity> {
-  static void add(const Gravity& effect, const Scene& scene, const StepBegin&, Points& acceleration) {
+  static void add(const Gravity& effect, const Scene& scene, const ForceBegin&, Points& acceleration) {
     for (int node = 0; node < scene.nodes(); ++node)
-      if (std::isfinite(scene.mass[static_cast<std::size_t>(node)]))
-        acceleration.col(node) += effect.acceleration;
+      if (std::isfinite(scene.mass[node])) acceleration.col(node) += effect.acceleration;
   }
 };
 

@@ -2,18 +2,33 @@
 // body as it stands, and bounds of their second derivatives.
 //   lever      s = R p,  ds/dphi = -[s]x,  phi^T s'' phi = phi x (phi x s)
 //   direction  u = R u0, likewise
-// Bounds are by the columns (dx, r w) of constraint.h, with phi = turning arc.
+// Bounds are by the columns (dx, r w) of constraint.h, with phi = turn_per_arc arc.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "effects/constraint.h"
+#include "rows/constraint.h"
+#include "rows/source.h"
 
 namespace pbd {
 
 using Row3 = Eigen::RowVector3d;
+
+/// What all joints state alike.
+template <class Joint, int R, int B = 2, int P = 0>
+struct JointConstraint : BodyConstraintShape<R, B, P> {
+  using Square = typename ConstraintShape<R, 2 * B + P>::Square;
+
+  static std::array<int, B> body(const Joint& effect, std::size_t i) { return {effect.body[i]}; }
+  static Square compliance(const Joint& effect, std::size_t i) {
+    return effect.compliance[i] * Square::Identity();
+  }
+  static Square retardation(const Joint& effect, std::size_t i) {
+    return effect.damping[i] * Square::Identity();
+  }
+};
 
 /// Two unit vectors at right angles to the unit vector `axis` and each other.
 inline Eigen::Matrix<double, 3, 2> normals_of(const Vec3& axis) {
@@ -34,7 +49,7 @@ double largest_of(const Eigen::Matrix3d& form, const Pose& pose);
 
 /// Bound of phi_a^T C phi_b for arcs of 1 m.
 inline double product_bound(const Pose& a, const Eigen::Matrix3d& product, const Pose& b) {
-  return (a.turning.transpose() * product * b.turning).norm();
+  return (a.turn_per_arc.transpose() * product * b.turn_per_arc).norm();
 }
 
 /// Bounds of a constraint of the rotation between two bodies, whose impulses give b the torque m (a its
@@ -45,6 +60,11 @@ inline Eigen::RowVector4d rotation_bound(const Eigen::Matrix3d& form, const Vec3
                                          const Pose& b) {
   const double across = product_bound(a, form, b) + product_bound(a, cross_matrix(torque), b) / 2;
   return {0, largest_of(form, a) + across, 0, largest_of(form, b) + across};
+}
+
+/// Bounds of u . w, u a direction of body a times the impulse, w one of b.
+inline Eigen::RowVector4d product_of_directions(const Vec3& u, const Vec3& w, const Pose& a, const Pose& b) {
+  return rotation_bound(lever_form(u, w), w.cross(u), a, b);
 }
 
 /// c = t . (y - x_a), t a direction of body a, y = x_b + R_b p_b: value, row of the Jacobian, bound.
@@ -60,8 +80,8 @@ struct Slide {
 
   Eigen::Matrix<double, 1, 12> jacobian(const Pose& a, const Pose& b) const {
     Eigen::Matrix<double, 1, 12> row;
-    row << -direction.transpose(), direction.cross(gap).transpose() * a.turning, direction.transpose(),
-        lever.cross(direction).transpose() * b.turning;
+    row << -direction.transpose(), direction.cross(gap).transpose() * a.turn_per_arc, direction.transpose(),
+        lever.cross(direction).transpose() * b.turn_per_arc;
     return row;
   }
 
@@ -69,7 +89,7 @@ struct Slide {
   /// split evenly.
   Eigen::RowVector4d bound(double p, const Pose& a, const Pose& b) const {
     const Eigen::Matrix3d turn = cross_matrix(direction);
-    const double along = std::abs(p) * (turn * a.turning).norm();
+    const double along = std::abs(p) * (turn * a.turn_per_arc).norm();
     const double across = std::abs(p) * product_bound(a, turn.transpose() * cross_matrix(lever), b);
     return {along, largest_of(lever_form(p * gap, direction), a) + 2 * along + across, along,
             largest_of(lever_form(p * direction, lever), b) + across};

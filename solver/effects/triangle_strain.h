@@ -6,11 +6,8 @@
 // A = C^-1 / area, C^-1 = 1/(thickness Y) [1 -nu 0; -nu 1 0; 0 0 2(1+nu)] (plane stress).
 #pragma once
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
-#include "effects/constraint.h"
-#include "mesh.h"
+#include "rows/constraint.h"
+#include "rows/source.h"
 
 namespace pbd {
 
@@ -18,58 +15,18 @@ template <>
 struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
   static constexpr bool one_material = true;
 
-  static Nodes node(const TriangleStrain& effect, std::size_t i) { return effect.node[i]; }
-  static const Positions& rest(const TriangleStrain& effect, std::size_t i) { return effect.rest[i]; }
-
-  static Square compliance(const TriangleStrain& effect, std::size_t i) {
-    return inverse_elasticity(effect.material.poisson) /
-           (effect.thickness * effect.material.young * triangle_area(effect.rest[i]));
-  }
+  static Nodes node(const TriangleStrain& effect, std::size_t i);
+  static const Positions& rest(const TriangleStrain& effect, std::size_t i);
+  static Square compliance(const TriangleStrain& effect, std::size_t i);
 
   /// C^-1 C_d
-  static Square retardation(const TriangleStrain& effect, std::size_t);
-
+  static Square retardation(const TriangleStrain& effect, std::size_t i);
   static void evaluate(const TriangleStrain& effect, std::size_t i, const Positions& x, Value& value,
-                       Jacobian& jacobian) {
-    const Eigen::Matrix2d inverse = rest_edges(effect.rest[i]).inverse();
-    const Eigen::Matrix<double, 3, 2> f = (x.rightCols<2>().colwise() - x.col(0)) * inverse;
-    value << (f.col(0).squaredNorm() - 1) / 2, (f.col(1).squaredNorm() - 1) / 2, f.col(0).dot(f.col(1));
-
-    const Eigen::Matrix<double, 3, 2> y = gradients(inverse);
-    for (int a = 0; a < 3; ++a)
-      jacobian.middleCols<3>(3 * a) << y(a, 0) * f.col(0).transpose(), y(a, 1) * f.col(1).transpose(),
-          y(a, 1) * f.col(0).transpose() + y(a, 0) * f.col(1).transpose();
-  }
-
-  static NodeBounds geometric_bound(const TriangleStrain& effect, std::size_t i, const Positions&,
-                                    const Value& impulse) {
-    Eigen::Matrix2d stress;
-    stress << impulse[0], impulse[2], impulse[2], impulse[1];
-    return stress_bound(gradients(rest_edges(effect.rest[i]).inverse()), Eigen::Matrix2d(-stress));
-  }
-
- private:
-  /// Y C^-1 at Poisson's ratio nu
-  static Square inverse_elasticity(double nu) {
-    Square inverse;
-    inverse << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
-    return inverse;
-  }
-
-  static Eigen::Matrix<double, 3, 2> gradients(const Eigen::Matrix2d& inverse) {
-    Eigen::Matrix<double, 3, 2> y;
-    y << -inverse.colwise().sum(), inverse;
-    return y;
-  }
-
-  static Eigen::Matrix2d rest_edges(const Eigen::Matrix3d& rest) {
-    const Vec3 first = rest.col(1) - rest.col(0);
-    const Vec3 second = rest.col(2) - rest.col(0);
-    const double length = first.norm();
-    Eigen::Matrix2d edges;
-    edges << length, first.dot(second) / length, 0, first.cross(second).norm() / length;
-    return edges;
-  }
+                       Jacobian& jacobian);
+  static NodeBounds geometric_bound(const TriangleStrain& effect, std::size_t i, const Positions& x,
+                                    const Value& impulse);
 };
+
+std::unique_ptr<Source> make_source(const Scene& scene, const TriangleStrain& effect);
 
 }  // namespace pbd

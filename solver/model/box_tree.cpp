@@ -13,7 +13,7 @@ void BoxTree::build(const std::vector<AxisBox>& boxes) {
 }
 
 void BoxTree::split(const std::vector<AxisBox>& boxes, std::size_t begin, std::size_t end) {
-  const auto box_of = [&](int i) -> const AxisBox& { return boxes[static_cast<std::size_t>(i)]; };
+  const auto box_of = [&](int i) -> const AxisBox& { return boxes[i]; };
   AxisBox box, centres;
   for (std::size_t i = begin; i < end; ++i) {
     box.extend(box_of(order_[i]));

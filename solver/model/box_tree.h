@@ -31,7 +31,7 @@ class BoxTree {
     if (!node.box.intersects(box)) return;
     if (node.leaf >= 0) return visit(node.leaf);
     descend(at + 1, box, visit);
-    descend(static_cast<std::size_t>(node.second), box, visit);
+    descend(node.second, box, visit);
   }
 
   void split(const std::vector<AxisBox>& boxes, std::size_t begin, std::size_t end);

@@ -28,7 +28,7 @@ std::vector<Edge> edges_of(const std::vector<std::array<int, K>>& elements) {
 template <std::size_t K>
 Eigen::Matrix<double, 3, K> columns(const Points& x, const std::array<int, K>& node) {
   Eigen::Matrix<double, 3, K> picked;
-  for (std::size_t a = 0; a < K; ++a) picked.col(static_cast<int>(a)) = x.col(node[a]);
+  for (std::size_t a = 0; a < K; ++a) picked.col(a) = x.col(node[a]);
   return picked;
 }
 
@@ -90,7 +90,7 @@ TetMesh kuhn_grid(const std::array<int, 3>& cells, const Vec3& size, const Vec3&
           std::array<int, 3> corner{i, j, k};
           std::array<int, 4> tet{index(i, j, k), 0, 0, 0};
           for (std::size_t step = 0; step < 3; ++step) {
-            ++corner[static_cast<std::size_t>(axes[path][step])];
+            ++corner[axes[path][step]];
             tet[step + 1] = index(corner[0], corner[1], corner[2]);
           }
           if (path >= 3) std::swap(tet[1], tet[2]);
@@ -138,13 +138,13 @@ double dihedral_angle(const Eigen::Matrix<double, 3, 4>& x) {
 
 int add_solid(Scene& scene, const TetMesh& mesh, double density, const Material& material, Strain strain) {
   TetStrain effect{.node = {}, .rest = {}, .material = material, .strain = strain};
-  std::vector<double> mass(static_cast<std::size_t>(mesh.x.cols()), 0.0);
+  std::vector<double> mass(mesh.x.cols(), 0.0);
   const int first = scene.nodes();
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
     const auto rest = columns(mesh.x, mesh.tets[i]);
     require_proper(rest, "tetrahedron ", i);
     const double volume = tet_volume(rest);
-    for (const int node : mesh.tets[i]) mass[static_cast<std::size_t>(node)] += density * volume / 4;
+    for (const int node : mesh.tets[i]) mass[node] += density * volume / 4;
     effect.node.push_back(shifted(mesh.tets[i], first));
     effect.rest.push_back(rest);
   }
@@ -154,12 +154,12 @@ int add_solid(Scene& scene, const TetMesh& mesh, double density, const Material&
 }
 
 int add_sheet_nodes(Scene& scene, const TriangleMesh& mesh, double area_density) {
-  std::vector<double> mass(static_cast<std::size_t>(mesh.x.cols()), 0.0);
+  std::vector<double> mass(mesh.x.cols(), 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Eigen::Matrix3d rest = columns(mesh.x, mesh.triangles[i]);
     require_proper(rest, "triangle ", i);
     const double area = triangle_area(rest);
-    for (const int node : mesh.triangles[i]) mass[static_cast<std::size_t>(node)] += area_density * area / 3;
+    for (const int node : mesh.triangles[i]) mass[node] += area_density * area / 3;
   }
   return append_nodes(scene, mesh.x, mass);
 }

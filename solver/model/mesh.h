@@ -14,7 +14,7 @@ struct TetMesh {
 };
 
 /// Box of `size` (m) with a corner at `origin`, cut into cells[0] x cells[1] x cells[2] bricks of six
-/// tetrahedra each around the diagonal (0,0,0)-(1,1,1) (Kuhn's subdivision). Node (i,j,k) has index i +
+/// tetrahedra each around the diagonal (0,0,0)-(1,1,1) (kuhn1960combinatorial). Node (i,j,k) has index i +
 /// (cells[0]+1) * (j + (cells[1]+1) * k).
 TetMesh kuhn_grid(const std::array<int, 3>& cells, const Vec3& size, const Vec3& origin = Vec3::Zero());
 

@@ -35,18 +35,16 @@ Polyhedron faces_of(const TriangleMesh& surface, const std::vector<int>& face_of
   if (face_of.empty()) return solid;
   const auto count = static_cast<Index>(*std::max_element(face_of.begin(), face_of.end()) + 1);
   solid.faces.assign(count, {Vec3::Zero(), 0, 0, 0});
-  for (Index t = 0; t < face_of.size(); ++t)
-    solid.faces[static_cast<Index>(face_of[t])].normal += twice_area(surface, t);
+  for (Index t = 0; t < face_of.size(); ++t) solid.faces[face_of[t]].normal += twice_area(surface, t);
   // The sides of each face by the corner they start from, with their edge.
   std::vector<std::map<int, std::array<int, 2>>> sides(count);
   for (const auto& [node, triangle] : neighbours(surface)) {
-    const std::array<int, 2> face{face_of[static_cast<Index>(triangle[0])],
-                                  face_of[static_cast<Index>(triangle[1])]};
+    const std::array<int, 2> face{face_of[triangle[0]], face_of[triangle[1]]};
     if (face[0] == face[1]) continue;
     const int edge = static_cast<int>(solid.edges.size());
     solid.edges.push_back({node, face});
-    sides[static_cast<Index>(face[0])][node[0]] = {node[1], edge};
-    sides[static_cast<Index>(face[1])][node[1]] = {node[0], edge};
+    sides[face[0]][node[0]] = {node[1], edge};
+    sides[face[1]][node[1]] = {node[0], edge};
   }
   for (Index f = 0; f < count; ++f) {
     auto& face = solid.faces[f];
@@ -116,7 +114,7 @@ Polyhedron plane_faces(const TriangleMesh& surface) {
       for (Index a = 0; a < 3; ++a) {
         const int from = t[a], to = t[(a + 1) % 3];
         const auto& two = around.at({std::min(from, to), std::max(from, to)});
-        const auto next = static_cast<Index>(two[from < to ? 1 : 0]);
+        const int next = two[from < to ? 1 : 0];
         if (face_of[next] >= 0 || !in_plane(next)) continue;
         face_of[next] = count;
         reached.push_back(next);

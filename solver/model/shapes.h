@@ -31,6 +31,8 @@ struct ClosedMesh {
   explicit ClosedMesh(TriangleMesh closed);
 
   TriangleMesh surface;
+  AxisBox box;          // of all points
+  double size = 0;      // m, the box's diagonal
   Polyhedron solid;     // a face a triangle
   Points node_normals;  // unit, the faces' normals weighted by their angles at the node
   BoxTree tree;         // of the triangles' boxes

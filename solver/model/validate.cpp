@@ -32,9 +32,9 @@ void validate_bodies(const Scene& scene) {
   for (std::size_t b = 0; b < count; ++b) {
     const auto& [node, inertia] = scene.bodies[b];
     const auto where = [&](const char* field) { return "bodies[" + text(b) + "] " + field; };
-    REQUIRE(node >= 0 && node < scene.nodes() && !taken[static_cast<std::size_t>(node)], where("node"),
-            text(node), "a node's index, a different one for each body");
-    taken[static_cast<std::size_t>(node)] = true;
+    REQUIRE(node >= 0 && node < scene.nodes() && !taken[node], where("node"), text(node),
+            "a node's index, a different one for each body");
+    taken[node] = true;
     const bool turns = inertia.allFinite() && inertia.minCoeff() > 0;
     const bool kept = inertia.minCoeff() == infinity;
     REQUIRE(turns || kept, where("inertia"), text(inertia),
@@ -44,7 +44,7 @@ void validate_bodies(const Scene& scene) {
             "no moment larger than the sum of the other two: no mass has such");
     const auto& orientation = scene.initial.orientation[b];
     REQUIRE(is_unit(orientation), where("orientation"), norm_of(orientation), "norm 1");
-    const Vec3 spin = scene.initial.spin.col(static_cast<Eigen::Index>(b));
+    const Vec3 spin = scene.initial.spin.col(b);
     REQUIRE(spin.allFinite(), where("spin"), text(spin), "finite numbers");
   }
 }
@@ -74,7 +74,7 @@ void validate(const Scene& scene) {
   REQUIRE(scene.initial.x.cols() == scene.nodes(), "initial x", size_of(scene.initial.x), one_per_node);
   REQUIRE(scene.initial.v.cols() == scene.nodes(), "initial v", size_of(scene.initial.v), one_per_node);
   for (int node = 0; node < scene.nodes(); ++node) {
-    const double mass = scene.mass[static_cast<std::size_t>(node)];
+    const double mass = scene.mass[node];
     const auto where = [&](const char* field) { return std::string(field) + "[" + text(node) + "]"; };
     REQUIRE(mass >= least_mass, where("mass"), text(mass),
             "a number from " + text(least_mass) + " on, kg (inf for a node that keeps its velocity)");

@@ -30,9 +30,11 @@ inline std::string text(const Vec3& value) {
     if (!(holds)) throw SetupError(__VA_ARGS__); \
   } while (false)
 
+/// How far lengths and products of unit vectors may be from 1 and 0: numbers given to ten digits pass.
+inline constexpr double unit_slack = 1e-9;
+
 inline bool is_unit(const Eigen::Quaterniond& q) {
-  constexpr double slack = 1e-9;
-  return std::abs(q.norm() - 1) <= slack;
+  return std::abs(q.norm() - 1) <= unit_slack;
 }
 
 inline std::string norm_of(const Eigen::Quaterniond& q) {

@@ -24,7 +24,7 @@ TEST_CASE("planted impulses solve their problems, of both laws, and not those of
       INFO(family.name);
       double other = 0;
       for (int seed = 1; seed <= planted_seeds; ++seed) {
-        const PlantedCone p = family.draw(law, static_cast<std::uint64_t>(seed));
+        const PlantedCone p = family.draw(law, seed);
         const auto wrong = law == FrictionLaw::cone ? FrictionLaw::coulomb : FrictionLaw::cone;
         CHECK(measure_cone(p.problem, law, p.impulse).natural_residual < 1e-14);
         other = std::max(other, measure_cone(p.problem, wrong, p.impulse).natural_residual);
@@ -37,7 +37,7 @@ TEST_CASE("interior point and polish find the planted velocity of all 200 cones"
   for (const auto& family : planted_families())
     for (int seed = 1; seed <= planted_seeds; ++seed) {
       INFO(family.name << " " << seed);
-      const PlantedCone p = family.draw(FrictionLaw::cone, static_cast<std::uint64_t>(seed));
+      const PlantedCone p = family.draw(FrictionLaw::cone, seed);
       const ConeSolution found = cone_interior_point(p.problem, FrictionLaw::cone, 1e-10);
       CHECK(found.outcome == Outcome::ok);
       CHECK(found.measures.natural_residual <= 1e-10);
@@ -61,7 +61,7 @@ TEST_CASE("Coulomb's law: all 200 are solved to rounding, by the planted velocit
   for (const auto& family : planted_families())
     for (int seed = 1; seed <= planted_seeds; ++seed) {
       INFO(family.name << " " << seed);
-      const PlantedCone p = family.draw(FrictionLaw::coulomb, static_cast<std::uint64_t>(seed));
+      const PlantedCone p = family.draw(FrictionLaw::coulomb, seed);
       const ConeSolution found = cone_interior_point(p.problem, FrictionLaw::coulomb, 1e-10);
       CHECK(measure_cone(p.problem, FrictionLaw::coulomb, found.impulse).natural_residual <= 1e-10);
       if (family.name == "full_rank" || family.name == "wedge") CHECK(velocity_error(p, found) < 1e-10);
@@ -71,7 +71,7 @@ TEST_CASE("Coulomb's law: all 200 are solved to rounding, by the planted velocit
 TEST_CASE(
     "a hundred and fifty contacts with mass ratio 1e4, redundant, some with neither impulse nor velocity") {
   for (int seed = 1; seed <= 2; ++seed) {
-    const PlantedCone p = planted_hard(FrictionLaw::cone, 150, static_cast<std::uint64_t>(seed));
+    const PlantedCone p = planted_hard(FrictionLaw::cone, 150, seed);
     CHECK(velocity_error(p, cone_interior_point(p.problem, FrictionLaw::cone, 1e-10)) < 1e-10);
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("Ipopt finds the planted velocities without looking at its status") {
   for (const auto& family : planted_families())
     for (int seed = 1; seed <= 3; ++seed) {
       INFO(family.name << " " << seed);
-      const PlantedCone p = family.draw(FrictionLaw::cone, static_cast<std::uint64_t>(seed));
+      const PlantedCone p = family.draw(FrictionLaw::cone, seed);
       const ConeSolution found = cone_ipopt(p.problem, FrictionLaw::cone, 1e-8);
       CHECK(found.outcome == Outcome::ok);
       CHECK(velocity_error(p, found) < 1e-6);

@@ -42,7 +42,7 @@ Scene clamped_bar(Strain strain) {
   Scene scene;
   add_solid(scene, kuhn_grid({4, 1, 1}, Vec3(1, 0.25, 0.25)), 1000, {1e5, 0.3}, strain);
   for (int i = 0; i < scene.nodes(); ++i)
-    if (scene.initial.x(0, i) == 0) scene.mass[static_cast<std::size_t>(i)] = infinity;
+    if (scene.initial.x(0, i) == 0) scene.mass[i] = infinity;
   scene.effects.emplace_back(Gravity{});
   return scene;
 }

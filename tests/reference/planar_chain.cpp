@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "closed_form.h"
+#include "dense.h"
 #include "energies.h"
 #include "error.h"
 #include "ode.h"
@@ -49,13 +50,12 @@ Scene irregular_chain() {
   Scene scene = plain;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const int from = static_cast<int>(i), to = order[i];
-    scene.mass[static_cast<std::size_t>(to)] = plain.mass[i];
+    scene.mass[to] = plain.mass[i];
     scene.initial.x.col(to) = Vec3(1, -2, 3) + turn * plain.initial.x.col(from);
     scene.initial.v.col(to) = turn * plain.initial.v.col(from);
   }
   auto& links = std::get<Distance>(scene.effects[1]);
-  for (auto& [a, b] : links.node)
-    a = order[static_cast<std::size_t>(a)], b = order[static_cast<std::size_t>(b)];
+  for (auto& [a, b] : links.node) a = order[a], b = order[b];
   std::swap(links.node[0], links.node[3]), std::swap(links.rest_length[0], links.rest_length[3]);
   std::swap(links.node[2][0], links.node[2][1]);
   scene.effects[0] = Gravity{turn * Vec3(0, 0, -g)};
@@ -76,17 +76,16 @@ OdeSolution by_multipliers(const Scene& scene, const std::vector<double>& times,
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, n);
     Vector bend(rows);
     for (int r = 0; r < rows; ++r) {
-      const auto [a, b] = links[static_cast<std::size_t>(r)];
-      const int i = model.first[static_cast<std::size_t>(a)], j = model.first[static_cast<std::size_t>(b)];
+      const auto [a, b] = links[r];
+      const int i = model.first[a], j = model.first[b];
       const Vec3 d = x.col(b) - x.col(a);
       if (i >= 0) jacobian.block<1, 3>(r, i) = -d.transpose();
       if (j >= 0) jacobian.block<1, 3>(r, j) = d.transpose();
       bend(r) = (v.col(b) - v.col(a)).squaredNorm();
     }
     const Eigen::MatrixXd inverse_mass = model.mass.cwiseInverse().asDiagonal();
-    const Vector m = (jacobian * inverse_mass * jacobian.transpose())
-                         .ldlt()
-                         .solve(-bend - jacobian * inverse_mass * model.force);
+    const Vector m = solve_definite(product_transposed(product(jacobian, inverse_mass), jacobian),
+                                    Vector(-bend - jacobian * inverse_mass * model.force));
     out << y.tail(n), inverse_mass * (model.force + jacobian.transpose() * m);
   };
   Vector start(2 * n);

@@ -29,7 +29,7 @@ Scene solid(Strain strain) {
   add_solid(scene, kuhn_grid({2, 1, 1}, Vec3(2, 1, 1)), 1000, {1e5, 0.3}, strain);
   scene.effects.emplace_back(Gravity{});
   for (int node = 0; node < scene.nodes(); ++node)
-    if (scene.initial.x(0, node) == 0) scene.mass[static_cast<std::size_t>(node)] = infinity;
+    if (scene.initial.x(0, node) == 0) scene.mass[node] = infinity;
   return scene;
 }
 

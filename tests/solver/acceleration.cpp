@@ -1,4 +1,4 @@
-#include "acceleration.h"
+#include "outer/anderson.h"
 
 #include <catch2/catch.hpp>
 

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "integrators.h"
 #include "scenes.h"
+#include "step/integrators.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -36,9 +36,9 @@ namespace {
 long allocations_of(const Scene& scene, const Method& method) {
   Workspace workspace(scene, method);
   State state = scene.initial;
-  step(scene, method, 0.001, state, workspace);
+  step(workspace, 0.001, state);
   const long before = allocations;
-  for (int frame = 0; frame < 5; ++frame) step(scene, method, 0.001, state, workspace);
+  for (int frame = 0; frame < 5; ++frame) step(workspace, 0.001, state);
   return allocations - before;
 }
 

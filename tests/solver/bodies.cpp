@@ -2,8 +2,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "integrators.h"
-#include "step.h"
+#include "step/integrators.h"
+#include "step/step.h"
 
 using namespace pbd;
 
@@ -61,7 +61,7 @@ State run(const Scene& scene, const Method& method, double h, int steps) {
   Workspace workspace(scene, method);
   State state = scene.initial;
   for (int k = 0; k < steps; ++k) {
-    const Report report = step(scene, method, h, state, workspace);
+    const Report report = step(workspace, h, state);
     INFO("step " << k << ": " << report.reason << ", residual " << report.residual() << " after "
                  << report.outer_iterations << " iterations, contraction " << report.contraction);
     CHECK(report.status == Status::ok);
@@ -109,7 +109,7 @@ TEST_CASE("a step that says ok has found its gyroscopic torque") {
         top(speed * Vec3(std::sin(2.1 * k), std::sin(3.3 * k + 1), std::sin(4.7 * k + 2)), true);
     Workspace workspace(scene, method);
     State state = scene.initial;
-    const Report report = step(scene, method, h, state, workspace);
+    const Report report = step(workspace, h, state);
     INFO("h |w| about " << h * speed);
     if (h * speed < 0.5) CHECK(report.status == Status::ok);
     if (report.status != Status::ok) continue;
@@ -268,7 +268,7 @@ TEST_CASE("a body that hangs still is held by its weight, whatever the integrato
     const Method method = method_of(integrator.name);
     Workspace workspace(scene, method);
     State state = scene.initial;
-    for (int k = 0; k < 4; ++k) CHECK(step(scene, method, 0.01, state, workspace).status == Status::ok);
+    for (int k = 0; k < 4; ++k) CHECK(step(workspace, 0.01, state).status == Status::ok);
     const std::vector<double> force = workspace.forces(1);
     REQUIRE(force.size() == 3);
     CHECK(std::abs(force[0]) < 1e-9);
@@ -285,7 +285,7 @@ TEST_CASE("forces that act as given ones are not known as multipliers") {
   const Method method = method_of("symplectic_euler");
   Workspace workspace(scene, method);
   State state = scene.initial;
-  step(scene, method, 0.001, state, workspace);
+  step(workspace, 0.001, state);
   const std::vector<double> force = workspace.forces(1);
   REQUIRE(force.size() == 6);
   CHECK(std::isnan(force[2]));

@@ -5,7 +5,8 @@
 
 #include "contact_runs.h"
 #include "error.h"
-#include "relaxation.h"
+#include "linear/linear_names.h"
+#include "rows/laws.h"
 #include "scenes/contacts.h"
 
 using namespace pbd;
@@ -30,7 +31,7 @@ TEST_CASE("a sliding box follows implicit Euler's recurrence with every relaxati
   constexpr double h = 1.0 / 60, friction = 0.3, speed = 3;
   constexpr int steps = 70;  // it stops in 61
   const double exact = sliding_distance(speed, friction * gravity, h, steps);
-  for (const auto relaxation : relaxation_names())
+  for (const auto relaxation : general_solver_names())
     for (const auto law : {"coulomb", "disc", "box"}) {
       const State end = run(sliding_box(0, friction, speed), method_of(relaxation, law), h, steps);
       INFO(relaxation << " " << law);
@@ -95,7 +96,7 @@ TEST_CASE("columns stand, however heavy their tops, and the ground carries their
 
 TEST_CASE("a cube carries another of ten thousand times its mass under every relaxation") {
   const Scene scene = column(2, 1e4);
-  for (const auto relaxation : relaxation_names()) {
+  for (const auto relaxation : general_solver_names()) {
     Method method = method_of(relaxation);
     method.max_outer = 1000;
     Workspace workspace(scene, method);
@@ -150,7 +151,7 @@ TEST_CASE("restitution returns the approaching speed, and with the trapezoidal r
     int bounces = 0;
     for (int k = 0; k < 2000; ++k) {
       const double before = state.v(2, 1);
-      REQUIRE(step(scene, method, h, state, workspace).status == Status::ok);
+      REQUIRE(step(workspace, h, state).status == Status::ok);
       const double after = state.v(2, 1);
       if (before < 0 && after > 0 && bounces++ < 3) CHECK(std::abs(after + restitution * before) <= 1e-12);
     }
@@ -166,7 +167,7 @@ TEST_CASE("a box and a ball that tumble on soft ground are solved at every step"
   build.box(Vec3(0.3, 0.2, 0.1), 6, {Vec3(0, 0, 0.12), turned, Vec3(0.3, 0, -1), Vec3(3, -4, 2)});
   build.ball(0.1, 4, {.position = {0.02, 0.01, 0.36}, .velocity = {0, 0.2, -1}, .spin = {1, 5, 0}});
   const Scene scene = build.finish();
-  for (const auto relaxation : relaxation_names())
+  for (const auto relaxation : general_solver_names())
     for (const auto law : friction_names) {
       Method method = method_of(relaxation, law);
       method.tolerance = 1e-8;
@@ -192,7 +193,7 @@ TEST_CASE("a fast body pushes those it has not touched yet within a step") {
   build.ball(0.1, 1, {Vec3(0, 0, 0), Eigen::Quaterniond::Identity(), Vec3(10, 0, 0)});
   build.ball(0.1, 1, {Vec3(0.2 + gap, 0, 0)});
   build.ball(0.1, 1, {Vec3(0.4 + 2 * gap, 0, 0)});
-  for (const auto relaxation : relaxation_names()) {
+  for (const auto relaxation : general_solver_names()) {
     INFO(relaxation);
     const State end = run(build.finish(), method_of(relaxation), 0.01, 1);
     CHECK(end.x(0, 1) - end.x(0, 0) >= 0.2 - 1e-10);
@@ -212,7 +213,7 @@ TEST_CASE("nodes rest on bodies and push them") {
   contact.node = {node};
   contact.radius = {0.01};
   contact.node_material = {0};
-  for (const auto relaxation : relaxation_names()) {
+  for (const auto relaxation : general_solver_names()) {
     const Method method = method_of(relaxation);
     Workspace workspace(scene, method);
     const State end = run(scene, method, 0.01, 30, workspace);
@@ -255,7 +256,7 @@ TEST_CASE("deformable surfaces rest on each other") {
     constexpr double h = 0.01;
     State end = run(scene, method, h, 2, workspace);
     const Points before = end.v;
-    REQUIRE(step(scene, method, h, end, workspace).status == Status::ok);
+    REQUIRE(step(workspace, h, end).status == Status::ok);
     double carried = 0, gap = 1;
     Vec3 on_upper = Vec3::Zero();
     for (const ContactForce& each : workspace.contacts()) {

@@ -62,7 +62,7 @@ TEST_CASE("a ball of triangles on a plate of triangles gets the impulse that sto
   int touching = 0;
   for (int k = 0; k < 60; ++k) {
     const double before = state.v(2, 1);
-    REQUIRE(step(scene, method, h, state, workspace).status == Status::ok);
+    REQUIRE(step(workspace, h, state).status == Status::ok);
     CHECK(std::abs(mass * (state.v(2, 1) - before) / h + mass * gravity - ground_force(workspace).z()) <=
           1e-8 * mass * gravity);
     for (const ContactForce& contact : workspace.contacts()) CHECK(contact.gap >= -1e-9);

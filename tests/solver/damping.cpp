@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "effects/effects.h"
-#include "integrators.h"
 #include "oscillator.h"
 #include "scenes.h"
+#include "step/integrators.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -94,7 +94,7 @@ TEST_CASE("a damped oscillator's decrement is the discrete closed form, however 
   State state = scene.initial;
   std::vector<double> q;
   for (int k = 0; k < 4; ++k) {
-    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(step(workspace, h, state).status == Status::ok);
     q.push_back(state.x(0, 1));
   }
   const auto found = measured(q);
@@ -129,7 +129,7 @@ TEST_CASE("damping keeps every integrator's order where directions turn") {
       method.alpha = rule.alpha;
       Workspace workspace(scene, method);
       State state = scene.initial;
-      for (int k = 0; k < steps; ++k) step(scene, method, duration / steps, state, workspace);
+      for (int k = 0; k < steps; ++k) step(workspace, duration / steps, state);
       return (Eigen::Vector2d(state.x(0, 1), state.x(2, 1)) - exact).norm();
     };
     INFO(rule.integrator << ", alpha " << rule.alpha);
@@ -171,7 +171,7 @@ TEST_CASE("a solid's damping has moduli of its own") {
     State state = scene.initial;
     Workspace workspace(scene, method);
     INFO(outer << ", viscous " << viscous.young << " Pa s, " << viscous.poisson);
-    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(step(workspace, h, state).status == Status::ok);
     CHECK((Eigen::VectorXd(state.v.reshaped()) - expected).norm() < 1e-9 * (v_l - expected).norm());
   }
 }
@@ -199,7 +199,7 @@ TEST_CASE("damping in proportion to the stiffness is one retardation time") {
       method.max_outer = 1000;
       State state = scene.initial;
       Workspace workspace(scene, method);
-      for (int k = 0; k < 5; ++k) CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+      for (int k = 0; k < 5; ++k) CHECK(step(workspace, h, state).status == Status::ok);
       return state.x;
     };
     const Points potential = after(own, "quasi_newton"), rows = after(own, "plain");
@@ -218,7 +218,7 @@ TEST_CASE("plain's contraction is predicted of damped rows, too: d p/(m l) acros
   State state = scene.initial;
   state.x(0, 1) = 4;
   Workspace workspace(scene, method);
-  const Report report = step(scene, method, h, state, workspace);
+  const Report report = step(workspace, h, state);
   CHECK(report.status == Status::ok);
   CHECK(report.contraction > 1);
   const double impulse = std::abs(workspace.impulses(1).at(0));
@@ -236,7 +236,7 @@ TEST_CASE("the error of a hard constraint decays with its retardation time") {
   Workspace workspace(scene, method);
   State state = scene.initial;
   for (int k = 1; k <= 10; ++k) {
-    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(step(workspace, h, state).status == Status::ok);
     CHECK(state.x(0, 1) - 1 == Approx(0.5 * std::pow(time / (h + time), k)).epsilon(1e-10));
   }
 }
@@ -259,7 +259,7 @@ TEST_CASE("damping between nodes takes no linear momentum, and none of a transla
     method.max_outer = 2;
     Workspace workspace(scene, method);
     State state = scene.initial;
-    for (int k = 0; k < 200; ++k) step(scene, method, 0.01, state, workspace);
+    for (int k = 0; k < 200; ++k) step(workspace, 0.01, state);
     INFO(integrator.name);
     CHECK((momentum(scene, state) - expected).norm() < 1e-12 * before.norm());
     if (!shaken) CHECK((state.v.colwise() - Vec3(1, -2, 3)).norm() < 1e-12);

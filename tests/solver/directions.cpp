@@ -21,7 +21,7 @@ std::vector<double> energies(const Method& method, double h, int steps) {
   std::vector<double> found{0};
   int missed = 0;
   for (int k = 0; k < steps; ++k) {
-    missed += step(scene, method, h, state, workspace).status != Status::ok;
+    missed += step(workspace, h, state).status != Status::ok;
     found.push_back(state.v.col(1).squaredNorm() / 2 + gravity * state.x(2, 1));
   }
   CHECK(missed == 0);
@@ -73,7 +73,7 @@ TEST_CASE("blended directions are those at the blended positions, in rows and im
     method.outer = outer;
     State state = scene.initial;
     Workspace workspace(scene, method);
-    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(step(workspace, h, state).status == Status::ok);
     const Vec3 begin = scene.initial.x.col(1), end = state.x.col(1);
     const Vec3 pulled = end - (begin - gravity * h * h * Vec3::UnitZ());
     const Vec3 direction = (begin + blend * (end - begin)).normalized();
@@ -98,7 +98,7 @@ TEST_CASE("a potential has its own directions: quasi_newton refuses others, auto
   method.relaxation = "direct";
   State state = scene.initial;
   Workspace workspace(scene, method);
-  CHECK(step(scene, method, 1.0 / 60, state, workspace).status == Status::ok);
+  CHECK(step(workspace, 1.0 / 60, state).status == Status::ok);
   method.outer = "quasi_newton";
   CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("directions that are not those at x"));
   method.direction_blend = 1;
@@ -117,7 +117,7 @@ TEST_CASE("frozen removes its share of a hard link's error a step, and says unle
   for (int k = 1; k <= 3; ++k) {
     const double before = state.x(0, 1) - 1;
     state.v.setZero();
-    const Status status = step(hard, method, h, state, workspace).status;
+    const Status status = step(workspace, h, state).status;
     CHECK(state.x(0, 1) - 1 == Approx((1 - share) * before).margin(1e-12));
     CHECK((status == Status::ok) == (share == 1));
   }
@@ -125,7 +125,7 @@ TEST_CASE("frozen removes its share of a hard link's error a step, and says unle
   const Scene soft = stretched_link(0.5);
   State sprung = soft.initial;
   Workspace other(soft, method);
-  CHECK(step(soft, method, h, sprung, other).status == Status::ok);
+  CHECK(step(other, h, sprung).status == Status::ok);
   CHECK(sprung.v(0, 1) == Approx(-h * 2 / (1 + h * h * 2)).epsilon(1e-12));
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("frozen without stabilisation leaves the circle by h v a step") {
   Workspace workspace(scene, method);
   for (int k = 1; k <= 10; ++k) {
     const double before = state.x.col(1).squaredNorm();
-    CHECK(step(scene, method, h, state, workspace).status == Status::not_converged);
+    CHECK(step(workspace, h, state).status == Status::not_converged);
     const double travelled = h * state.v.col(1).norm();
     CHECK(state.x.col(1).squaredNorm() == Approx(before + travelled * travelled).epsilon(1e-12));
   }

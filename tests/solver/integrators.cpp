@@ -1,5 +1,5 @@
 // Integrators against their closed forms on a spring, and against the pendulum's quarter period.
-#include "integrators.h"
+#include "step/integrators.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,7 +21,7 @@ State after(const Scene& scene, const Method& method, const std::vector<double>&
   Workspace workspace(scene, method);
   State state = scene.initial;
   int missed = 0;
-  for (const double h : lengths) missed += step(scene, method, h, state, workspace).status != Status::ok;
+  for (const double h : lengths) missed += step(workspace, h, state).status != Status::ok;
   CHECK(missed == 0);
   return state;
 }
@@ -65,7 +65,7 @@ TEST_CASE("Newmark's family follows its own recurrence, whose force is that of t
   State state = scene.initial;
   double q = 0.5, v = 0, a = -w * w * q;
   for (int k = 0; k < 100; ++k) {
-    step(scene, method, h, state, workspace);
+    step(workspace, h, state);
     q += h * v + h * h * (0.5 - beta) * a;
     v += h * (1 - gamma) * a;
     a = -w * w * (q + damping * v) / (1 + w * w * (beta * h * h + damping * gamma * h));
@@ -88,7 +88,7 @@ TEST_CASE("the trapezoidal and the midpoint rule keep a spring's energy, implici
     State state = scene.initial;
     double largest = 0;
     for (int k = 0; k < steps; ++k) {
-      step(scene, method, h, state, workspace);
+      step(workspace, h, state);
       largest = std::max(largest, std::abs(energy_of_spring(state, w) / before - 1));
     }
     INFO(integrator);
@@ -142,12 +142,12 @@ TEST_CASE("whoever changes the state between two steps starts the integrator ane
     method.warm_start = false;
     Workspace used(scene, method), fresh(scene, method);
     State state = scene.initial;
-    for (int k = 0; k < 3; ++k) step(scene, method, 0.01, state, used);
+    for (int k = 0; k < 3; ++k) step(used, 0.01, state);
     State after_used = other, after_fresh = other;
     INFO(integrator.name);
     for (int k = 0; k < 3; ++k) {
-      step(scene, method, 0.01, after_used, used);
-      step(scene, method, 0.01, after_fresh, fresh);
+      step(used, 0.01, after_used);
+      step(fresh, 0.01, after_fresh);
       CHECK(after_used.x == after_fresh.x);
       CHECK(after_used.v == after_fresh.v);
     }
@@ -175,7 +175,7 @@ TEST_CASE("linear momentum of pairwise constraints is conserved by every integra
     Workspace workspace(scene, method);
     State state = scene.initial;
     int missed = 0;
-    for (int k = 0; k < 1000; ++k) missed += step(scene, method, 0.01, state, workspace).status != Status::ok;
+    for (int k = 0; k < 1000; ++k) missed += step(workspace, 0.01, state).status != Status::ok;
     INFO(integrator.name << ' ' << relaxation << ", compliance " << compliance << ", missed " << missed);
     const bool explicit_alone = integrator.explicit_forces && compliance > 0;
     CHECK((missed > 0) == (max_outer == 2 && !explicit_alone));
@@ -196,7 +196,7 @@ TEST_CASE("linear momentum of a chain is conserved where proximal steps are left
   State state = scene.initial;
   Workspace workspace(scene, method);
   const Vec3 before = momentum(scene, state);
-  for (int k = 0; k < 100; ++k) step(scene, method, 0.01, state, workspace);
+  for (int k = 0; k < 100; ++k) step(workspace, 0.01, state);
   INFO(relaxation);
   CHECK((momentum(scene, state) - before).norm() < 1e-12 * before.norm());
 }
@@ -209,7 +209,7 @@ TEST_CASE("symplectic_euler has rows for hard constraints alone") {
   Workspace workspace(scene, method);
   State state = scene.initial;
   // One step from rest: forces of the springs, none yet, gravity, and the hard links along x.
-  CHECK(step(scene, method, 0.01, state, workspace).status == Status::ok);
+  CHECK(step(workspace, 0.01, state).status == Status::ok);
   CHECK(workspace.costs().at(0).rows == 2);
   CHECK(workspace.impulses(1).size() == 2);
   CHECK(state.x(2, 4) == Approx(-gravity * 1e-4).epsilon(1e-12));

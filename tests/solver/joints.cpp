@@ -83,7 +83,7 @@ struct Placed {
   /// Rotates body b by `angle` in the world from `from`.
   void turn(int b, const Vec3& angle, const Eigen::Matrix3d& from) {
     pose[b].rotation = rotation_by(angle).toRotationMatrix() * from;
-    pose[b].turning = pose[b].rotation * radius[b].cwiseInverse().asDiagonal();
+    pose[b].turn_per_arc = pose[b].rotation * radius[b].cwiseInverse().asDiagonal();
   }
 
   /// Moved by `step` along column k of the joint's Jacobian.
@@ -96,7 +96,7 @@ struct Placed {
     else if (part % 2 == 0)
       next.pose[b].x[k % 3] += step;
     else
-      next.turn(b, step * pose[b].turning.col(k % 3), pose[b].rotation);
+      next.turn(b, step * pose[b].turn_per_arc.col(k % 3), pose[b].rotation);
     return next;
   }
 
@@ -165,7 +165,7 @@ void check_bound(const E& effect) {
           else if (part % 2 == 0)
             next.pose[b].x += own;
           else
-            next.turn(b, placed.pose[b].turning * own, placed.pose[b].rotation);
+            next.turn(b, placed.pose[b].turn_per_arc * own, placed.pose[b].rotation);
         }
         return next;
       };

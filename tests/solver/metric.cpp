@@ -1,4 +1,4 @@
-#include "metric.h"
+#include "outer/metric.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

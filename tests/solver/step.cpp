@@ -1,12 +1,12 @@
-#include "step.h"
+#include "step/step.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "integrators.h"
-#include "outer.h"
+#include "outer/outer_names.h"
 #include "scenes.h"
+#include "step/integrators.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -18,7 +18,7 @@ TEST_CASE("free fall is implicit Euler's to rounding: it lags by g h t / 2") {
   const double h = 0.01;
   State state = scene.initial;
   Workspace workspace(scene, {});
-  for (int k = 0; k < 100; ++k) CHECK(step(scene, {}, h, state, workspace).status == Status::ok);
+  for (int k = 0; k < 100; ++k) CHECK(step(workspace, h, state).status == Status::ok);
   CHECK(state.x(2, 0) == Approx(-9.81 / 2 - 9.81 * h / 2).epsilon(1e-13));
   CHECK(state.time == Approx(1).epsilon(1e-14));
 }
@@ -93,8 +93,8 @@ TEST_CASE("an empty effect changes no bit and adds no rows") {
     Workspace plain_workspace(scene, method), padded_workspace(padded, method);
     State a = scene.initial, b = padded.initial;
     for (int k = 0; k < 20; ++k) {
-      step(scene, method, 1.0 / 240, a, plain_workspace);
-      step(padded, method, 1.0 / 240, b, padded_workspace);
+      step(plain_workspace, 1.0 / 240, a);
+      step(padded_workspace, 1.0 / 240, b);
     }
     INFO(relaxation);
     CHECK(a.x == b.x);
@@ -108,10 +108,10 @@ TEST_CASE("warm starting changes the path, not the solution") {
   State warm = scene.initial, cold = scene.initial;
   Method method = direct_method(1e-12);
   Workspace warm_workspace(scene, method);
-  for (int k = 0; k < 5; ++k) step(scene, method, 0.01, warm, warm_workspace);
+  for (int k = 0; k < 5; ++k) step(warm_workspace, 0.01, warm);
   method.warm_start = false;
   Workspace cold_workspace(scene, method);
-  for (int k = 0; k < 5; ++k) step(scene, method, 0.01, cold, cold_workspace);
+  for (int k = 0; k < 5; ++k) step(cold_workspace, 0.01, cold);
   CHECK((warm.x - cold.x).norm() < 1e-10 * (warm.x - scene.initial.x).norm());
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("dimensionless results do not change with the units of length, mass an
     State state = scene.initial;
     Method method = direct_method(1e-12);
     Workspace workspace(scene, method);
-    for (int k = 0; k < 10; ++k) step(scene, method, t / 240, state, workspace);
+    for (int k = 0; k < 10; ++k) step(workspace, t / 240, state);
     return Points((state.x - scene.initial.x) / l);
   };
   const Points expected = displacement(1, 1, 1);
@@ -161,9 +161,9 @@ TEST_CASE("a step begins with the last impulses if warm, with none if cold") {
   method.warm_start = GENERATE(true, false);
   Workspace workspace(scene, method);
   State state = scene.initial;
-  step(scene, method, h, state, workspace);
+  step(workspace, h, state);
   double first = -1;
-  step(scene, method, h, state, workspace, [&](const Iterate& iterate) {
+  step(workspace, h, state, [&](const Iterate& iterate) {
     if (iterate.outer_iteration == 0) first = iterate.primal;
   });
   // |v - v_free - W J^T p|_M of the old velocity, 0: nothing is left if p = h m g, h g sqrt(m) if p = 0.
@@ -175,12 +175,12 @@ TEST_CASE("a diverged step leaves nothing behind in the workspace") {
   const Method method;
   Workspace used(scene, method), fresh(scene, method);
   State broken = scene.initial;
-  step(scene, method, 0.01, broken, used);
+  step(used, 0.01, broken);
   broken.v(2, 1) = 1e300;
-  CHECK(step(scene, method, 0.01, broken, used).status == Status::diverged);
+  CHECK(step(used, 0.01, broken).status == Status::diverged);
   State after = scene.initial, expected = scene.initial;
-  step(scene, method, 0.01, after, used);
-  step(scene, method, 0.01, expected, fresh);
+  step(used, 0.01, after);
+  step(fresh, 0.01, expected);
   CHECK(after.x == expected.x);
   CHECK(after.v == expected.v);
 }

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "step.h"
+#include "step/step.h"
 
 namespace pbd::test {
 
@@ -22,7 +22,7 @@ inline Method method_of(std::string_view relaxation, std::string_view friction =
 inline State run(const Scene& scene, const Method& method, double h, int steps, Workspace& workspace) {
   State state = scene.initial;
   for (int k = 0; k < steps; ++k) {
-    const Report report = step(scene, method, h, state, workspace);
+    const Report report = step(workspace, h, state);
     INFO(method.relaxation << " " << method.friction << " step " << k << " residual " << report.residual());
     REQUIRE(report.status == Status::ok);
   }

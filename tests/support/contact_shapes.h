@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "contact/generate.h"
+#include "collision/generate.h"
 #include "convex_distance.h"
 
 namespace pbd::test {
@@ -126,8 +126,9 @@ inline Touching touch(const ContactPoint& contact, const Frame& a, const Frame& 
 
 inline std::vector<ContactPoint> contacts(const Shape& a, const Frame& at_a, const Shape& b,
                                           const Frame& at_b, double margin) {
+  CollisionScratch scratch;
   std::vector<ContactPoint> found;
-  generate(a, at_a, b, at_b, margin, found);
+  generate(a, at_a, b, at_b, margin, scratch, found);
   return found;
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "contact/contact_point.h"
+#include "collision/contact_point.h"
 #include "mesh.h"
 
 namespace pbd::test {

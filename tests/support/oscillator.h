@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oscillator_rules.h"
-#include "step.h"
+#include "step/step.h"
 
 namespace pbd::test {
 
@@ -40,7 +40,7 @@ inline reference::Discrete measured(const Scene& scene, const Method& method, do
   State state = scene.initial;
   std::vector<double> q;
   for (int k = 0; k < settled + 4; ++k) {
-    CHECK(step(scene, method, h, state, workspace).status == Status::ok);
+    CHECK(step(workspace, h, state).status == Status::ok);
     if (k >= settled) q.push_back(state.x(0, 1) - 1);
   }
   return measured(q);

@@ -6,7 +6,7 @@
 
 #include "mesh.h"
 #include "scenes/standard.h"
-#include "step.h"
+#include "step/step.h"
 
 namespace pbd::test {
 
@@ -24,7 +24,7 @@ inline Method direct_method(double tolerance = 1e-13) {
 inline Report one_step(const Scene& scene, const Method& method, double h, State& state,
                        const Observer& observer = {}) {
   Workspace workspace(scene, method);
-  return step(scene, method, h, state, workspace, observer);
+  return step(workspace, h, state, observer);
 }
 
 /// Bob on a massless hard link, released horizontally at rest.
@@ -37,7 +37,7 @@ inline State advanced(const Scene& scene, double h, int steps) {
   const Method method = direct_method(1e-12);
   Workspace workspace(scene, method);
   State state = scene.initial;
-  for (int k = 0; k < steps; ++k) step(scene, method, h, state, workspace);
+  for (int k = 0; k < steps; ++k) step(workspace, h, state);
   return state;
 }
 

@@ -1,0 +1,66 @@
+// The commands of pbdcheck. Each takes its options, writes results to stdout or files, and returns the exit
+// code; mistakes in what the user gave are SetupErrors.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/exit_codes.h"
+#include "studies/experiments.h"
+
+namespace pbdcheck {
+
+inline constexpr const char* default_directory = "results";
+
+/// What can be listed.
+std::vector<std::string> list_kinds();
+
+struct ListOptions {
+  std::string kind;  // empty: all kinds
+  bool json = false;
+};
+int list(const ListOptions& options);
+
+struct SimulateOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> settings;  // KEY=VALUE
+  std::filesystem::path directory = default_directory;
+  std::string export_format;  // empty or "vtk"
+};
+int simulate(const SimulateOptions& options);
+
+struct CompareOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> settings;
+  std::vector<std::string> methods;  // each "KEY=VALUE KEY=VALUE ..." on top of the scene's method
+  std::string reference;             // empty: the first one
+  int at_step = 0;                   // steps of the scene's own method before the step that is compared
+  std::filesystem::path directory = default_directory;
+};
+int compare(const CompareOptions& options);
+
+struct RunOptions {
+  std::vector<std::string> experiments;
+  bool all = false;
+  std::string tier = "quick";
+  int threads = 1;
+  bool resume = false;
+  std::filesystem::path directory = default_directory;
+};
+int run(const RunOptions& options, const std::vector<Experiment>& known = experiments());
+
+struct ConeOptions {
+  std::filesystem::path problem;
+  std::string law = "coulomb";
+  std::string relaxation = "cone_interior_point";
+  double tolerance = 1e-8;
+  bool json = false;
+  std::filesystem::path output;  // empty: none
+};
+int cone(const ConeOptions& options);
+
+/// Prints the completion script of a shell.
+int completion(const std::string& shell);
+
+}  // namespace pbdcheck

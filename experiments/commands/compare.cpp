@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "commands/commands.h"
+#include "commands/contender.h"
+#include "error.h"
+#include "harness/contact_sums.h"
+#include "harness/files.h"
+#include "harness/interrupt.h"
+#include "harness/judges.h"
+#include "harness/measure.h"
+#include "harness/progress.h"
+#include "harness/provenance.h"
+#include "scenes/scene_file.h"
+
+namespace pbdcheck {
+namespace {
+
+/// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
+/// tolerance. Throws std::runtime_error if one diverged.
+pbd::State advanced(SceneFile& file, int steps, int& missed) {
+  const pbd::Scene stated = file.scene;
+  pbd::State state = stated.initial;
+  pbd::Workspace workspace = file.workspace();
+  for (int i = 1; i <= steps; ++i) {
+    throw_if_interrupted();
+    file.script.begin_step(stated, file.step_s, file.scene, state);
+    file.script.hand_on(file.scene, workspace);
+    const auto report =
+        pbd::step(workspace, file.step_s, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
+    if (report.status == pbd::Status::diverged)
+      throw std::runtime_error(
+          fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
+    if (report.status != pbd::Status::ok) ++missed;
+  }
+  file.script.begin_step(stated, file.step_s, file.scene, state);
+  return state;
+}
+
+/// compare.csv as it is written.
+class Comparison {
+ public:
+  Comparison(const CompareOptions& options, const SceneFile& file)
+      : scene_(options.scene.stem().string()),
+        step_s_(file.step_s),
+        table_(options.directory / "compare.csv",
+               {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
+                "sweeps", "row_updates", "wall_s", "error", "status", "reason", "method"},
+               &rows_) {}
+
+  /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
+  void add_judge(const std::string& name, const Judged& judged) {
+    pbd::Method method;
+    method.outer = "judge";
+    method.relaxation = name;
+    add({name, method},
+        {.outer_iterations = judged.iterations,
+         .wall_s = judged.seconds,
+         .error = judged.status == "ok" ? 0 : std::nan("")},
+        judged.status, judged.reason);
+  }
+
+  /// A method's iterates; returns whether it solved the step.
+  bool add_trace(const Contender& contender, const Trace& trace) {
+    bool ok = trace.report.status == pbd::Status::ok;
+    for (const auto& point : trace.points) {
+      const bool finite = std::isfinite(point.error);
+      ok = ok && finite;
+      add(contender, point,
+          finite ? pbd::status_names[static_cast<std::size_t>(trace.report.status)] : "diverged",
+          finite ? trace.report.reason : "error not finite");
+    }
+    return ok;
+  }
+
+  void skip(const Contender& contender, std::string_view reason) {
+    add(contender, {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", reason);
+  }
+
+  void close() { table_.close(); }
+  const RowCounts& rows() const { return rows_; }
+
+ private:
+  void add(const Contender& contender, const TracePoint& point, std::string_view status,
+           std::string_view reason) {
+    const auto& method = contender.method;
+    table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation, std::string("none"),
+                std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
+                point.error, std::string(status), std::string(reason), contender.text});
+  }
+
+  std::string scene_;
+  double step_s_;
+  RowCounts rows_;
+  Table table_;
+};
+
+nlohmann::ordered_json settings_json(const CompareOptions& options, const SceneFile& file,
+                                     const std::string& reference) {
+  return {{"scene", options.scene.string()}, {"set", options.settings},
+          {"step_s", file.step_s},           {"at_step", options.at_step},
+          {"nodes", file.scene.nodes()},     {"method", method_text(file.method)},
+          {"compared", options.methods},     {"reference", reference}};
+}
+
+/// Draws `compare.csv` of a folder by the project's plotting script; a warning if that fails.
+void draw(const std::filesystem::path& directory) {
+  const std::string script = PBDCHECK_PLOTS "/compare.py", folder = directory.string();
+  const char* const arguments[] = {PBDCHECK_PYTHON, script.c_str(), folder.c_str(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  const bool started =
+      posix_spawn(&child, arguments[0], nullptr, nullptr, const_cast<char* const*>(arguments), environ) == 0;
+  if (!started || waitpid(child, &status, 0) < 0 || status != 0)
+    warn(fmt::format("no figure drawn: {} {} failed", arguments[0], script));
+}
+
+/// Refuses what the reference does not solve, and a step beyond the scene's last.
+void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
+  if (contact_of(file.scene) != nullptr)
+    throw pbd::SetupError("--reference " + reference, "a scene with contact",
+                          "a scene without the table [contact]: this reference solves equations, and a gap "
+                          "is none");
+  for (const auto& joint : file.joints)
+    if (joint.bounded)
+      throw pbd::SetupError(joint.where, "a limit or a limited force",
+                            "neither in what is compared: the references solve equations");
+  if (options.at_step >= file.steps)
+    throw pbd::SetupError("--at-step", std::to_string(options.at_step),
+                          fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  SceneFile file = read_scene_file(options.scene, options.settings);
+  const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
+  require_comparable(options, file, name);
+  const auto contenders = parsed_contenders(options.methods, file);
+  require_writable(options.directory);
+  Comparison comparison(options, file);
+  PartialFile record(options.directory / "run.json");
+
+  int missed = 0;
+  const pbd::State state = advanced(file, options.at_step, missed);
+  if (missed > 0)
+    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
+                     options.at_step));
+  const Judged judged = judge_step(name, file.scene, state, file.step_s);
+  comparison.add_judge(name, judged);
+  Outcome outcome = Outcome::complete;
+  std::string reason;
+  if (judged.status != "ok") {
+    outcome = Outcome::failed;
+    reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
+    error_message(reason);
+  }
+  bool all_ok = outcome == Outcome::complete && missed == 0;
+  Progress progress("compare", static_cast<std::int64_t>(contenders.size()));
+  try {
+    for (const auto& contender : contenders) {
+      if (outcome == Outcome::failed) {
+        comparison.skip(contender, reason);
+        continue;
+      }
+      throw_if_interrupted();
+      const Trace trace = measure([&] { return contender.measure_once(file, state, judged.x); });
+      if (!comparison.add_trace(contender, trace)) {
+        all_ok = false;
+        warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));
+      }
+      progress.advance(contender.text);
+    }
+  } catch (const Interrupted&) {
+    outcome = Outcome::interrupted;
+    reason = "stopped by the user";
+  }
+  comparison.close();
+  auto json = run_record(1, outcome, reason);
+  json["settings"] = settings_json(options, file, name);
+  json["rows"] = comparison.rows();
+  json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.write(json_text(json));
+  record.complete();
+  if (outcome == Outcome::interrupted) return exit_interrupted;
+  draw(options.directory);
+  return all_ok ? exit_done : exit_failed;
+}
+
+}  // namespace pbdcheck

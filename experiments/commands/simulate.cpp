@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands/commands.h"
+#include "harness/files.h"
+#include "harness/interrupt.h"
+#include "harness/probes.h"
+#include "harness/progress.h"
+#include "harness/provenance.h"
+#include "harness/vtk.h"
+
+namespace pbdcheck {
+namespace {
+
+/// What a run's steps reached, summed up.
+struct Totals {
+  std::int64_t steps = 0;
+  std::array<std::int64_t, pbd::status_names.size()> by_status{};
+  std::int64_t outer_iterations = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t row_updates = 0;
+  double worst_residual = 0;
+  std::int64_t worst_step = 0;
+
+  void add(const pbd::Report& report) {
+    ++steps;
+    ++by_status[static_cast<std::size_t>(report.status)];
+    outer_iterations += report.outer_iterations;
+    sweeps += report.sweeps;
+    row_updates += report.row_updates;
+    if (!std::isnan(worst_residual) && !(report.residual() <= worst_residual)) {
+      worst_residual = report.residual();
+      worst_step = steps;
+    }
+  }
+  std::int64_t missed() const { return steps - by_status[0]; }
+};
+
+class Output {
+ public:
+  Output(const SimulateOptions& options, const SceneFile& file) : file_(file) {
+    require_writable(options.directory);
+    if (!file.probes.empty()) {
+      for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
+      probes_.emplace(options.directory / "probes.csv", columns_, &rows_);
+    }
+    if (options.export_format != "vtk") return;
+    frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
+    surfaces_.emplace(file.scene, file.bodies);
+    if (!surfaces_->empty()) body_frames_.emplace(options.directory, "bodies", "bodies", surfaces_->cells());
+  }
+
+  /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing.
+  std::string add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped) {
+    std::vector<Cell> row{step, state.time};
+    append_probes(file_, state, stepped, row);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (const auto* number = std::get_if<double>(&row[i]); number != nullptr && !std::isfinite(*number))
+        return columns_[i];
+    if (probes_) probes_->row(row);
+    if (frames_) frames_->add_frame(state.time, state.x, state.v);
+    if (body_frames_) {
+      pbd::Points x, v;
+      surfaces_->place(state, x, v);
+      body_frames_->add_frame(state.time, x, v);
+    }
+    return "";
+  }
+
+  void close() {
+    if (probes_) probes_->close();
+    if (frames_) frames_->close();
+    if (body_frames_) body_frames_->close();
+  }
+
+  const RowCounts& rows() const { return rows_; }
+
+ private:
+  const SceneFile& file_;
+  RowCounts rows_;
+  std::vector<std::string> columns_{"step", "time_s"};
+  std::optional<Table> probes_;
+  std::optional<VtkSeries> frames_, body_frames_;
+  std::optional<BodySurfaces> surfaces_;
+};
+
+/// The worst step, which may have no residual.
+std::string worst_text(const Totals& totals) {
+  return std::isfinite(totals.worst_residual)
+             ? fmt::format("the worst with {:.3g} (step {})", totals.worst_residual, totals.worst_step)
+             : fmt::format("step {} diverged", totals.worst_step);
+}
+
+nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& workspace) {
+  auto steps = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < totals.by_status.size(); ++i)
+    steps[std::string(pbd::status_names[i])] = totals.by_status[i];
+  auto effects = nlohmann::ordered_json::array();
+  for (const auto& cost : workspace.costs())
+    effects.push_back(
+        {{"effect", cost.effect}, {"rows", cost.rows}, {"bytes", cost.bytes}, {"seconds", cost.seconds}});
+  return {{"steps", totals.steps},
+          {"steps_by_status", steps},
+          {"worst_residual", totals.worst_residual},
+          {"worst_step", totals.worst_step},
+          {"outer_iterations", totals.outer_iterations},
+          {"sweeps", totals.sweeps},
+          {"row_updates", totals.row_updates},
+          {"effects", effects}};
+}
+
+nlohmann::ordered_json settings_json(const SimulateOptions& options, const SceneFile& file) {
+  return {{"scene", options.scene.string()}, {"set", options.settings},
+          {"step_s", file.step_s},           {"steps", file.steps},
+          {"nodes", file.scene.nodes()},     {"method", method_text(file.method)},
+          {"export", options.export_format}};
+}
+
+/// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
+std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
+  const pbd::Scene stated = file.scene;
+  pbd::State state = stated.initial;
+  file.script.begin_step(stated, file.step_s, file.scene, state);
+  Progress progress("simulate", file.steps);
+  std::string lost = output.add(0, state, nullptr);
+  while (totals.steps < file.steps && lost.empty()) {
+    throw_if_interrupted();
+    file.script.begin_step(stated, file.step_s, file.scene, state);
+    file.script.hand_on(file.scene, workspace);
+    const auto report =
+        pbd::step(workspace, file.step_s, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
+    totals.add(report);
+    if (report.status == pbd::Status::diverged)
+      return fmt::format("step {} diverged: {}", totals.steps, report.reason);
+    if (report.status != pbd::Status::ok && totals.missed() == 1)
+      warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
+                       totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
+                       report.reason, report.residual(), file.method.tolerance));
+    lost = output.add(totals.steps, state, &workspace);
+    progress.advance(fmt::format("t = {:.4g} s", state.time));
+  }
+  return lost.empty() ? "" : fmt::format("step {} diverged: {} is not finite", totals.steps, lost);
+}
+
+}  // namespace
+
+int simulate(const SimulateOptions& options) {
+  SceneFile file = read_scene_file(options.scene, options.settings);
+  pbd::Workspace workspace = file.workspace();
+  Output output(options, file);
+  PartialFile record(options.directory / "run.json");
+
+  const auto start = std::chrono::steady_clock::now();
+  Totals totals;
+  Outcome outcome = Outcome::complete;
+  std::string reason;
+  try {
+    reason = advance(file, workspace, output, totals);
+    if (!reason.empty()) outcome = Outcome::failed;
+  } catch (const Interrupted&) {
+    outcome = Outcome::interrupted;
+    reason = "stopped by the user";
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  output.close();
+
+  auto json = run_record(1, outcome, reason);
+  json["settings"] = settings_json(options, file);
+  json["wall_s"] = wall.count();
+  json["rows"] = output.rows();
+  json["report"] = report_json(totals, workspace);
+  record.write(json_text(json));
+  record.complete();
+
+  if (totals.missed() > 0)
+    warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, {}", totals.missed(), totals.steps,
+                     file.method.tolerance, worst_text(totals)));
+  if (outcome == Outcome::failed) error_message(reason);
+  if (outcome == Outcome::interrupted) return exit_interrupted;
+  return outcome == Outcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,90 @@
+#include "cones/cone_file.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "error.h"
+#include "validate.h"
+
+namespace pbdcheck {
+namespace {
+
+using Eigen::VectorXd;
+using pbd::SetupError;
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// False for NaN, too.
+bool usable(const VectorXd& numbers) {
+  return (numbers.array().abs() <= largest_in_cone).all();
+}
+
+double asymmetry(const Sparse& w) {
+  const double size = w.norm();
+  return size > 0 ? Sparse(w - Sparse(w.transpose())).norm() / size : 0;
+}
+
+Sparse symmetric(const Sparse& w) {
+  return 0.5 * (w + Sparse(w.transpose()));
+}
+
+/// Whether the symmetric part is positive semidefinite within its stored errors.
+bool semidefinite(const Sparse& w) {
+  constexpr double rounding = 1e-10;
+  const double size = w.diagonal().cwiseAbs().maxCoeff();
+  Sparse shift(w.rows(), w.cols());
+  shift.setIdentity();
+  shift *= (rounding + asymmetry(w)) * (size > 0 ? size : 1);
+  return Eigen::SimplicialLLT<Sparse>(Sparse(symmetric(w) + shift)).info() == Eigen::Success;
+}
+
+void require(bool holds, const std::filesystem::path& path, const std::string& got,
+             const std::string& allowed) {
+  if (!holds) throw SetupError(path.string(), got, allowed);
+}
+
+}  // namespace
+
+ConeFile read_cone_file(const std::filesystem::path& path) {
+  require(std::filesystem::is_regular_file(path), path, "no file",
+          "an FCLIB HDF5 file or a Siconos text file");
+  StoredCone stored = is_hdf5(path) ? read_fclib(path) : read_siconos(path);
+  const auto contacts = stored.friction.size();
+  require(contacts > 0, path, "no contact", "one or more");
+  const Sparse& w = stored.delassus;
+  require(w.rows() == 3 * contacts && w.cols() == 3 * contacts, path,
+          fmt::format("W of {} x {} for {} contacts", w.rows(), w.cols(), contacts),
+          "three rows and columns a contact");
+  require(stored.free_velocity.size() == 3 * contacts, path,
+          fmt::format("q of {} numbers for {} contacts", stored.free_velocity.size(), contacts),
+          "three a contact");
+  const std::string allowed = fmt::format("finite numbers, at most {:g}", largest_in_cone);
+  require(usable(Eigen::Map<const VectorXd>(w.valuePtr(), w.nonZeros())), path,
+          "W with a number that is too large or none", allowed);
+  require(usable(stored.free_velocity), path, "q with a number that is too large or none", allowed);
+  for (Eigen::Index i = 0; i < contacts; ++i)
+    require(stored.friction(i) >= 0 && stored.friction(i) <= pbd::most_friction, path,
+            fmt::format("mu = {} at contact {}", stored.friction(i), i),
+            fmt::format("a number from 0 to {:g}", pbd::most_friction));
+
+  ConeFile file;
+  file.form = stored.form;
+  bool fits = semidefinite(w);
+  if (stored.transposed.size() > 0) {  // both readings are possible
+    const bool other = semidefinite(stored.transposed);
+    const bool rows = other && (!fits || asymmetry(stored.transposed) < 0.1 * asymmetry(w));
+    file.form += rows ? ", blocks read row by row" : ", blocks read column by column";
+    if (rows) stored.delassus = stored.transposed, fits = true;
+  }
+  require(fits, path, "W whose symmetric part is not positive semidefinite", "a Delassus matrix, H^T M^-1 H");
+  file.asymmetry = asymmetry(stored.delassus);
+  constexpr double most_asymmetry = 0.01;
+  require(file.asymmetry <= most_asymmetry, path,
+          fmt::format("W unsymmetric by {:.2g} of its size", file.asymmetry),
+          fmt::format("at most {}", most_asymmetry));
+  file.problem = {symmetric(stored.delassus), std::move(stored.free_velocity), std::move(stored.friction)};
+  return file;
+}
+
+}  // namespace pbdcheck

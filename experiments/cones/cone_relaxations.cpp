@@ -1,0 +1,149 @@
+#include "cones/cone_relaxations.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "harness/interrupt.h"
+#include "linear/linear_solver.h"
+#include "rows/laws.h"
+
+namespace pbdcheck {
+
+using namespace pbd;
+using reference::ConeProblem;
+using reference::ConeSolution;
+using reference::FrictionLaw;
+
+namespace {
+
+/// W by its 3 x 3 blocks, column after column.
+void fill_columns(const Eigen::SparseMatrix<double>& delassus, LocalContacts& block) {
+  for (int j = 0; j < static_cast<int>(block.size()); ++j) {
+    auto& column = block.column[static_cast<std::size_t>(j)];
+    for (int axis = 0; axis < 3; ++axis)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(delassus, 3 * j + axis); entry; ++entry) {
+        const int contact = static_cast<int>(entry.row() / 3);
+        auto at =
+            std::find_if(column.begin(), column.end(), [&](const auto& c) { return c.contact == contact; });
+        if (at == column.end()) at = column.insert(at, {contact, Eigen::Matrix3d::Zero()});
+        at->block(entry.row() % 3, axis) = entry.value();
+        if (contact == j) block.delassus[static_cast<std::size_t>(j)] = at->block;
+      }
+  }
+}
+
+/// f(block, i) for each contact, in order.
+template <class F>
+void each_contact(const Rows& rows, F&& f) {
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    if constexpr (Block::rows == 3)
+      for (std::size_t i = 0; i < block.size(); ++i) f(block, i);
+  });
+}
+
+Eigen::VectorXd impulses(const Rows& rows) {
+  Eigen::VectorXd all(row_count(rows));
+  Eigen::Index row = 0;
+  each_contact(rows, [&](const auto& block, std::size_t i) {
+    all.segment<3>(row) = block.impulse[i];
+    row += 3;
+  });
+  return all;
+}
+
+}  // namespace
+
+Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
+  const auto count = static_cast<std::size_t>(problem.contacts());
+  LocalContacts block;
+  block.resize_contacts(count);
+  block.column.resize(count);
+  block.law = friction_by_name(reference::friction_law_names[static_cast<std::size_t>(law)]);
+  block.friction.assign(problem.friction.begin(), problem.friction.end());
+  block.delassus.assign(count, Eigen::Matrix3d::Zero());
+  fill_columns(problem.delassus, block);
+  for (std::size_t i = 0; i < count; ++i) {
+    block.node[i] = {static_cast<int>(i)};
+    block.jacobian[i].setIdentity();
+    block.bias[i].setZero();
+    block.compliance[i].setZero();
+    const double trace = block.delassus[i].trace();
+    block.inverse_diagonal[i] = (trace > 0 ? 3 / trace : 1) * Eigen::Matrix3d::Identity();
+    if (!(trace > 0)) block.bounds[i].freedom = Freedom::held;  // nothing that it touches can move
+  }
+  Rows rows;
+  rows.inverse_mass.assign(count, 0);
+  rows.contacts = true;
+  rows.blocks.emplace_back(std::move(block));
+  return rows;
+}
+
+ConeProblem cone_problem(const Rows& rows, const Points& v_free) {
+  ConeProblem problem;
+  const auto count = row_count(rows);
+  problem.free_velocity.resize(count);
+  problem.friction.resize(count / 3);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index row = 0;
+  each_contact(rows, [&]<class Block>(const Block& block, std::size_t i) {
+    problem.friction(row / 3) = block.friction[i];
+    problem.free_velocity.segment<3>(row) = block.residual(v_free, i, Eigen::Vector3d::Zero());
+    for (int k = 0; k < 3; ++k, ++row)
+      for (int entry = 0; entry < 3 * Block::nodes; ++entry)
+        entries.emplace_back(row, 3 * block.node[i][static_cast<std::size_t>(entry / 3)] + entry % 3,
+                             block.jacobian[i](k, entry));
+  });
+  Eigen::SparseMatrix<double> jacobian(count, v_free.size());
+  jacobian.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd inverse_mass = Eigen::VectorXd::NullaryExpr(
+      v_free.size(), [&](Eigen::Index k) { return rows.inverse_mass[static_cast<std::size_t>(k / 3)]; });
+  problem.delassus = jacobian * inverse_mass.asDiagonal() * jacobian.transpose();
+  return problem;
+}
+
+Points moved_by(const Rows& rows, Points v_free, const Eigen::VectorXd& impulse) {
+  Eigen::Index row = 0;
+  each_contact(rows, [&](const auto& block, std::size_t i) {
+    block.apply(rows.inverse_mass, i, impulse.segment<3>(row), v_free);
+    row += 3;
+  });
+  return v_free;
+}
+
+ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, const ConeTask& task) {
+  const auto start = std::chrono::steady_clock::now();
+  LinearSolver any = make_linear_solver(relaxation);
+  ConeSolution found;
+  std::visit(
+      [&](auto& method) {
+        method.begin(rows, v_free, true);
+        // The relaxation's own residual is of another norm: it says when the natural one is worth a look.
+        double worth = infinity;
+        while (found.iterations < task.most_sweeps) {
+          throw_if_interrupted();
+          const auto [own, exhausted] = method.sweep(rows, v_free, nullptr);
+          ++found.iterations;
+          if (own > worth && !exhausted) continue;
+          const double natural = measure_cone(task.problem, task.law, impulses(rows)).residual();
+          if (exhausted || !(own > 0 && natural > task.tolerance))
+            break;  // reached, nothing left to gain, or NaN
+          constexpr double least = 0.1, most = 0.7;
+          worth = own * std::clamp(task.tolerance / natural, least, most);
+        }
+        if constexpr (requires { method.further_sweeps(); })
+          found.iterations += static_cast<int>(method.further_sweeps());
+      },
+      any);
+  found.impulse = impulses(rows);
+  certify(task.problem, task.law, task.tolerance, found);
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return found;
+}
+
+ConeSolution relax_cone(std::string_view relaxation, const ConeTask& task) {
+  return relax_cone(relaxation, local_rows(task.problem, task.law),
+                    task.problem.free_velocity.reshaped(3, task.problem.contacts()), task);
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,33 @@
+// What can solve a contact problem with friction, as `cone --relaxation` and the experiments name it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cones/cone_relaxations.h"
+
+namespace pbdcheck {
+
+/// That relaxations may take to solve a problem.
+inline constexpr int most_sweeps = 200000;
+
+struct ConeSolver {
+  std::string name;
+  std::vector<std::string> laws;
+  std::function<pbd::reference::ConeSolution(const ConeTask&)> solve;
+  bool judge;  // shares no code with the solver; knows no sweeps
+};
+
+/// Judges, and the solver's relaxations; the first is the default.
+const std::vector<ConeSolver>& cone_solvers();
+
+/// Names of all laws.
+std::vector<std::string> cone_laws();
+
+/// The solver of that name for that law. Throws SetupError naming those there are.
+const ConeSolver& find_cone_solver(const std::string& name, const std::string& law);
+
+pbd::reference::FrictionLaw friction_law(const std::string& name);
+
+}  // namespace pbdcheck

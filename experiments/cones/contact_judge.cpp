@@ -1,0 +1,45 @@
+#include "cones/contact_judge.h"
+
+#include <chrono>
+#include <limits>
+
+#include "harness/interrupt.h"
+#include "harness/rows_of_step.h"
+
+namespace pbdcheck {
+
+using namespace pbd;
+
+ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, const State& state, double h,
+                                reference::FrictionLaw law) {
+  constexpr double settled = 1e-12, accuracy = 1e-12;
+  constexpr int most = 100;
+  const auto begin = std::chrono::steady_clock::now();
+  ContactJudgement found;
+  found.status = "not_converged";
+  found.reason = "velocities do not settle";
+  found.residual = std::numeric_limits<double>::infinity();
+  StepRows step(scene, state, h, law == reference::FrictionLaw::cone ? Friction::cone : Friction::coulomb);
+  const double scale = step.v_free().colwise().norm().maxCoeff();
+  Points v = step.v_free();
+  while (found.iterations < most && !(found.residual <= settled)) {
+    throw_if_interrupted();
+    step.linearise(v);
+    const reference::ConeProblem problem = cone_problem(step.rows(), step.v_free());
+    const auto solved = judge.solve({problem, law, accuracy, 0});
+    const Points next = moved_by(step.rows(), step.v_free(), solved.impulse);
+    found.residual = (next - v).colwise().norm().maxCoeff<Eigen::PropagateNaN>() / scale;
+    v = next;
+    ++found.iterations;
+    if (solved.outcome != reference::Outcome::ok) {
+      found.reason = solved.reason;
+      break;
+    }
+    if (found.residual <= settled) found.status = "ok", found.reason.clear();
+  }
+  found.end = step.end(v);
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return found;
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,37 @@
+// The references, as the program's commands see them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/cases.h"
+#include "judge.h"
+#include "scene.h"
+
+namespace pbdcheck {
+
+/// Names of the references that solve a step.
+std::vector<std::string> reference_names();
+
+/// What a reference says about one step.
+struct Judged {
+  pbd::Points x;       // places at the end, m; what was reached of nodes if not ok
+  std::string status;  // ok or not_converged
+  std::string reason;  // empty if ok
+  int iterations = 0;
+  double seconds = 0;
+  double residual = 0;
+};
+
+/// The implicit Euler step of h seconds from `state` by a reference; an empty name takes the first one.
+/// Throws SetupError for a name that is not one of `reference_names()`.
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h);
+
+/// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
+/// reason unless it was solved, Interrupted if the user asked to stop.
+pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h);
+
+/// The state before a case's step. Throws as `truth` does.
+pbd::State start_of(const Case& each);
+
+}  // namespace pbdcheck

@@ -1,0 +1,78 @@
+// One step by one method, watched: how the error falls with iterations, sweeps, row updates and time.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rivals/rival.h"
+#include "scene.h"
+#include "step/step.h"
+
+namespace pbdcheck {
+
+/// The step after `outer_iterations`. `wall_s` begins with the making of workspace or rival, leaves out the
+/// observer and is the smallest of the repeats.
+struct TracePoint {
+  int outer_iterations = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t row_updates = 0;
+  double wall_s = 0;
+  double error = 0;     // see relative_error
+  double residual = 0;  // relative to the step's scale
+};
+
+struct Trace {
+  std::vector<TracePoint> points;  // from the first iterate to the step's end
+  pbd::Report report;
+};
+
+/// How often a step is timed, after a first run that is thrown away (it warms caches and the allocator).
+inline constexpr int timed_repeats = 3;
+
+/// Largest of the values added: NaN once one of them was NaN, and NaN if there was none, so that no verdict
+/// holds on nothing.
+class Worst {
+ public:
+  void add(double value) {
+    largest_ = any_ && !(value > largest_) && !std::isnan(value) ? largest_ : value;
+    any_ = true;
+    spoilt_ = spoilt_ || std::isnan(value);
+  }
+  double value() const { return any_ && !spoilt_ ? largest_ : std::nan(""); }
+
+ private:
+  double largest_ = 0;
+  bool any_ = false, spoilt_ = false;
+};
+
+/// Positions of all nodes, and of points of each body at its radii of gyration along the principal axes (1 m
+/// where its inertia is infinite), 3 x (N + 3 B).
+pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
+                   const std::vector<Eigen::Quaterniond>& orientation);
+
+/// max |x - reference| / max |reference - start| over the places; if nothing moved, the numerator in metres;
+/// NaN where the displacement is not finite.
+double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
+
+/// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the places at
+/// its end `exact`. Throws SetupError as Workspace does, and Interrupted.
+Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
+                   const pbd::Points& exact);
+
+/// The same by a rival, of scenes without bodies. Throws SetupError as its making does.
+Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,
+                   const pbd::rivals::NamedRival& rival, const pbd::rivals::Budget& budget,
+                   const pbd::Points& exact);
+
+/// `once` `timed_repeats` times after a discarded run, with the smallest times; a step that misses its
+/// tolerance is done once.
+Trace measure(const std::function<Trace()>& once);
+
+/// A rival's report as our solver would give it.
+pbd::Report report_of(const pbd::rivals::Report& report);
+
+}  // namespace pbdcheck

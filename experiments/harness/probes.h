@@ -1,0 +1,38 @@
+// What a simulation writes down after every step.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/experiment.h"
+#include "scenes/scene_file.h"
+
+namespace pbdcheck {
+
+/// Column names of the file's probes, units as suffixes.
+std::vector<std::string> probe_columns(const SceneFile& file);
+
+/// Appends the probes' values at `state` to a row; `stepped` is the workspace whose last step ended there,
+/// null at the start.
+void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Workspace* stepped,
+                   std::vector<Cell>& row);
+
+/// Sum of 1/2 m v^2 over the nodes of finite mass and 1/2 w . I w over the bodies of finite inertia, J.
+double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Minus the sum of m a . x over the nodes of finite mass, J; zero at the origin.
+double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J; of one whose force has bounds, what
+/// they let it hold.
+double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
+
+/// Of an effect's values, as columns end: "_m", "_rad" or nothing.
+std::string_view error_unit(const pbd::Effect& effect);
+
+/// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
+/// A limit counts where it is passed, a motor of limited force not at all.
+double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state);
+
+}  // namespace pbdcheck

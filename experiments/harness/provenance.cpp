@@ -1,0 +1,76 @@
+#include "harness/provenance.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "build_info.h"
+#include "harness/experiment.h"
+#include "judge.h"
+#include "rivals/blas.h"
+#include "scenes/body_shapes.h"
+
+namespace pbdcheck {
+namespace {
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
+  return "unknown";
+}
+
+nlohmann::ordered_json libraries() {
+  nlohmann::ordered_json used{
+      {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"tomlplusplus", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+      {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                    NLOHMANN_JSON_VERSION_PATCH)},
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"cli11", CLI11_VERSION},
+      {"qhull", qhull_version()}};
+  for (const auto& [name, version] : pbd::reference::library_versions()) used[name] = version;
+  used["blas"] = pbd::rivals::blas_library();
+  return used;
+}
+
+}  // namespace
+
+bool from_this_build(const nlohmann::ordered_json& record) {
+  return record.value("commit", "") == build_info::commit &&
+         record.value("changes", "") == build_info::changes;
+}
+
+std::string version_text() {
+  std::string text = fmt::format("pbdcheck {} ({}{})", build_info::version, build_info::commit,
+                                 build_info::dirty ? ", with uncommitted changes" : "");
+  const auto used = libraries();
+  for (const auto& [name, version] : used.items()) text += "\n" + name + " " + version.get<std::string>();
+  return text;
+}
+
+nlohmann::ordered_json run_record(int threads, Outcome outcome, const std::string& reason) {
+  nlohmann::ordered_json record{{"commit", build_info::commit},
+                                {"dirty", build_info::dirty},
+                                {"changes", build_info::changes},
+                                {"version", build_info::version},
+                                {"compiler", build_info::compiler},
+                                {"flags", build_info::flags},
+                                {"processor", processor()},
+                                {"threads", threads},
+                                {"seed", seed},
+                                {"libraries", libraries()},
+                                {"status", outcome_names[static_cast<std::size_t>(outcome)]}};
+  if (!reason.empty()) record["reason"] = reason;
+  return record;
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2) + "\n";
+}
+
+}  // namespace pbdcheck

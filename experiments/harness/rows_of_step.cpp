@@ -1,0 +1,116 @@
+#include "harness/rows_of_step.h"
+
+#include <Eigen/Dense>
+
+#include "effects/sources.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+/// All rows as dense J (m x 3N), Sigma (m x m) and b (m).
+struct DenseRows {
+  Eigen::MatrixXd jacobian, sigma;
+  Eigen::VectorXd bias;
+};
+
+DenseRows dense(const Rows& rows, int nodes) {
+  const auto count = row_count(rows);
+  DenseRows all{Eigen::MatrixXd::Zero(count, 3 * nodes), Eigen::MatrixXd::Zero(count, count),
+                Eigen::VectorXd::Zero(count)};
+  std::int64_t row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i, row += Block::rows) {
+      for (int a = 0; a < Block::nodes; ++a)
+        all.jacobian.block(row, 3 * block.node[i][static_cast<std::size_t>(a)], Block::rows, 3) =
+            block.jacobian[i].template middleCols<3>(3 * a);
+      all.sigma.block(row, row, Block::rows, Block::rows) = block.compliance[i];
+      all.bias.segment(row, Block::rows) = block.bias[i];
+    }
+  });
+  return all;
+}
+
+}  // namespace
+
+void stir(Scene& scene) {
+  for (int node = 0; node < scene.nodes(); ++node)
+    if (std::isfinite(scene.mass[static_cast<std::size_t>(node)]))
+      scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
+}
+
+StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law)
+    : scene_(scene),
+      h_(h),
+      slots_(allocate_rows(scene, law, false, rows_)),
+      bodies_(scene),
+      time_(state.time) {
+  Points acceleration;
+  bodies_.begin(state, start_x_, start_v_);
+  bodies_.place(start_x_, start_poses_);
+  set_given_accelerations(scene, {bodies_, start_poses_, start_v_, false}, acceleration);
+  v_free_ = start_v_ + h * acceleration;
+  const Configuration start{start_x_, start_poses_, time_};
+  const StepMap begun = map(v_free_);
+  const StepCoefficients euler{h, h};
+  const Points no_acceleration;
+  const StepBegin begin{
+      bodies_, begun, euler, start, start, start, start_v_, no_acceleration, rows_.inverse_mass, false};
+  for (Slot& slot : slots_)
+    if (slot.source->kind().contacts) slot.source->begin_step(begin, slot.blocks(rows_));
+}
+
+void StepRows::linearise(const Points& v) {
+  const StepMap begun = map(v_free_);
+  const Points x = start_x_ + h_ * v, no_acceleration;
+  const Configuration start{start_x_, start_poses_, time_};
+  const StepCoefficients euler{h_, h_};
+  const StepBegin begin{
+      bodies_, begun, euler, start, start, start, start_v_, no_acceleration, rows_.inverse_mass, true};
+  for (Slot& slot : slots_) slot.source->widen(begin, x, slot.blocks(rows_));
+  bodies_.place(x, poses_);
+  const Configuration at{x, poses_, time_ + h_};
+  clear_impulses(rows_);
+  RowResidual unused;
+  for (Slot& slot : slots_)
+    slot.source->linearise({begun, at, nullptr, v, rows_.inverse_mass, 1}, slot.blocks(rows_), unused);
+}
+
+State StepRows::end(const Points& v) const {
+  State state = scene_.initial;
+  state.time = time_ + h_;
+  bodies_.end(start_x_ + h_ * v, v, state);
+  return state;
+}
+
+LinearStep linear_step(const Scene& scene, const State& state, double h, Friction law) {
+  StepRows step(scene, state, h, law);
+  step.linearise(Points::Zero(3, step.v_free().cols()));
+  return {step.rows(), step.v_free()};
+}
+
+Points dense_solution(const LinearStep& step) {
+  const auto nodes = static_cast<int>(step.rows.inverse_mass.size());
+  const DenseRows all = dense(step.rows, nodes);
+  Eigen::VectorXd weights(3 * nodes);
+  for (int k = 0; k < weights.size(); ++k)
+    weights[k] = step.rows.inverse_mass[static_cast<std::size_t>(k / 3)];
+  const Eigen::MatrixXd weighted = all.jacobian * weights.asDiagonal();
+  const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
+  const Eigen::VectorXd impulses = n.ldlt().solve(-(all.bias + all.jacobian * step.v_free.reshaped()));
+  return step.v_free + (weighted.transpose() * impulses).reshaped(3, nodes);
+}
+
+double residual(const Rows& rows, const Points& v) {
+  double squared = 0;
+  for_each_block(rows.blocks, [&](const auto& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto missed = block.residual(v, i, block.impulse[i]);
+      squared += missed.dot(block.inverse_diagonal[i] * missed);
+    }
+  });
+  return std::sqrt(squared);
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,54 @@
+// The linear rows of a step, and their exact solution by a dense factorisation.
+#pragma once
+
+#include "effects/sources.h"
+#include "scene.h"
+
+namespace pbdcheck {
+
+struct LinearStep {
+  pbd::Rows rows;      // impulses zero
+  pbd::Points v_free;  // m/s
+};
+
+/// The rows of an implicit Euler step of h seconds from `state`; those of contacts by `law`.
+class StepRows {
+ public:
+  StepRows(const pbd::Scene& scene, const pbd::State& state, double h, pbd::Friction law);
+
+  /// Linearises them where velocities v (m/s, of nodes and then of bodies' rotations) lead, impulses zero.
+  void linearise(const pbd::Points& v);
+
+  const pbd::Rows& rows() const { return rows_; }
+  const pbd::Points& v_free() const { return v_free_; }
+
+  /// Where velocities v lead.
+  pbd::State end(const pbd::Points& v) const;
+
+ private:
+  pbd::StepMap map(const pbd::Points& v_free) const { return {start_x_, v_free, h_, h_, h_}; }
+
+  const pbd::Scene& scene_;
+  double h_;
+  pbd::Rows rows_;
+  std::vector<pbd::Slot> slots_;
+  pbd::Bodies bodies_;
+  std::vector<pbd::Pose> start_poses_, poses_;
+  pbd::Points start_x_, start_v_, v_free_;
+  double time_;
+};
+
+/// Adds smooth velocities that excite every mode.
+void stir(pbd::Scene& scene);
+
+/// Implicit Euler rows of h seconds from `state`, linearised at its positions; those of contacts by `law`.
+LinearStep linear_step(const pbd::Scene& scene, const pbd::State& state, double h,
+                       pbd::Friction law = pbd::Friction::coulomb);
+
+/// Velocities (m/s) that solve the rows exactly, by Eigen's dense LDL^T of N = J W J^T + Sigma.
+pbd::Points dense_solution(const LinearStep& step);
+
+/// sqrt(sum_i r_i^T N_ii^-1 r_i) of r = J v + b + Sigma p at the rows' impulses, sqrt(J).
+double residual(const pbd::Rows& rows, const pbd::Points& v);
+
+}  // namespace pbdcheck

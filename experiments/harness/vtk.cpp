@@ -1,0 +1,132 @@
+#include "harness/vtk.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace pbdcheck {
+namespace {
+
+constexpr int vtk_vertex = 1;
+constexpr int vtk_line = 3;
+constexpr int vtk_triangle = 5;
+constexpr int vtk_tetrahedron = 10;
+
+template <class Nodes>
+void add_cell(VtkCells& cells, const Nodes& nodes, int type) {
+  for (const int node : nodes) cells.connectivity += fmt::format("{} ", node);
+  cells.entries += nodes.size();
+  ++cells.count;
+  cells.offsets += fmt::format("{} ", cells.entries);
+  cells.types += fmt::format("{} ", type);
+}
+
+std::string data_array(std::string_view attributes, std::string_view text) {
+  return fmt::format("<DataArray {} format=\"ascii\">\n{}\n</DataArray>\n", attributes, text);
+}
+
+std::string numbers(const pbd::Points& points) {
+  std::string text;
+  for (int i = 0; i < points.cols(); ++i)
+    fmt::format_to(std::back_inserter(text), "{:.17g} {:.17g} {:.17g}\n", points(0, i), points(1, i),
+                   points(2, i));
+  return text;
+}
+
+constexpr std::string_view file_tag = "<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+
+}  // namespace
+
+VtkCells node_cells(const pbd::Scene& scene) {
+  VtkCells cells;
+  std::vector<bool> used(scene.mass.size(), false);
+  const auto add_all = [&]<class Effect>(const pbd::Effect& effect, int type) {
+    if (const auto* typed = std::get_if<Effect>(&effect))
+      for (const auto& nodes : typed->node) {
+        add_cell(cells, nodes, type);
+        for (const int node : nodes) used[static_cast<std::size_t>(node)] = true;
+      }
+  };
+  for (const auto& effect : scene.effects) {
+    add_all.operator()<pbd::TetStrain>(effect, vtk_tetrahedron);
+    add_all.operator()<pbd::TriangleStrain>(effect, vtk_triangle);
+    add_all.operator()<pbd::Distance>(effect, vtk_line);
+  }
+  for (int node = 0; node < scene.nodes(); ++node)
+    if (!used[static_cast<std::size_t>(node)]) add_cell(cells, std::array{node}, vtk_vertex);
+  return cells;
+}
+
+VtkSeries::VtkSeries(const std::filesystem::path& directory, std::string collection, std::string frame,
+                     const VtkCells& cells)
+    : directory_(directory),
+      frame_(std::move(frame)),
+      collection_(directory / (collection + ".pvd")),
+      cells_("<Cells>\n" + data_array(R"(type="Int32" Name="connectivity")", cells.connectivity) +
+             data_array(R"(type="Int32" Name="offsets")", cells.offsets) +
+             data_array(R"(type="UInt8" Name="types")", cells.types) + "</Cells>\n"),
+      cell_count_(cells.count) {
+  require_writable(directory_ / "frames");
+}
+
+std::string VtkSeries::frame_name(std::size_t index) const {
+  return fmt::format("frames/{}_{:06}.vtu", frame_, index);
+}
+
+void VtkSeries::add_frame(double time, const pbd::Points& x, const pbd::Points& v) {
+  const std::string vectors = R"(type="Float64" NumberOfComponents="3")";
+  write_file(directory_ / frame_name(times_.size()),
+             fmt::format(file_tag, "UnstructuredGrid") + "<UnstructuredGrid>\n" +
+                 fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", x.cols(), cell_count_) +
+                 "<Points>\n" + data_array(vectors, numbers(x)) + "</Points>\n" + cells_ +
+                 "<PointData Vectors=\"velocity\">\n" +
+                 data_array(vectors + R"( Name="velocity")", numbers(v)) +
+                 "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  times_.push_back(time);
+}
+
+void VtkSeries::close() {
+  collection_.write(fmt::format(file_tag, "Collection") + "<Collection>\n");
+  for (std::size_t i = 0; i < times_.size(); ++i)
+    collection_.write(fmt::format("<DataSet timestep=\"{:.17g}\" file=\"{}\"/>\n", times_[i], frame_name(i)));
+  collection_.write("</Collection>\n</VTKFile>\n");
+  collection_.complete();
+}
+
+BodySurfaces::BodySurfaces(const pbd::Scene& scene, const std::vector<NamedBody>& bodies)
+    : surface_{pbd::Points(3, 0), {}} {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const pbd::TriangleMesh own = surface_of(bodies[b].shape);
+    const Eigen::Index first = surface_.x.cols(), count = own.x.cols();
+    surface_.x.conservativeResize(3, first + count);
+    surface_.x.rightCols(count) = bodies[b].to_body * own.x;
+    for (const auto& [i, j, k] : own.triangles) {
+      const auto shift = static_cast<int>(first);
+      surface_.triangles.push_back({i + shift, j + shift, k + shift});
+    }
+    parts_.push_back({scene.bodies[b].node, first, count});
+  }
+}
+
+VtkCells BodySurfaces::cells() const {
+  VtkCells cells;
+  for (const auto& triangle : surface_.triangles) add_cell(cells, triangle, vtk_triangle);
+  return cells;
+}
+
+void BodySurfaces::place(const pbd::State& state, pbd::Points& x, pbd::Points& v) const {
+  x.resize(3, surface_.x.cols());
+  v.resize(3, surface_.x.cols());
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const auto& [node, first, count] = parts_[b];
+    const Eigen::Matrix3d rotation = state.orientation[b].toRotationMatrix();
+    const pbd::Vec3 spin = rotation * state.spin.col(static_cast<Eigen::Index>(b));
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      const pbd::Vec3 lever = rotation * surface_.x.col(i);
+      x.col(i) = state.x.col(node) + lever;
+      v.col(i) = state.v.col(node) + spin.cross(lever);
+    }
+  }
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,136 @@
+// Does the constraint solver, which works on the dual, reach the minimum of the primal incremental potential?
+// One step of a falling cantilever against Newton on the energy, for stiffness, strains, meshes, relaxations
+// and outer iterations; and the floor where incremental multipliers stop.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "harness/files.h"
+#include "harness/judges.h"
+#include "harness/measure.h"
+#include "scenes/mesh_file.h"
+#include "scenes/standard.h"
+#include "studies/experiments.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+constexpr double step_s = 1.0 / 60;
+
+struct Problem : Case {
+  std::string mesh;
+  std::int64_t elements;
+  Material material;
+  Strain strain;
+};
+
+std::vector<Problem> problems(bool full) {
+  const auto beam = [](int cells) { return kuhn_grid({cells, cells / 4, cells / 4}, Vec3(1, 0.25, 0.25)); };
+  std::vector<std::pair<std::string, TetMesh>> meshes{
+      {"grid n=8", beam(8)},
+      {"grid n=12", beam(12)},
+      {"beam.msh", read_tet_mesh(scenes_folder() / "meshes/beam.msh")}};
+  std::vector<Problem> all;
+  for (const auto& [name, mesh] : meshes)
+    for (const double young : {1e5, 1e6, 1e7})
+      for (const double poisson : {0.3, 0.45})
+        for (const Strain strain : {Strain::green, Strain::corotational, Strain::linear}) {
+          const bool small = name == "grid n=8" && (poisson == 0.3 || strain == Strain::green);
+          const bool sample = young == 1e6 && poisson == 0.3 && strain == Strain::green;
+          const Material material{young, poisson};
+          if (full || small || sample)
+            all.push_back({{fmt::format("cantilever {} {} E={:g} nu={:g}", name,
+                                        strain_names[static_cast<std::size_t>(strain)], young, poisson),
+                            clamped_solid(mesh, material, strain), step_s, step_s, 10},
+                           name,
+                           std::ssize(mesh.tets),
+                           material,
+                           strain});
+        }
+  return all;
+}
+
+struct Solver {
+  std::string outer, relaxation;
+  int max_outer, max_sweeps;
+};
+
+std::vector<Solver> solvers(bool full) {
+  const int budget = full ? 1000 : 200;
+  return {{"plain", "direct", 200, 10},
+          {"plain", "gauss_seidel", budget, 50},
+          {"plain", "nesterov_jacobi", budget, 50},
+          {"plain", "jacobi", budget / 4, 50},
+          {"incremental", "direct", 60, 10},
+          {"incremental", "gauss_seidel", 20 * budget / 4, 1}};
+}
+
+std::string solver_name(const Solver& solver) {
+  return solver.outer + "." + solver.relaxation;
+}
+
+}  // namespace
+
+std::vector<Case> dual_vs_primal_cases(bool full) {
+  const auto all = problems(full);
+  return {all.begin(), all.end()};
+}
+
+void dual_vs_primal(Context& context) {
+  const auto all = problems(context.full());
+  const auto methods = solvers(context.full());
+  context.begin(std::ssize(all));
+  const std::vector<std::string> columns{"scene",      "elements", "young_pa", "poisson", "strain", "outer",
+                                         "relaxation", "sweeps",   "error",    "wall_s",  "status", "reason"};
+  Table errors = context.table("errors", columns);
+  Table final = context.table("final", columns);
+  Worst direct, soft_gauss_seidel, soft_nesterov, false_claims;
+
+  for (const auto& problem : all) {
+    const State start = start_of(problem);
+    const auto exact = truth(problem.scene, start, problem.h);
+    for (const auto& solver : methods) {
+      Method method;
+      method.outer = solver.outer;
+      method.relaxation = solver.relaxation;
+      method.tolerance = 1e-12;
+      method.max_outer = solver.max_outer;
+      method.max_sweeps = solver.max_sweeps;
+      const Trace trace = measure_once(problem.scene, start, problem.h, method, exact.x);
+      const auto status = std::string(status_names[static_cast<std::size_t>(trace.report.status)]);
+      const auto write = [&](Table& table, const TracePoint& point) {
+        table.row({problem.mesh, problem.elements, problem.material.young, problem.material.poisson,
+                   std::string(strain_names[static_cast<std::size_t>(problem.strain)]), solver.outer,
+                   solver.relaxation, point.sweeps, point.error, point.wall_s, status,
+                   std::string(trace.report.reason)});
+      };
+      for (const auto& point : trace.points) write(errors, point);
+      const TracePoint& last = trace.points.back();
+      write(final, last);
+
+      const auto name = solver_name(solver);
+      if (name == "plain.direct") direct.add(last.error);
+      if (name == "plain.gauss_seidel" && problem.material.young < 5e6) soft_gauss_seidel.add(last.error);
+      if (name == "plain.nesterov_jacobi" && problem.material.young < 5e6) soft_nesterov.add(last.error);
+      if (trace.report.status == Status::ok) false_claims.add(last.error);
+    }
+    context.advance(problem.mesh);
+  }
+  const std::string statement = "the constraint solver reaches the primal solution with plain and ";
+  context.verdict("dual.direct", statement + "direct, all stiffnesses", "largest error", direct.value(),
+                  1e-10);
+  context.verdict("dual.gauss_seidel", statement + "gauss_seidel, E <= 1e6 Pa", "largest error",
+                  soft_gauss_seidel.value(), 1e-10);
+  context.verdict("dual.nesterov_jacobi", statement + "nesterov_jacobi, E <= 1e6 Pa", "largest error",
+                  soft_nesterov.value(), 1e-10);
+  context.verdict("dual.no_false_claim",
+                  "a step that claims to be solved to 1e-12 is within 1e-9 of the judge",
+                  "largest error of status ok", false_claims.value(), 1e-9);
+  errors.close();
+  final.close();
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,186 @@
+// How well are contact problems with friction solved whose answer was planted?
+#include "cones/cone_solvers.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "harness/measure.h"
+#include "linear/linear_names.h"
+#include "planted_cones.h"
+#include "studies/experiments.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd::reference;
+using Eigen::VectorXd;
+
+constexpr double tolerance = 1e-8, loose = 1e-4;  // a relaxation is timed to both
+constexpr double certain = 1e-10;                 // what the interior point is asked for
+constexpr double agreement = 1e-6;                // m/s; planted velocities are of 1 m/s
+
+double largest(const VectorXd& v) {
+  return v.allFinite() ? v.cwiseAbs().maxCoeff() : std::nan("");
+}
+
+/// Largest over smallest eigenvalue of W that is not zero, its contacts equilibrated.
+double condition_of(const ConeProblem& problem) {
+  const Eigen::MatrixXd w = equilibrate(problem).problem.delassus;
+  const VectorXd all =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
+  const double zero = std::numeric_limits<double>::epsilon() * static_cast<double>(w.rows()) * all.maxCoeff();
+  const auto smallest = std::find_if(all.begin(), all.end(), [&](double value) { return value > zero; });
+  return all.maxCoeff() / *smallest;
+}
+
+struct Problem {
+  std::string family;
+  int number;
+  PlantedCone planted;
+  double condition = std::nan("");
+  bool demanded = false;  // that relaxations solve it
+
+  bool large() const { return planted.problem.contacts() > 20; }
+};
+
+/// The 200 small ones. Relaxations are to solve those whose W is well-conditioned.
+std::vector<Problem> small_problems(FrictionLaw law) {
+  std::vector<Problem> all;
+  for (const auto& family : planted_families())
+    for (int i = 1; i <= planted_seeds; ++i) {
+      const PlantedCone planted = family.draw(law, static_cast<std::uint64_t>(i));
+      const double condition = condition_of(planted.problem);
+      constexpr double good = 1e3;
+      all.push_back({std::string(family.name), i, planted, condition, condition <= good});
+    }
+  return all;
+}
+
+std::vector<Problem> large_problems(FrictionLaw law, bool full) {
+  std::vector<Problem> all;
+  const int each = full ? 3 : 1;
+  for (const int contacts : full ? std::vector{150, 450, 900, 3000} : std::vector{150, 450, 900})
+    for (int i = 1; i <= each; ++i) {
+      const auto drawn = static_cast<std::uint64_t>(i);
+      all.push_back({"regular", i, planted_regular(law, contacts, drawn), std::nan(""), true});
+      all.push_back({"hard", i, planted_hard(law, contacts, drawn)});
+    }
+  return all;
+}
+
+std::vector<std::string> columns() {
+  return {"family",    "number",           "contacts", "condition",   "law",           "relaxation",
+          "tolerance", "natural_residual", "gap",      "feasibility", "error_m_per_s", "difference_m_per_s",
+          "sweeps",    "wall_s",           "status",   "reason"};
+}
+
+struct Found {
+  Worst residual, error;                 // of the first judge
+  int compared = 0, apart = 0;           // of cone_ipopt
+  std::map<std::string, Worst> relaxed;  // natural residuals on the problems demanded
+};
+
+/// Under Coulomb's law Ipopt is slow, as it solves a sequence of problems: it takes the first of each family,
+/// or five. Of large problems the judge takes the convex ones.
+bool taken(const ConeSolver& solver, FrictionLaw law, const Problem& p, bool full) {
+  const bool convex = law == FrictionLaw::cone, ipopt = solver.name == "cone_ipopt";
+  if (!solver.judge) return true;
+  if (p.large()) return convex && !ipopt;
+  return convex || !ipopt || p.number <= (full ? 5 : 1);
+}
+
+/// Solves a problem by all; the first judge's velocity is what the others are compared with.
+class Solves {
+ public:
+  Solves(Context& context, std::string_view table)
+      : context_(context), table_(context.table(table, columns())) {}
+
+  void solve(const Problem& p, FrictionLaw law) {
+    const int sweeps = p.demanded ? most_sweeps : context_.full() && !p.large() ? 20000 : 2000;
+    judged_.resize(0);
+    for (const ConeSolver& solver : cone_solvers()) {
+      if (!taken(solver, law, p, context_.full())) continue;
+      if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, sweeps});
+      const bool first = solver.name == "cone_interior_point";
+      const ConeSolution last =
+          add(p, law, solver, {p.planted.problem, law, first ? certain : tolerance, sweeps});
+      if (!solver.judge && p.demanded) found.relaxed[solver.name].add(last.measures.natural_residual);
+      if (first) {
+        found.residual.add(last.measures.natural_residual);
+        found.error.add(largest(last.velocity - p.planted.velocity));
+      } else if (solver.name == "cone_ipopt") {
+        ++found.compared;
+        found.apart += !(largest(last.velocity - judged_) <= agreement);
+      }
+    }
+    context_.advance(fmt::format("{} {}", p.family, friction_law_names[static_cast<std::size_t>(law)]));
+  }
+  void close() { table_.close(); }
+
+  Found found;
+
+ private:
+  /// A row: the error is to the planted velocity.
+  ConeSolution add(const Problem& p, FrictionLaw law, const ConeSolver& solver, const ConeTask& task) {
+    ConeSolution now = solver.solve(task);
+    if (solver.name == "cone_interior_point") judged_ = now.velocity;
+    const auto& m = now.measures;
+    table_.row({p.family, std::int64_t{p.number}, std::int64_t{p.planted.problem.contacts()}, p.condition,
+                std::string(friction_law_names[static_cast<std::size_t>(law)]), solver.name, task.tolerance,
+                m.natural_residual, m.gap, m.feasibility(), largest(now.velocity - p.planted.velocity),
+                judged_.size() > 0 ? largest(now.velocity - judged_) : std::nan(""),
+                std::int64_t{now.iterations}, now.seconds,
+                std::string(outcome_names[static_cast<std::size_t>(now.outcome)]), now.reason});
+    return now;
+  }
+
+  Context& context_;
+  Table table_;
+  VectorXd judged_;
+};
+
+}  // namespace
+
+void cone_problems(Context& context) {
+  const char* residual = "largest natural residual, |r - P_K(r - u)| / |q|";
+  Solves small(context, "solves"), large(context, "large");
+  context.begin(2 * std::ssize(planted_families()) * planted_seeds + 4 * (context.full() ? 12 : 3));
+  for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
+    const bool convex = law == FrictionLaw::cone;
+    small.found = large.found = {};
+    for (const Problem& p : small_problems(law)) small.solve(p, law);
+    for (const Problem& p : large_problems(law, context.full())) large.solve(p, law);
+    const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
+    const char* of = convex ? "of the convex law" : "of Coulomb's law";
+    context.verdict("cone_problems." + name,
+                    fmt::format("cone_interior_point solves every planted problem {}", of), residual,
+                    small.found.residual.value(), certain);
+    for (const auto relaxation : pbd::general_solver_names())
+      context.verdict(fmt::format("cone_problems.{}.{}", name, relaxation),
+                      fmt::format("{} solves every well-conditioned problem {}", relaxation, of), residual,
+                      small.found.relaxed[std::string(relaxation)].value(), tolerance);
+    for (const auto relaxation : pbd::general_solver_names())
+      context.verdict(fmt::format("cone_problems.large.{}.{}", name, relaxation),
+                      fmt::format("{} solves every large regular problem {}", relaxation, of), residual,
+                      large.found.relaxed[std::string(relaxation)].value(), tolerance);
+    if (!convex) continue;
+    context.verdict("cone_problems.velocity", "cone_interior_point finds the planted velocity (convex law)",
+                    "largest error, m/s", small.found.error.value(), 1e-9);
+    const double apart =
+        small.found.compared > 0 ? 1.0 * small.found.apart / small.found.compared : std::nan("");
+    context.verdict("cone_problems.ipopt",
+                    "cone_ipopt finds the same velocities within 1e-6 m/s (convex law)",
+                    "share of problems where it does not", apart, 0.1);
+    context.verdict("cone_problems.large", "cone_interior_point solves every large problem of the convex law",
+                    residual, large.found.residual.value(), certain);
+  }
+  small.close();
+  large.close();
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,160 @@
+// Do structures stand and fall where they should? What the ground and each joint of columns and pyramids
+// carry, slabs on more points than statics can tell apart, bricks that overhang and arches at their limits.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "linear/linear_names.h"
+#include "scenes/arch.h"
+#include "scenes/contacts.h"
+#include "studies/contact/contact_answers.h"
+#include "studies/experiments.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+constexpr double gravity = 9.81, h = 0.01;
+
+/// N, what the colliders below `first` push those from there on with.
+Vec3 force_across(const Workspace& workspace, int first) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactForce& contact : workspace.contacts()) {
+    if (contact.collider[0] >= first && contact.collider[1] < first) sum += contact.force;
+    if (contact.collider[1] >= first && contact.collider[0] < first) sum -= contact.force;
+  }
+  return sum;
+}
+
+/// N, of the bodies from the one on.
+double weight_from(const Scene& scene, std::size_t first) {
+  double mass = 0;
+  for (std::size_t k = first; k < scene.mass.size(); ++k)
+    if (std::isfinite(scene.mass[k])) mass += scene.mass[k];
+  return mass * gravity;
+}
+
+/// Bodies at rest, collider 0 the ground: forces and overlaps of all steps.
+void rest(KnownAnswers& answers, const Method& method, const std::string& name, const Scene& scene,
+          bool column) {
+  constexpr double size = 0.2;  // m
+  const Vec3 up(0, 0, weight_from(scene, 1));
+  Worst carried, between, overlap;
+  const ContactRun run =
+      simulate_contacts(scene, method, h, 20, [&](const State&, const Workspace& workspace) {
+        carried.add((force_across(workspace, 1) - up).norm() / up.norm());
+        overlap.add(0);
+        for (const ContactForce& contact : workspace.contacts()) overlap.add(-contact.gap / size);
+        for (int k = 1; column && k < std::ssize(scene.bodies); ++k) {
+          const double above = weight_from(scene, static_cast<std::size_t>(k));
+          between.add((force_across(workspace, k) - Vec3(0, 0, above)).norm() / above);
+        }
+      });
+  answers.add("weight", name, method, h, carried.value(), 0, carried.value(), run);
+  if (column) answers.add("joints", name, method, h, between.value(), 0, between.value(), run);
+  answers.add("penetration", name, method, h, overlap.value(), 0, overlap.value(), run);
+}
+
+/// A slab that slides to rest on side x side fixed balls.
+void slab(KnownAnswers& answers, const Method& method, int side) {
+  constexpr double friction = 0.5, speed = 0.3, radius = 0.02, pitch = 0.06, mass = 10;
+  BodyScene build({.friction = friction});
+  const double middle = (side - 1) / 2.0;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      build.fixed(Sphere{radius}, {Vec3((i - middle) * pitch, (j - middle) * pitch, -radius)});
+  build.box(Vec3(1, 1, 0.02), mass, {Vec3(0, 0, 0.01), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
+  const Scene scene = build.finish();
+  const int body = side * side;
+  Worst force;
+  const ContactRun run =
+      simulate_contacts(scene, method, h, 10, [&](const State&, const Workspace& workspace) {
+        force.add(std::abs(force_across(workspace, body).z() / (mass * gravity) - 1));
+      });
+  const double exact = slide(speed, friction * gravity, h, 10).x, moved = run.end.x(0, body);
+  const std::string name = fmt::format("slab on {} balls", side * side);
+  answers.add("redundant_force", name, method, h, force.value(), 0, force.value(), run);
+  answers.add("redundant_motion", name, method, h, moved, exact,
+              (run.end.x.col(body) - Vec3(exact, 0, 0.01)).norm(), run);
+}
+
+/// Bricks on a table's edge, brick k from the top `share` of length/(2 k) over the one below.
+Scene overhang(int count, double share) {
+  constexpr double length = 0.2, height = 0.05;
+  BodyScene build({.friction = 0.7});
+  build.fixed(Box{Vec3(1, 1, 0.2)}, {Vec3(-0.5, 0, -0.1)});
+  double edge = 0;
+  for (int k = count; k >= 1; --k) {
+    edge += share * length / (2 * k);
+    build.box(Vec3(length, 0.1, height), 2, {Vec3(edge - length / 2, 0, (count - k + 0.5) * height)});
+  }
+  return build.finish();
+}
+
+/// Stands: no body moves by more than 1e-4 of the size. Falls: one moves by a tenth of it.
+void judge(Table& table, Worst& wrong, const Method& method, const std::string& structure, int count,
+           double share, const Scene& scene, double duration, double size) {
+  const ContactRun run = simulate_contacts(scene, method, h, std::lround(duration / h));
+  const double moved = (run.end.x - scene.initial.x).colwise().norm().maxCoeff() / size;
+  const bool usable = run.status != Status::diverged, stands = (share < 1) == (structure == "overhang");
+  const bool right = usable && (stands ? moved <= 1e-4 : moved >= 0.1);
+  table.row({structure, std::int64_t{count}, share, method.outer, method.relaxation, method.friction, h,
+             duration, usable ? moved : std::nan(""), std::string(stands ? "stands" : "falls"),
+             std::int64_t{right}, run.sweeps, std::int64_t{run.steps - run.steps_ok}, status_cell(run.status),
+             run.reason});
+  wrong.add(usable ? (right ? 0.0 : 1.0) : std::nan(""));
+}
+
+}  // namespace
+
+void stack(Context& context) {
+  const std::vector<std::string> accurate{"conjugate_gradients", "direct"};
+  const auto relaxations = general_solver_names();
+  KnownAnswers answers(
+      context, "stack",
+      {{"weight", "the ground carries the weight", "relative", 1e-9},
+       {"joints", "each joint of a column carries what is above", "relative", 1e-8},
+       {"penetration", "nothing sinks in", "of the size", 1e-8},
+       {"redundant_force", "however many points carry a slab, they carry its weight", "relative", 1e-9},
+       {"redundant_motion", "it moves the same on them", "m", 1e-9}});
+  context.begin(std::ssize(relaxations) + 2 * std::ssize(accurate));
+  for (const auto relaxation : relaxations) {
+    const Method method = patient_method(relaxation);
+    for (const int count : context.full() ? std::vector{2, 5, 10, 20, 50} : std::vector{2, 5, 10})
+      rest(answers, method, fmt::format("column of {}", count), column(count), true);
+    for (const double ratio : {1e2, 1e4})
+      rest(answers, method, fmt::format("two cubes, masses 1:{:g}", ratio), column(2, ratio), true);
+    for (const int base : context.full() ? std::vector{4, 10} : std::vector{4})
+      rest(answers, method, fmt::format("pyramid of base {}", base), pyramid(base), false);
+    for (const int side : {2, 4, 10}) slab(answers, method, side);
+    context.advance(relaxation);
+  }
+  answers.close();
+  Table table = context.table(
+      "thresholds", {"structure", "count", "share", "outer", "relaxation", "friction", "step_s", "duration_s",
+                     "moved", "outcome", "right", "sweeps", "missed_steps", "status", "reason"});
+  for (const auto& relaxation : accurate) {
+    const Method method = contact_method(relaxation);
+    Worst overhangs, arches;
+    for (const int count : context.full() ? std::vector{2, 3, 5, 10} : std::vector{2, 3, 5})
+      for (const double share : {0.999, 1.001})
+        judge(table, overhangs, method, "overhang", count, share, overhang(count, share), 3, 0.2);
+    context.advance("overhangs, " + relaxation);
+    for (const int stones : context.full() ? std::vector{7, 15, 25} : std::vector{7})
+      for (const double share : {0.99, 1.01})
+        judge(table, arches, method, "arch", stones, share,
+              Arch{share * limit_thickness(stones), stones}.scene(), 3, 1);
+    context.advance("arches, " + relaxation);
+    context.verdict("stack.overhang." + relaxation,
+                    "bricks stand at 0.999 of the largest overhang and fall at 1.001 (" + relaxation + ")",
+                    "1 if any does not", overhangs.value(), 0);
+    context.verdict("stack.arch." + relaxation,
+                    "arches fall at 0.99 of the limit thickness and stand at 1.01 (" + relaxation + ")",
+                    "1 if any does not", arches.value(), 0);
+  }
+  table.close();
+}
+
+}  // namespace pbdcheck

@@ -1,0 +1,79 @@
+"""Made-up tables of what accuracy costs; none of the numbers means anything."""
+
+import numpy as np
+
+from sample_files import RELAXATIONS, write
+
+METHOD_COLUMNS = ("scene step_s integrator outer relaxation friction tolerance outer_iterations sweeps row_updates "
+                  "wall_s error status reason")
+
+
+def method_points(tolerance):
+    rows = []
+    for scene in ("chain20", "cantilever"):
+        for outer, relaxation, speed in (("plain", "gauss_seidel", 1), ("plain", "nesterov_jacobi", 0.5),
+                                         ("proximal", "gauss_seidel", 1.5), ("incremental", "gauss_seidel", 0.8),
+                                         ("quasi_newton", "none", 0.4), ("rival", "newton", 0.1),
+                                         ("judge", "primal_newton", 0.3)):
+            for t in (1e-2, 1e-4, 1e-6, 1e-8):
+                bad = outer in ("plain", "quasi_newton") and t < 1e-5 and scene == "chain20"
+                work = int(20 * speed * np.log10(t) ** 2)
+                error = float("nan") if bad and outer == "plain" else max(t * 0.4, 4e-3 if outer == "incremental" else 0)
+                sweeps = 0 if outer in ("quasi_newton", "rival", "judge") else 10 * work
+                rows.append((scene, 1 / 60, "implicit_euler", outer, relaxation, "coulomb", *([t] if tolerance else []),
+                             work, sweeps, 19 * sweeps, 2e-6 * 190 * work, error,
+                             "not_converged" if bad else "ok", "budget of 200 outer iterations spent" if bad else ""))
+    return rows
+
+
+def contact_points():
+    rows = []
+    for scene in ("incline", "arch"):
+        for law in ("coulomb", "box"):
+            for k, relaxation in enumerate((*RELAXATIONS, "cone_interior_point", "cone_ipopt")):
+                judge = relaxation.startswith("cone_")
+                for t in (0,) if judge else (1e-2, 1e-6, 1e-10):
+                    bad = (scene, relaxation, t) == ("arch", "jacobi", 1e-10)
+                    sweeps = 0 if judge else 10 * (k + 1) * int(1 - np.log10(t))
+                    error = 0 if relaxation == "cone_interior_point" else 1e-11 if judge else max(t, 0.1 * (law == "box"))
+                    rows.append((scene, 0.01, "implicit_euler", "judge" if judge else "auto", relaxation, law, t, 5, sweeps,
+                                 3 * sweeps, 0.01 if judge else 1e-5 * sweeps, error,
+                                 "not_converged" if bad else "ok", "outer iterations spent" if bad else ""))
+    return rows
+
+
+def work_precision(directory):
+    write(directory, "work_precision", "points", METHOD_COLUMNS, method_points(True))
+    write(directory, "work_precision", "contacts", METHOD_COLUMNS, contact_points())
+
+
+def rival_newton(directory):
+    times, traces = [], []
+    for elements in (192, 1536, 31944):
+        for young in (1e5, 1e6, 1e7):
+            for poisson in (0.3, 0.49):
+                for method, seconds, rate, most in (("quasi_newton", 3e-7, 0.7 if poisson < 0.4 else 0.95, 200),
+                                                    ("newton", 3e-7 * elements ** 0.3, 1e-3, 4)):
+                    key = ("cantilever", elements, young, poisson, method)
+                    bad = young == 1e7 and method == "quasi_newton" and poisson > 0.4
+                    status, reason = ("not_converged", "outer iterations spent") if bad else ("ok", "")
+                    traces += [(*key, k, seconds * elements * k, rate ** k, status, reason) for k in range(most)]
+                    for target in (1e-3, 1e-6, 1e-10):
+                        count = int(np.ceil(np.log(target) / np.log(rate)))
+                        times.append((*key, target, count, 1e-5 * elements, seconds * elements * count, target / 2,
+                                      *((status, reason) if target < 1e-8 else ("ok", ""))))
+    write(directory, "rival_newton", "times", "scene elements young_pa poisson method error_target iterations setup_s wall_s "
+          "error status reason", times)
+    write(directory, "rival_newton", "traces", "scene elements young_pa poisson method iteration wall_s error status reason",
+          traces)
+
+
+def effects_cost(directory):
+    write(directory, "effects_cost", "costs", "scene effect rows bytes wall_s wall_s_per_step",
+          [(s, e, rows, rows * b, 1e-7 * rows, 5e-9 * rows) for s, rows in (("cloth", 5000), ("cantilever", 9000))
+           for e, b in (("distance", 120), ("tet_strain", 410), ("bending", 190), ("anchor", 60))]
+          + [("cloth", "outside effects", 0, 0, 1e-3, 5e-5)])
+    rows = [("cantilever", r, n, n // 6, 1e-8 * n * (2 if r == "jacobi" else 1), 1.01, "ok", "")
+            for r in RELAXATIONS[:3] for n in (1000, 10000, 100000)]
+    write(directory, "effects_cost", "scaling", "scene relaxation rows elements wall_s_per_sweep exponent status reason",
+          rows + [("cantilever", "direct", 100000, 16666, float("nan"), 1.7, "skipped", "too large for the quick tier")])

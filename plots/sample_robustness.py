@@ -1,0 +1,37 @@
+"""Made-up tables of scenes that solvers fail on; none of the numbers means anything."""
+
+from sample_files import RELAXATIONS, write
+
+
+def point_hard_cases(directory):
+    rows, frontiers = [], []
+    for scene, relaxation, bad in (("heavy rope", "gauss_seidel", True), ("heavy rope", "direct", False),
+                                   ("twisted rod", "gauss_seidel", False)):
+        status, reason = ("not_converged", "3 of 20 steps not ok; worst: outer iterations spent") if bad else ("ok", "")
+        for gate, measured, bound in (("finite", 0.0, 0.0), ("energy", 0.3 if bad else -2.0, 0.01), ("claims", 0.2, 1.0)):
+            rows.append((scene, 1 / 60, "implicit_euler", "auto", relaxation, 20, gate, measured, bound,
+                         float(measured <= bound), status, reason))
+        rows.append((scene, 1 / 60, "implicit_euler", "auto", relaxation, 20, "settles", 0.1, 1e-6, float("nan"), "skipped",
+                     "settles in 4000 steps only, more than 300"))
+        step, sweeps = (float("nan"),) * 2 if bad else (0.2, 30.0)
+        frontiers.append((scene, "auto", relaxation, step, step / 2, sweeps, 0 if bad else 7, 9, status, reason))
+    write(directory, "point_hard_cases", "gates",
+          "scene step_s integrator outer relaxation steps gate measured bound holds status reason", rows)
+    write(directory, "point_hard_cases", "frontier", "scene outer relaxation largest_step_s largest_solved_step_s "
+          "fewest_sweeps runs_passed runs status reason", frontiers)
+
+
+def generated_scenes(directory):
+    spent = "outer iterations spent"
+    write(directory, "generated_scenes", "outcomes", "relaxation steps claim_largest status reason",
+          [(r, steps, claim, status, reason) for r in RELAXATIONS for steps, claim, status, reason in
+           ((300, 0.6, "ok", ""), (150, 3e7, "not_converged", spent), (50, 0.0, "diverged", "not finite"))])
+    rows = []
+    for i in range(0, 500, 50):
+        for k, relaxation in enumerate(RELAXATIONS):
+            bad = (i + k) % 4 == 0
+            claim = 1e3 * (k + 1) if bad else 0.1 * (k + 1)
+            rows.append((f"generated {i}", 2 + i % 19, 0.01, "auto", relaxation, 10 + k, 100 * k, 1e-8 * claim, 1e-8 * claim,
+                         claim, 1e-7 * claim, "ok", "not_converged" if bad else "ok", spent if bad else ""))
+    write(directory, "generated_scenes", "sample", "scene nodes step_s outer relaxation outer_iterations sweeps residual "
+          "residual_judged claim error reference_status status reason", rows)

@@ -1,0 +1,56 @@
+#include "collision/bounds.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pbd {
+namespace {
+
+double farthest(const Points& points) {
+  return points.colwise().norm().maxCoeff();
+}
+
+struct Radius {
+  double operator()(std::monostate) const { return 0; }
+  double operator()(const Sphere& shape) const { return shape.radius; }
+  double operator()(const Box& shape) const { return shape.size.norm() / 2; }
+  double operator()(const Cylinder& shape) const { return std::hypot(shape.radius, shape.length / 2); }
+  double operator()(const Capsule& shape) const { return shape.radius + shape.length / 2; }
+  double operator()(const ClosedMesh& shape) const { return farthest(shape.surface.x); }
+  double operator()(const ConvexHull& shape) const { return farthest(shape.surface.x); }
+  double operator()(const HalfSpace&) const { return infinity; }
+};
+
+/// Half the box's size about the frame's origin; nothing for shapes whose points are listed.
+struct HalfSize {
+  const Eigen::Matrix3d& rotation;
+
+  Vec3 operator()(std::monostate) const { return Vec3::Zero(); }
+  Vec3 operator()(const Sphere& shape) const { return Vec3::Constant(shape.radius); }
+  Vec3 operator()(const Box& shape) const { return rotation.cwiseAbs() * shape.size / 2; }
+  Vec3 operator()(const Cylinder& shape) const {
+    const Vec3 axis = rotation.col(2);
+    return shape.length / 2 * axis.cwiseAbs() +
+           shape.radius * (1 - axis.array().square()).max(0).sqrt().matrix();
+  }
+  Vec3 operator()(const Capsule& shape) const {
+    return shape.length / 2 * rotation.col(2).cwiseAbs() + Vec3::Constant(shape.radius);
+  }
+  Vec3 operator()(const HalfSpace&) const { return Vec3::Constant(infinity); }
+  Vec3 operator()(const ClosedMesh& shape) const { return of_points(shape.surface.x); }
+  Vec3 operator()(const ConvexHull& shape) const { return of_points(shape.surface.x); }
+  Vec3 of_points(const Points& points) const { return (rotation * points).cwiseAbs().rowwise().maxCoeff(); }
+};
+
+}  // namespace
+
+double bounding_radius(const Shape& shape) {
+  return std::visit(Radius{}, shape);
+}
+
+Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at) {
+  const Vec3 half = std::visit(HalfSize{at.rotation}, shape);
+  return {at.origin - half, at.origin + half};
+}
+
+}  // namespace pbd

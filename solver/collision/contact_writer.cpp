@@ -1,0 +1,90 @@
+#include "collision/contact_writer.h"
+
+#include <algorithm>
+
+namespace pbd {
+namespace {
+
+/// Of features of the shape asked for first and of the second one. Their numbers fill 64 bits, of which the
+/// product with 2^64 over the golden ratio spreads what differs over the upper ones (knuth1998sorting, 6.4).
+std::uint32_t hashed(Feature first, int i, Feature second, int j) {
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
+  std::uint64_t bits = (static_cast<std::uint64_t>(first) << 3 | static_cast<std::uint64_t>(second)) << 58;
+  bits |= static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 29 ^ static_cast<std::uint32_t>(j);
+  return static_cast<std::uint32_t>(bits * golden >> 32);
+}
+
+ContactPoint contact_point(ContactPoint::Kind kind, const Vec3& point_a, double radius_a, const Vec3& point_b,
+                           double radius_b) {
+  ContactPoint contact;
+  contact.kind = kind;
+  contact.point_a = point_a;
+  contact.point_b = point_b;
+  contact.radius_a = radius_a;
+  contact.radius_b = radius_b;
+  return contact;
+}
+
+}  // namespace
+
+std::uint32_t ContactWriter::key(Feature of_a, int i, Feature of_b, int j) const {
+  return swapped ? hashed(of_b, j, of_a, i) : hashed(of_a, i, of_b, j);
+}
+
+void ContactWriter::write(ContactPoint contact, std::uint32_t key, double gap) const {
+  const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto same = [&](const ContactPoint& other) { return other.key == key; };
+  if (!(gap < margin) || std::any_of(from, out.end(), same)) return;
+  contact.swapped = swapped;
+  contact.key = key;
+  contact.point_a = frame_a.rotation.transpose() * (contact.point_a - frame_a.origin);
+  contact.point_b = frame_b.rotation.transpose() * (contact.point_b - frame_b.origin);
+  contact.direction_a = frame_a.rotation.transpose() * contact.direction_a;
+  contact.direction_b = frame_b.rotation.transpose() * contact.direction_b;
+  out.push_back(contact);
+}
+
+void ContactWriter::rewrite(const ContactPoint& contact, std::uint32_t key, double gap) const {
+  const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto same = [&](const ContactPoint& other) { return other.key == key; };
+  out.erase(std::remove_if(from, out.end(), same), out.end());
+  write(contact, key, gap);
+}
+
+double ContactWriter::least() const {
+  double gap = infinity;
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    const bool same = out[i].swapped == swapped;
+    gap = std::min(gap, touching(out[i], same ? frame_a : frame_b, same ? frame_b : frame_a).gap);
+  }
+  return gap;
+}
+
+ContactPoint on_point(const Vec3& point_a, double radius_a, const Vec3& point_b, double radius_b) {
+  return contact_point(ContactPoint::Kind::point, point_a, radius_a, point_b, radius_b);
+}
+
+ContactPoint on_face(const Vec3& point_a, double radius_a, const Vec3& point_b, const Vec3& normal,
+                     double radius_b) {
+  ContactPoint contact = contact_point(ContactPoint::Kind::face, point_a, radius_a, point_b, radius_b);
+  contact.direction_b = normal;
+  return contact;
+}
+
+ContactPoint on_line(const Vec3& point_a, double radius_a, const Vec3& point_b, const Vec3& along,
+                     double radius_b) {
+  ContactPoint contact = contact_point(ContactPoint::Kind::line, point_a, radius_a, point_b, radius_b);
+  contact.direction_b = along;
+  return contact;
+}
+
+ContactPoint on_edges(const Vec3& point_a, const Vec3& along_a, double radius_a, const Vec3& point_b,
+                      const Vec3& along_b, double radius_b, const Vec3& normal) {
+  ContactPoint contact = contact_point(ContactPoint::Kind::edges, point_a, radius_a, point_b, radius_b);
+  contact.direction_a = along_a;
+  contact.direction_b = along_b;
+  contact.side = along_a.cross(along_b).dot(normal) < 0 ? -1 : 1;
+  return contact;
+}
+
+}  // namespace pbd

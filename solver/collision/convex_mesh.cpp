@@ -1,0 +1,16 @@
+#include "collision/convex_mesh.h"
+
+#include "collision/mesh_overlap.h"
+
+namespace pbd {
+
+void convex_mesh(const RoundedPolyhedron& a, const ClosedMesh& b, const ContactWriter& writer,
+                 CollisionScratch& scratch) {
+  const MeshPair pair{a, b, writer, scratch};
+  pair.nodes();
+  pair.edges();
+  pair.nodes_of_mesh();
+  write_overlap(pair);
+}
+
+}  // namespace pbd

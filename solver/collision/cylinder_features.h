@@ -1,0 +1,84 @@
+// How cylinders' features are written down: points on caps, sides and rims, rims on planes, and edges that
+// leave a side. What asks whether a point is over a face is a template's argument: it is called for every
+// point.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "collision/contact_writer.h"
+#include "collision/placed_cylinder.h"
+
+namespace pbd {
+
+/// Points of a rim beside its deepest one, where a cylinder stands on a face.
+inline constexpr int rim_points = 8;
+
+/// The number in keys of point k of the rim at `end`; k = rim_points is the deepest one.
+constexpr int rim_point(int end, int k) {
+  return (rim_points + 1) * (end + 1) + k;
+}
+
+/// Numbers in keys of a rim or cap that edges cross: others than end + 1, which those have whose nearest
+/// point is there. `sign` tells where an edge comes in and goes out.
+constexpr int left_over(int end) {
+  return end + 11;
+}
+constexpr int crossed_cap(int end, int sign) {
+  return 10 + 2 * end + sign;
+}
+
+/// Writes a's point y (rounded by `radius`, feature i of its kind) against the cylinder's nearest part.
+void write_point(const Vec3& y, double radius, Feature feature, int i, const PlacedCylinder& b,
+                 const ContactWriter& writer);
+
+/// Cylinder a's rim at `end`, about its deepest point along the plane's normal, against that plane.
+ContactPoint on_plane_by_rim(const PlacedCylinder& a, int end, const Vec3& on_plane, const Vec3& normal,
+                             double radius_b);
+
+/// Cylinder a's rim that is deepest along the plane's normal, against that plane.
+void write_deepest_rim(const PlacedCylinder& a, const Vec3& on_plane, const Vec3& normal, Feature feature,
+                       int j, const ContactWriter& writer);
+
+/// Cylinder a's rim at `end` and, where that disc faces the plane, eight of its points against b's plane,
+/// where `above` says that a point is over b's face, gaps at least `floor` (m).
+template <class Above>
+void write_rims(const PlacedCylinder& a, const Vec3& on_plane, const Vec3& normal, double radius_b,
+                Feature feature, int j, double floor, const ContactWriter& writer, Above&& above) {
+  constexpr double facing = 0.7;  // cosine: discs at less than 45 degrees to the plane
+  for (const int end : {-1, 1}) {
+    const ContactPoint contact = on_plane_by_rim(a, end, on_plane, normal, radius_b);
+    const Touching rim = touching(contact, {}, {});
+    if (rim.gap >= floor && above(rim.point_a))
+      writer.write(contact, writer.key(Feature::rim, rim_point(end, rim_points), feature, j), rim.gap);
+    if (-end * a.axis.dot(normal) < facing) continue;
+    for (int k = 0; k < rim_points; ++k) {
+      const Vec3 point = a.on_rim(end, 2 * std::numbers::pi * k / rim_points);
+      const double gap = normal.dot(point - on_plane) - radius_b;
+      if (gap >= floor && above(point))
+        writer.write(on_face(point, 0, on_plane, normal, radius_b),
+                     writer.key(Feature::rim, rim_point(end, k), feature, j), gap);
+    }
+  }
+}
+
+/// Of an edge e beside the cylinder, within 30 degrees of its axis, the points over the caps' planes, if
+/// `minimum` of the direction from the axis.
+template <class Minimum>
+void write_where_it_leaves(const Segment& edge, double radius, int e, const PlacedCylinder& b,
+                           const ContactWriter& writer, Minimum&& minimum) {
+  const double cosine = edge.along.dot(b.axis), from = (edge.from - b.centre).dot(b.axis);
+  constexpr double steep = 0.75;  // cosine squared of 30 degrees
+  if (cosine * cosine <= steep) return;
+  for (const int end : {-1, 1}) {
+    const double s = (end * b.half - from) / cosine;
+    if (s <= 0 || s >= edge.length) continue;
+    const Vec3 y = edge.at(s), apart = y - b.cap(end);
+    const double outside = apart.norm() - b.radius;
+    if (outside >= 0 && minimum(apart))
+      writer.write(on_line(y, radius, b.centre, b.axis, b.radius),
+                   writer.key(Feature::edge, e, Feature::rim, left_over(end)), outside - radius);
+  }
+}
+
+}  // namespace pbd

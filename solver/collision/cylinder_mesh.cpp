@@ -1,0 +1,76 @@
+#include "collision/cylinder_mesh.h"
+
+#include "collision/cylinder_features.h"
+#include "collision/mesh_pair.h"
+#include "collision/tolerances.h"
+
+namespace pbd {
+namespace {
+
+using Index = std::size_t;
+
+/// Of the mesh's edge j, the point nearest to the cylinder, if that is nearest to a rim. True if it is
+/// inside.
+bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
+                       const ContactWriter& writer) {
+  const auto& edge = mesh.solid.edges[j];
+  const Vec3 from = mesh.surface.x.col(edge.node[0]), whole = mesh.surface.x.col(edge.node[1]) - from;
+  const double length = whole.norm();
+  const Vec3 along = whole / length;
+  const Segment all{from, along, length};
+  const double arc = nearest_arc(all, cylinder);
+  const PlacedCylinder::Place at = cylinder.place(all.at(arc));
+  if (at.distance <= 0) return true;
+  const auto lowest = [&](const Vec3& apart) {
+    return minimum(edge, along, -apart, [&](int f) { return mesh.solid.faces[f].normal; });
+  };
+  write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
+  if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
+    write_point(all.at(arc), 0, Feature::edge, j, cylinder, writer);
+  return false;
+}
+
+}  // namespace
+
+void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactWriter& writer,
+                   CollisionScratch& scratch) {
+  const PlacedCylinder a(cylinder, writer.frame_a);
+  scratch.a.place(Capsule{cylinder.radius, cylinder.length}, writer.frame_a);
+  const MeshPair side{scratch.a, b, writer, scratch};
+  side.edges();
+  side.nodes_of_mesh();
+  const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.margin);
+  const ContactWriter exchanged = writer.exchanged();
+  double shallowest = -infinity;  // of the faces whose edges go through the cylinder
+  int cut = -1;
+  b.tree.find(AxisBox(a.centre - reach, a.centre + reach), [&](int triangle) {
+    const auto& face = b.solid.faces[triangle];
+    const auto& nodes = b.surface.triangles[triangle];
+    const Vec3 on_plane = b.surface.x.col(nodes[0]);
+    const double above = face.normal.dot(a.centre - on_plane), support = a.support(face.normal);
+    if (above >= 0)
+      write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, [&](const Vec3& x) {
+        return nearest_of_triangle(b, triangle, x).feature == MeshPlace::Feature::face;
+      });
+    for (const int node : nodes) {
+      const Vec3 y = b.surface.x.col(node);
+      const PlacedCylinder::Place at = a.place(y);
+      if (at.part != PlacedCylinder::Part::side && lowest_about(b, node, at.normal, flat_slope))
+        write_point(y, 0, Feature::node, node, a, exchanged);
+    }
+    for (Index k = 0; k < 3; ++k)
+      if (write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged) && above - support > shallowest) {
+        shallowest = above - support;
+        cut = triangle;
+      }
+  });
+  if (writer.least() <= rounding * a.size()) return;
+  MeshPlace place{};
+  if (cut >= 0)
+    write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,
+                      Feature::face, cut, writer);
+  else if (nearest_of_mesh(b, a.centre, writer.margin, place) && place.distance <= 0)
+    write_deepest_rim(a, place.nearest, place.normal.normalized(), Feature::face, -1, writer);
+}
+
+}  // namespace pbd

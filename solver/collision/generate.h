@@ -1,0 +1,35 @@
+// All points where two shapes touch or are about to.
+//
+//   sphere, capsule, box, hull   separating axes; the clipped polygon of the faces that look at each other,
+//                                all its corners; else the nearest features
+//   half space                   every node, end and rim of what is near it
+//   cylinder                     rims on faces and caps, nodes and edges on caps and sides
+//   closed mesh                  nodes over faces, edges that cross, minima of the distance
+//
+// The least gap of convex shapes is their signed distance, with these exceptions: cylinders that overlap at a
+// rim and an edge or at two rims are given a depth along a face's normal, a cap's or across the axes, which
+// is larger than the least one. Meshes are exact outside each other; inside, gaps are those of nodes and
+// crossing edges below the faces nearest to them, without any of these along the normal of a face that is
+// cut: not the shortest translation that parts them.
+//
+// What is not exact as bodies move, to first order only: what touches a rim without being a plane (kind
+// `point` at the rim's nearest point, or the plane between the nearest points), edges that are nearly
+// parallel (a point on one against the other's line), and nodes against edges or nodes without a radius (the
+// plane between them, fixed to b: a distance of points has no sign by which to see that one passed the
+// other). A cylinder that stands on a face has eight points on its rim beside the deepest one.
+#pragma once
+
+#include <vector>
+
+#include "collision/contact_point.h"
+#include "collision/scratch.h"
+#include "shapes.h"
+
+namespace pbd {
+
+/// Appends the contact points of shapes a and b, placed in the world by their frames, whose gap is below
+/// `margin` (m). Features are given in the shapes' own frames; `swapped` where the contact's a is b's.
+void generate(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, double margin,
+              CollisionScratch& scratch, std::vector<ContactPoint>& found);
+
+}  // namespace pbd

@@ -1,0 +1,190 @@
+#include "collision/mesh_pair.h"
+
+#include "collision/segments.h"
+
+namespace pbd {
+namespace {
+
+using Index = std::size_t;
+
+/// Faces of two meshes that are tilted by less touch with all their corners (rad, as that of a crossing).
+constexpr double tilted = crossing_sine;
+
+Feature feature(MeshPlace::Feature of) {
+  if (of == MeshPlace::Feature::face) return Feature::face;
+  return of == MeshPlace::Feature::edge ? Feature::edge : Feature::node;
+}
+
+/// A sphere about y against a mesh's feature.
+void write_place(const Vec3& y, double radius, int i, const ClosedMesh& mesh, const MeshPlace& at,
+                 const ContactWriter& writer) {
+  const auto key = writer.key(Feature::node, i, feature(at.feature), at.i);
+  const double gap = at.distance - radius;
+  if (at.feature == MeshPlace::Feature::face)
+    return writer.write(on_face(y, radius, at.nearest, at.normal, 0), key, gap);
+  if (at.distance > 0 && radius > 0) {
+    if (at.feature == MeshPlace::Feature::node)
+      return writer.write(on_point(y, radius, at.nearest, 0), key, gap);
+    const auto& node = mesh.solid.edges[at.i].node;
+    const Vec3 along = (mesh.surface.x.col(node[1]) - mesh.surface.x.col(node[0])).normalized();
+    return writer.write(on_line(y, radius, at.nearest, along, 0), key, gap);
+  }
+  writer.write(on_face(y, radius, at.nearest, direction(mesh, at, y), 0), key, gap);
+}
+
+}  // namespace
+
+bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double slope) {
+  const Vec3 x = mesh.surface.x.col(node);
+  bool lowest = true;
+  mesh.tree.find(AxisBox(x, x), [&](int triangle) {
+    const auto& nodes = mesh.surface.triangles[triangle];
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) return;
+    for (const int other : nodes) {
+      const Vec3 to = mesh.surface.x.col(other) - x;
+      lowest = lowest && normal.dot(to) >= -slope * to.norm();
+    }
+  });
+  return lowest;
+}
+
+void MeshPair::nodes() const {
+  const auto write = [&](int i, const MeshPlace& at) {
+    const Vec3 apart = writer.frame_a.rotation.transpose() * direction(b, at, a.node(i));
+    if (mesh_a == nullptr || lowest_about(*mesh_a, i, apart, tilted))
+      write_place(a.node(i), a.radius, i, b, at, writer);
+  };
+  for (int i = 0; i < a.node_count(); ++i) {
+    MeshPlace nearest{};
+    if (!nearest_of_mesh(b, a.node(i), limit, nearest)) continue;
+    if (nearest.distance <= 0) {
+      write(i, nearest);
+    } else {
+      minima_of_mesh(b, a.node(i), limit, scratch.places, scratch.minima);
+      for (const MeshPlace& at : scratch.minima) write(i, at);
+    }
+  }
+}
+
+void MeshPair::nodes_inside() const {
+  for (int i = 0; i < a.node_count(); ++i) {
+    MeshPlace nearest{};
+    if (nearest_of_mesh(b, a.node(i), limit, nearest) && nearest.distance <= 0)
+      write_place(a.node(i), a.radius, i, b, nearest, writer);
+  }
+}
+
+double MeshPair::depth_in_a(const Vec3& x, double limit_) const {
+  MeshPlace place{};
+  if (mesh_a != nullptr) {
+    const Vec3 own = writer.frame_a.rotation.transpose() * (x - writer.frame_a.origin);
+    return nearest_of_mesh(*mesh_a, own, limit_, place) ? -place.distance : -infinity;
+  }
+  double depth = a.face_count() > 0 ? infinity : -infinity;
+  for (int f = 0; f < a.face_count(); ++f) depth = std::min(depth, a.offset[f] - a.face_normal(f).dot(x));
+  return depth;
+}
+
+void MeshPair::crossing(int i, int j) const {
+  const auto &of_a = a.edge(i), &of_b = b.solid.edges[j];
+  const Vec3 from_b = b.surface.x.col(of_b.node[0]), whole_b = b.surface.x.col(of_b.node[1]) - from_b;
+  const double length_b = whole_b.norm();
+  const Vec3 along_b = whole_b / length_b;
+  const Vec3 &along_a = a.along[i], &from_a = a.node(of_a.node[0]);
+  const double length_a = a.length[i];
+  if (!(length_a > 0)) return;
+  const Nearest at = nearest({from_a, along_a, length_a}, {from_b, along_b, length_b});
+  if (at.s <= 0 || at.s >= length_a || at.t <= 0 || at.t >= length_b) return;
+  const Vec3 y_a = from_a + at.s * along_a, y_b = from_b + at.t * along_b;
+  const double distance = at.apart.norm();
+  const auto normal_a = [&](int f) -> const Vec3& { return a.face_normal(f); };
+  const auto normal_b = [&](int f) -> const Vec3& { return b.solid.faces[f].normal; };
+  const Vec3 outward = normal_b(of_b.face[0]) + normal_b(of_b.face[1]);
+  const bool crossed = along_a.cross(along_b).norm() >= crossing_sine;
+  if (!crossed && distance <= tiny) return;
+  Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
+  if (normal.dot(outward) < 0) normal = -normal;
+  if (!minimum(of_b, along_b, normal, normal_b) || !minimum(of_a, along_a, -normal, normal_a)) return;
+  const bool inside = normal.dot(at.apart) < 0;
+  if (inside) {
+    const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
+      return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
+    };
+    const double depth_b = below_faces(of_b, at.apart, normal_b);
+    const double depth_a = of_a.face[0] >= 0 ? below_faces(of_a, -at.apart, normal_a) : infinity;
+    if (distance > tiny && std::min(depth_a, depth_b) <= tiny) return;  // beside a face, not below
+    MeshPlace place{};
+    if (!nearest_of_mesh(b, y_a, distance, place) || -place.distance < depth_b - tiny) return;
+    if (of_a.face[0] >= 0 && depth_in_a(y_b, distance) < depth_a - tiny) return;
+  }
+  const auto key = writer.key(Feature::edge, i, Feature::edge, j);
+  const double gap = (inside ? -distance : distance) - a.radius;
+  ContactPoint contact = on_face(y_a, a.radius, y_b, normal, 0);
+  if (crossed)
+    contact = on_edges(y_a, along_a, a.radius, y_b, along_b, 0, normal);
+  else if (a.radius > 0 && !inside)
+    contact = on_line(y_a, a.radius, y_b, along_b, 0);
+  writer.write(contact, key, gap);
+}
+
+void MeshPair::edges() const {
+  for (int i = 0; i < a.edge_count(); ++i) {
+    AxisBox box;
+    for (const int node : a.edge(i).node) box.extend(a.node(node));
+    box.min().array() -= limit;
+    box.max().array() += limit;
+    b.tree.find(box, [&](int triangle) {
+      for (Index k = 0; k < 3; ++k) crossing(i, b.solid.sides[3 * triangle + k]);
+    });
+  }
+}
+
+void MeshPair::nodes_of_mesh() const {
+  AxisBox box;
+  for (const Vec3& x : a.x) box.extend(x);
+  box.min().array() -= limit;
+  box.max().array() += limit;
+  const ContactWriter exchanged = writer.exchanged();
+  b.tree.find(box, [&](int triangle) {
+    for (const int node : b.surface.triangles[triangle]) {
+      const Vec3 y = b.surface.x.col(node);
+      if (!box.contains(y)) continue;
+      if (a.face_count() > 0) over_faces(y, node, exchanged);
+      for (int e = 0; e < a.edge_count(); ++e) beside(y, node, e, exchanged);
+    }
+  });
+}
+
+void MeshPair::over_faces(const Vec3& y, int node, const ContactWriter& exchanged) const {
+  int best = -1;
+  double apart = -infinity;
+  for (int f = 0; f < a.face_count(); ++f) {
+    const double here = a.face_normal(f).dot(y) - a.offset[f];
+    if (here <= apart) continue;
+    apart = here;
+    best = f;
+  }
+  if (best < 0 || apart >= limit || (apart > 0 && !a.above(best, y, tiny))) return;
+  if (!lowest_about(b, node, a.face_normal(best), flat_slope)) return;
+  exchanged.write(on_face(y, 0, a.node(a.corner(best, 0)), a.face_normal(best), a.radius),
+                  exchanged.key(Feature::node, node, Feature::face, best), apart - a.radius);
+}
+
+void MeshPair::beside(const Vec3& y, int node, int e, const ContactWriter& exchanged) const {
+  const Vec3 &along = a.along[e], &from = a.node(a.edge(e).node[0]);
+  const double arc = along.dot(y - from), length = a.length[e];
+  const Vec3 y_a = from + arc * along, apart = y - y_a;
+  if (arc <= 0 || arc >= length || apart.dot(b.node_normals.col(node)) >= 0 || apart.norm() >= limit) return;
+  if (!minimum(a.edge(e), along, apart, [&](int f) -> const Vec3& { return a.face_normal(f); })) return;
+  MeshPlace nearest{};  // of the surface, the node must be nearest to the edge's point
+  const double distance = apart.norm();
+  if (a.radius == 0 && distance <= tiny) return;
+  if (!nearest_of_mesh(b, y_a, distance, nearest) || nearest.distance < distance - tiny) return;
+  const auto key = exchanged.key(Feature::node, node, Feature::edge, e);
+  if (a.radius > 0)
+    exchanged.write(on_line(y, 0, from, along, a.radius), key, distance - a.radius);
+  else
+    exchanged.write(on_face(y, 0, y_a, apart / distance, 0), key, distance);
+}
+
+}  // namespace pbd

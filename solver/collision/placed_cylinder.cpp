@@ -1,0 +1,83 @@
+#include "collision/placed_cylinder.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "collision/tolerances.h"
+
+namespace pbd {
+
+Vec3 PlacedCylinder::on_rim(int end, double angle) const {
+  const Vec3 first = axis.unitOrthogonal();
+  return cap(end) + radius * (std::cos(angle) * first + std::sin(angle) * axis.cross(first));
+}
+
+double PlacedCylinder::support(const Vec3& n) const {
+  return half * std::abs(n.dot(axis)) + radius * (n - n.dot(axis) * axis).norm();
+}
+
+PlacedCylinder::Place PlacedCylinder::place(const Vec3& x) const {
+  const double z = axis.dot(x - centre);
+  const Vec3 across = x - centre - z * axis;
+  const double from_axis = across.norm(), above = std::abs(z) - half, outside = from_axis - radius;
+  const int end = z < 0 ? -1 : 1;
+  const Vec3 radial = from_axis > 0 ? Vec3(across / from_axis) : axis.unitOrthogonal();
+  if (above > 0 && outside > 0) {
+    const Vec3 nearest = cap(end) + radius * radial;
+    const double distance = std::hypot(above, outside);
+    return {distance, Part::rim, nearest, (outside * radial + above * end * axis) / distance, end};
+  }
+  if (above > outside) return {above, Part::cap, x - above * end * axis, end * axis, end};
+  return {outside, Part::side, x - outside * radial, radial, end};
+}
+
+double nearest_arc(const Segment& edge, const PlacedCylinder& b) {
+  const auto slope = [&](double s) {
+    const PlacedCylinder::Place at = b.place(edge.at(s));
+    return at.distance > 0 ? edge.along.dot(at.normal) : 0.0;
+  };
+  double low = 0, high = edge.length;
+  if (slope(low) >= 0) return low;
+  if (slope(high) <= 0) return high;
+  constexpr int halvings = 60;  // 2^-60 of the length: below its rounding
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2, here = slope(middle);
+    if (here == 0) return middle;
+    (here < 0 ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+double nearest_angle(const PlacedCylinder& a, int end, const PlacedCylinder& b) {
+  constexpr int samples = 16, halvings = 52;  // 2^-52 of an arc is rounding
+  constexpr double part = 2 * std::numbers::pi / samples;
+  const auto distance = [&](double angle) { return b.place(a.on_rim(end, angle)).distance; };
+  std::array<double, samples> sampled{};
+  for (int k = 0; k < samples; ++k) sampled[k] = distance(k * part);
+  double best = 0, least = infinity;
+  for (int k = 0; k < samples; ++k) {
+    const double here = sampled[k];
+    const double before = sampled[(k + samples - 1) % samples];
+    const double after = sampled[(k + 1) % samples];
+    const bool level = std::max(before, after) - here < rounding * a.radius;
+    if (level && here < least) {
+      least = here;
+      best = k * part;
+    }
+    if (level || here > before || here > after || here - part * a.radius > least) continue;
+    double low = (k - 1) * part, high = (k + 1) * part;
+    for (int halving = 0; halving < halvings; ++halving) {
+      const double middle = (low + high) / 2;
+      const Vec3 y = a.on_rim(end, middle), along = a.axis.cross(y - a.cap(end));
+      (b.place(y).normal.dot(along) < 0 ? low : high) = middle;
+    }
+    const double found = distance(low);
+    if (found >= least) continue;
+    least = found;
+    best = low;
+  }
+  return best;
+}
+
+}  // namespace pbd

@@ -1,0 +1,41 @@
+// A cylinder placed in the world (or in a mesh's frame), and where points are relative to it.
+#pragma once
+
+#include "collision/segments.h"
+#include "shapes.h"
+
+namespace pbd {
+
+struct PlacedCylinder {
+  enum class Part { cap, side, rim };
+
+  /// Of a point: its signed distance (m), the nearest part and point, and the outward normal there.
+  struct Place {
+    double distance;
+    Part part;
+    Vec3 nearest, normal;
+    int end;  // 1 or -1: which cap or rim
+  };
+
+  Vec3 centre, axis;    // axis: unit
+  double radius, half;  // m
+
+  PlacedCylinder(const Cylinder& cylinder, const Frame& at)
+      : centre(at.origin), axis(at.rotation.col(2)), radius(cylinder.radius), half(cylinder.length / 2) {}
+
+  double size() const { return 2 * (radius + half); }  // m, at least the diameter
+  Vec3 cap(int end) const { return centre + end * half * axis; }
+  Vec3 on_rim(int end, double angle) const;
+  Place place(const Vec3& x) const;
+  /// Of the farthest point along the unit vector n, measured from the centre (m).
+  double support(const Vec3& n) const;
+};
+
+/// The arc of an edge's point nearest to the cylinder (m): the distance is convex, its slope is bisected.
+double nearest_arc(const Segment& edge, const PlacedCylinder& b);
+
+/// The angle of the point of a's rim that is nearest to (or deepest in) b: about the least of 16 samples,
+/// where the distance's slope changes its sign.
+double nearest_angle(const PlacedCylinder& a, int end, const PlacedCylinder& b);
+
+}  // namespace pbd

@@ -1,0 +1,134 @@
+#include "collision/surface_contact.h"
+
+#include <algorithm>
+
+namespace pbd {
+namespace {
+
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : otherwise;
+}
+
+SurfaceTouching node_triangle(const SurfaceContact& contact, const Points& x) {
+  const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
+  const Vec3 u = at(2) - at(1), v = at(3) - at(1), from = at(0) - at(1);
+  const Vec3 across = u.cross(v);
+  SurfaceTouching found;
+  found.normal = contact.side * unit_or(across, Vec3::UnitZ());
+  const double squared = across.squaredNorm();
+  const double b2 = squared > 0 ? from.cross(v).dot(across) / squared : 0.0;
+  const double b3 = squared > 0 ? u.cross(from).dot(across) / squared : 0.0;
+  found.weight = {1, b2 + b3 - 1, -b2, -b3};
+  found.gap = found.normal.dot(from) - contact.thickness;
+  found.point = at(0);
+  return found;
+}
+
+/// Edges whose cross product is rounding: they have no normal of their own.
+bool parallel(const Vec3& e, const Vec3& f) {
+  constexpr double least_sine = 1e-10;
+  return !(e.cross(f).squaredNorm() > least_sine * least_sine * e.squaredNorm() * f.squaredNorm());
+}
+
+SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
+  const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
+  const Vec3 e = at(1) - at(0), f = at(3) - at(2), apart = at(2) - at(0);
+  const Vec3 across = e.cross(f);
+  const double squared = across.squaredNorm();
+  SurfaceTouching found;
+  const bool crossing = !parallel(e, f);
+  found.normal = contact.side * (crossing ? Vec3(across.normalized()) : e.unitOrthogonal());
+  const double s = crossing ? apart.cross(f).dot(across) / squared : 0.5;
+  const double t = crossing ? apart.cross(e).dot(across) / squared : 0.5;
+  found.weight = {1 - s, s, t - 1, -t};
+  found.gap = -found.normal.dot(apart) - contact.thickness;
+  found.point = at(0) + s * e;
+  return found;
+}
+
+template <class T>
+void keep_each_once(std::vector<T>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// True if the nearest points lie on the features: no weight has the sign of the other side.
+bool inside(const SurfaceTouching& found, bool edges) {
+  const auto& w = found.weight;
+  return edges ? w[0] >= 0 && w[1] >= 0 && w[2] <= 0 && w[3] <= 0 : w[1] <= 0 && w[2] <= 0 && w[3] <= 0;
+}
+
+template <std::size_t K>
+AxisBox box_of(const std::array<int, K>& nodes, const Points& x, const std::vector<double>& reach,
+               double margin) {
+  AxisBox box;
+  for (const int node : nodes) {
+    const Vec3 slack = Vec3::Constant(reach[node] + margin);
+    box.extend(Vec3(x.col(node) - slack)).extend(Vec3(x.col(node) + slack));
+  }
+  return box;
+}
+
+/// The contact on the side on which x is, if it is near enough.
+void add(SurfaceContact contact, const Points& x, const std::vector<double>& reach,
+         std::vector<SurfaceContact>& out) {
+  double most = 0;
+  for (const int node : contact.node) most = std::max(most, reach[node]);
+  SurfaceTouching found = touching(contact, x);
+  if (found.gap + contact.thickness < 0) contact.side = -1;
+  found = touching(contact, x);
+  if (found.gap < 2 * most && inside(found, contact.edges)) out.push_back(contact);
+}
+
+}  // namespace
+
+SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
+  return contact.edges ? edge_edge(contact, x) : node_triangle(contact, x);
+}
+
+SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
+  for (const auto& [a, b, c] : triangles) {
+    nodes_.insert(nodes_.end(), {a, b, c});
+    for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
+      edges_.push_back({std::min(from, to), std::max(from, to)});
+  }
+  keep_each_once(nodes_);
+  keep_each_once(edges_);
+}
+
+void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach, double thickness,
+                               std::vector<SurfaceContact>& out) {
+  boxes_.clear();
+  for (const auto& triangle : triangles_) boxes_.push_back(box_of(triangle, x, reach, thickness));
+  tree_.build(boxes_);
+  for (const int node : nodes_)
+    tree_.find(box_of(std::array{node}, x, reach, 0), [&](int k) {
+      const auto& [a, b, c] = triangles_[k];
+      if (node != a && node != b && node != c) add({{node, a, b, c}, false, 1, thickness}, x, reach, out);
+    });
+}
+
+void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach, double thickness,
+                               std::vector<SurfaceContact>& out) {
+  boxes_.clear();
+  for (const auto& edge : edges_) boxes_.push_back(box_of(edge, x, reach, thickness / 2));
+  tree_.build(boxes_);
+  for (std::size_t i = 0; i < edges_.size(); ++i)
+    tree_.find(boxes_[i], [&](int j) {
+      const auto& [a, b] = edges_[i];
+      const auto& [c, d] = edges_[j];
+      const bool apart = a != c && a != d && b != c && b != d;
+      if (static_cast<std::size_t>(j) > i && apart && !parallel(x.col(b) - x.col(a), x.col(d) - x.col(c)))
+        add({{a, b, c, d}, true, 1, thickness}, x, reach, out);
+    });
+}
+
+void SurfaceSearch::find(const Points& x, const std::vector<double>& reach, double thickness,
+                         std::vector<SurfaceContact>& out) {
+  if (triangles_.empty()) return;
+  find_nodes(x, reach, thickness, out);
+  find_edges(x, reach, thickness, out);
+}
+
+}  // namespace pbd

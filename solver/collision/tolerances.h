@@ -1,0 +1,16 @@
+// What counts as rounding, and what as parallel, in all of the contact geometry. Both are pure numbers:
+// lengths are compared with `rounding` times the sizes of the shapes, so that shapes of millimetres and of
+// kilometres touch alike.
+#pragma once
+
+namespace pbd {
+
+/// Lengths up to this part of the sizes are rounding: differences of coordinates of that size are known to
+/// 2e-16 of it, so that a direction taken from a longer one is wrong by less than 1e-6 rad.
+inline constexpr double rounding = 1e-9;
+
+/// The sine of the least angle of edges that make a crossing (0.1 rad): below, where they cross depends on
+/// the angle ten times as much as on the edges' places.
+inline constexpr double crossing_sine = 0.1;
+
+}  // namespace pbd

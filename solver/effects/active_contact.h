@@ -1,0 +1,127 @@
+// One contact of a step: its features, its directions (normal n and two tangents) and its columns. Impulses
+// push along n and t at x, both bodies at one place: those of a face on one plane, through the point of the
+// other body that is nearest to it; else in the middle of the gap.
+#pragma once
+
+#include <cmath>
+
+#include "collision/contact_point.h"
+#include "collision/surface_contact.h"
+#include "rows/bodies.h"
+#include "scene.h"
+
+namespace pbd {
+
+/// One contact of a step.
+struct ActiveContact {
+  ContactPoint features;        // in the frames of its carriers
+  std::array<int, 2> carrier;   // body or node of a and b
+  std::array<int, 2> collider;  // as the effect counts them, nodes behind the shapes; of surfaces the
+                                // node and a triangle's first one, or the edges' first ones
+  int node_side = -1;           // 0 or 1 where a or b is a node
+  bool of_surfaces = false;     // then `surface` is it, and there are no features
+  SurfaceContact surface;
+  Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
+  double nearest = 0;              // m, smallest gap of its pair
+  double target = 0;               // m, the gap aimed at
+  double restitution = 0;          // e where the shapes collide in this step, else 0
+  bool closing = false;            // they approach each other where it begins
+  ContactLaw law;                  // of its materials
+  double offset = 0;               // m, of the gap by damping
+  double compliance = 0;           // m/N, with damping's share
+};
+
+template <int R>
+using Directions = Eigen::Matrix<double, R, 3>;  // n, t1, t2 in rows
+
+/// The normal, and for R = 3 two tangents seen from `reference`.
+template <int R>
+Directions<R> directions_of(const Vec3& normal, const Vec3& reference) {
+  Directions<R> directions;
+  directions.row(0) = normal.transpose();
+  if constexpr (R == 3) {
+    directions.row(1) = (reference - normal.dot(reference) * normal).normalized().transpose();
+    directions.row(2) = normal.cross(Vec3(directions.row(1))).transpose();
+  }
+  return directions;
+}
+
+/// The axis of the world that lies best across `normal`, the first one where it does well enough.
+inline Vec3 reference_for(const Vec3& normal) {
+  constexpr double steep = 0.9;
+  return std::abs(normal.x()) < steep ? Vec3::UnitX() : Vec3::UnitY();
+}
+
+inline Frame frame_of(const ActiveContact& contact, int side, const Configuration& at) {
+  const int carrier = contact.carrier[side];
+  if (side == contact.node_side) return {at.x.col(carrier), Eigen::Matrix3d::Identity()};
+  const Pose& pose = at.pose[carrier];
+  return {pose.x, pose.rotation};
+}
+
+/// First of a side's columns among the row's K: a node's stands in front of its body's.
+template <class Block>
+int column_of(const ActiveContact& contact, int side) {
+  if (Block::nodes == 4) return 2 * side;
+  return side == contact.node_side ? 0 : 1;
+}
+
+/// Where impulses act, m: at one place of both, so that together they turn nothing; those of a face on one
+/// plane, so that all its points can stick at once, however far from it each is.
+inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
+  const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
+  return on_face ? Vec3(found.point_b + contact.nearest * found.normal)
+                 : Vec3((found.point_a + found.point_b) / 2);
+}
+
+/// Gap and normal of a contact, and its row's J.
+template <class Block>
+Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian) {
+  if constexpr (Block::nodes == 4)
+    if (contact.of_surfaces) {
+      const SurfaceTouching found = touching(contact.surface, at.x);
+      const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
+      for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
+      return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
+    }
+  Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
+  const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
+  const Vec3 place = place_of(contact, found);
+  for (const int side : {0, 1}) {
+    const int column = 3 * column_of<Block>(contact, side);
+    const double sign = side == 0 ? 1 : -1;
+    jacobian.template middleCols<3>(column) = sign * directions;
+    if (side == contact.node_side) continue;
+    const Pose& pose = at.pose[contact.carrier[side]];
+    jacobian.template middleCols<3>(column + 3) =
+        -sign * directions * cross_matrix(place - pose.x) * pose.turn_per_arc;
+  }
+  return found;
+}
+
+/// The directions in which the impulses of a row push a.
+template <class Block>
+Directions<Block::rows> directions_in(const ActiveContact& contact,
+                                      const typename Block::Jacobian& jacobian) {
+  const int column = contact.of_surfaces ? 0 : 3 * column_of<Block>(contact, 0);
+  Directions<Block::rows> directions = jacobian.template middleCols<3>(column);
+  if (contact.of_surfaces && contact.surface.edges) directions += jacobian.template middleCols<3>(3);
+  return directions;
+}
+
+/// The nodes of a contact's rows.
+template <class Block>
+typename Block::Nodes columns_of_contact(const ActiveContact& contact, const Bodies& bodies) {
+  typename Block::Nodes columns{};
+  if constexpr (Block::nodes == 4)
+    if (contact.of_surfaces) return contact.surface.node;
+  for (const int side : {0, 1}) {
+    const auto column = static_cast<std::size_t>(column_of<Block>(contact, side));
+    const int carrier = contact.carrier[side];
+    columns[column] = side == contact.node_side ? carrier : bodies.node(carrier);
+    if (side != contact.node_side) columns[column + 1] = static_cast<int>(bodies.column(carrier));
+  }
+  return columns;
+}
+
+}  // namespace pbd

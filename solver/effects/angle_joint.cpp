@@ -1,0 +1,57 @@
+#include "effects/angle_joint.h"
+
+#include <numbers>
+
+#include "rows/effect_rows.h"
+
+namespace pbd {
+namespace {
+
+/// The angle of b's reference `to` about a's axis from a's reference, and its derivative by `to`.
+struct Twist {
+  Vec3 to, across;  // across: to without its part along the axis
+  double squared;   // |across|^2
+  Vec3 gradient;    // axis x across / |across|^2
+  double angle;
+
+  Twist(const AngleJoint& effect, std::size_t i, const Pose& a, const Pose& b)
+      : to(b.rotation * effect.reference[i][1]) {
+    const Vec3 axis = a.rotation * effect.axis[i], from = a.rotation * effect.reference[i][0];
+    angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+    across = to - axis.dot(to) * axis;
+    squared = across.squaredNorm();
+    gradient = squared > 0 ? Vec3(axis.cross(across) / squared) : Vec3(Vec3::Zero());
+  }
+};
+}  // namespace
+
+using C = Constraint<AngleJoint>;
+
+void C::evaluate(const AngleJoint& effect, std::size_t i, const Positions& at, Value& value,
+                 Jacobian& jacobian) {
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  const Twist twist(effect, i, a, b);
+  value[0] =
+      std::remainder(twist.angle - effect.rest_angle[i] - effect.rate[i] * at.time, 2 * std::numbers::pi);
+  const Vec3 turn = twist.squared > 0 ? twist.to.cross(twist.gradient) : Vec3(a.rotation * effect.axis[i]);
+  jacobian << Row3::Zero(), -turn.transpose() * a.turn_per_arc, Row3::Zero(),
+      turn.transpose() * b.turn_per_arc;
+}
+
+/// With g = across and t = gradient the angle's second derivative by `to` is -(g t^T + t g^T) / |g|^2.
+C::NodeBounds C::geometric_bound(const AngleJoint& effect, std::size_t i, const Positions& at,
+                                 const Value& impulse) {
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  const Twist twist(effect, i, a, b);
+  if (!(twist.squared > 0)) return NodeBounds::Zero();
+  const Eigen::Matrix3d product = twist.across * twist.gradient.transpose(), turn = cross_matrix(twist.to);
+  const Eigen::Matrix3d by_turn = turn.transpose() * (product + product.transpose()) * turn / twist.squared;
+  return rotation_bound(impulse[0] * by_turn + lever_form(impulse[0] * twist.gradient, twist.to),
+                        impulse[0] * twist.to.cross(twist.gradient), a, b);
+}
+
+std::unique_ptr<Source> make_source(const Scene& scene, const AngleJoint& effect) {
+  return std::make_unique<EffectRows<AngleJoint>>(scene, effect);
+}
+
+}  // namespace pbd

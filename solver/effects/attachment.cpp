@@ -1,0 +1,27 @@
+#include "effects/attachment.h"
+
+#include "rows/effect_rows.h"
+
+namespace pbd {
+
+using C = Constraint<Attachment>;
+
+void C::evaluate(const Attachment& effect, std::size_t i, const Positions& at, Value& value,
+                 Jacobian& jacobian) {
+  const Pose& body = *at.body[0];
+  const Vec3 lever = body.rotation * effect.point[i];
+  value = at.node - body.x - lever;
+  jacobian << -Square::Identity(), cross_matrix(lever) * body.turn_per_arc, Square::Identity();
+}
+
+C::NodeBounds C::geometric_bound(const Attachment& effect, std::size_t i, const Positions& at,
+                                 const Value& impulse) {
+  const Pose& body = *at.body[0];
+  return {0, largest_of(lever_form(-impulse, body.rotation * effect.point[i]), body), 0};
+}
+
+std::unique_ptr<Source> make_source(const Scene& scene, const Attachment& effect) {
+  return std::make_unique<EffectRows<Attachment>>(scene, effect);
+}
+
+}  // namespace pbd

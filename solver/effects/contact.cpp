@@ -1,0 +1,237 @@
+#include "effects/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/contact_stiffness.h"
+#include "rows/row_operations.h"
+
+namespace pbd {
+namespace {
+
+/// f(block, its contacts) for each block of contacts; there is none where nothing can touch.
+template <class Blocks, class Lists, class F>
+void with_contacts(Blocks&& blocks, Lists& contacts, F&& f) {
+  for (std::size_t group = 0; group < blocks.size(); ++group)
+    std::visit(
+        [&]<class Block>(Block& block) {
+          if constexpr ((Block::rows == 1 || Block::rows == 3) && (Block::nodes == 3 || Block::nodes == 4))
+            f(block, contacts[group]);
+        },
+        blocks[group]);
+}
+
+/// What the rows ask to vanish, or not to be negative, without the compliance's part, per second.
+template <class Block>
+typename Block::Value rates(const ActiveContact& contact, const typename Block::Jacobian& jacobian,
+                            double gap, const StepMap& map, const typename Block::Velocities& start_v,
+                            const typename Block::Velocities& v) {
+  typename Block::Value rate = jacobian * v;
+  const double apart = (gap - contact.target - contact.offset) / map.d;
+  if (contact.restitution > 0) {
+    rate[0] += contact.restitution * (jacobian * start_v)[0];
+    if (contact.closing) return rate;
+    rate[0] = std::min(rate[0], apart);
+  } else {
+    rate[0] = apart;
+  }
+  return rate;
+}
+
+/// Sets `nearest` of contacts of bodies, a pair's in a row.
+void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
+  for (auto first = contacts.begin(); first != contacts.end();) {
+    auto last = first;
+    double nearest = infinity;
+    for (; last != contacts.end() && last->collider == first->collider; ++last)
+      nearest =
+          std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
+    for (; first != last; ++first) first->nearest = nearest;
+  }
+}
+
+/// Largest coordinate of a contact, m.
+double largest(const ActiveContact& contact, const Touching& found, const Configuration& at) {
+  double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
+  if (contact.of_surfaces) return most;
+  for (const int side : {0, 1})
+    most = std::max(most, frame_of(contact, side, at).origin.cwiseAbs().maxCoeff());
+  return most;
+}
+
+/// One contact's rows; adds to the residual.
+template <class Block>
+void linearise_contact(const RowPlace& place, const Points& start_v, const ActiveContact& contact,
+                       Block& block, std::size_t i, RowResidual& sums) {
+  auto& jacobian = block.jacobian[i];
+  const Touching found = evaluate<Block>(contact, place.at, jacobian);
+  if (place.directions != nullptr) evaluate<Block>(contact, *place.directions, jacobian);
+  const typename Block::Value rate = rates<Block>(contact, jacobian, found.gap, place.map,
+                                                  block.gather(start_v, i), block.gather(place.v, i));
+  block.bias[i] = rate - jacobian * block.gather(place.v, i);
+  block.compliance[i].setZero();
+  block.compliance[i](0, 0) = contact.compliance / (place.map.h * place.map.d);
+  block.bounds[i] = {};
+  RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, place.inverse_mass, i);
+  const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
+  sums.squared += squared_residual(block, i, r);
+  const double size = value_rounding * largest(contact, found, place.at) / place.map.d;
+  sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
+  sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
+}
+
+}  // namespace
+
+ContactRows::ContactRows(const Scene& scene, const Contact& effect, Friction law)
+    : Source({.fills_space = false, .limited = true, .contacts = true}),
+      effect_(effect),
+      law_(law),
+      search_(scene, effect) {}
+
+std::vector<AnyBlock> ContactRows::allocate(bool) {
+  if (effect_.collider.empty() && effect_.triangle.empty()) return {};
+  RowBlock<3, 4> of_bodies;
+  RowBlock<3, 3> of_nodes;
+  of_bodies.law = of_nodes.law = law_;
+  return {of_bodies, RowBlock<1, 4>{}, of_nodes, RowBlock<1, 3>{}, of_bodies, RowBlock<1, 4>{}};
+}
+
+bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
+  if (blocks.empty()) return false;
+  start_v_ = begin.v;
+  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.map.v_free, begin.inverse_mass);
+  keep_impulses(blocks);
+  if (!begin.warm_start) seeds_.clear();
+  return fill(begin, blocks);
+}
+
+Widened ContactRows::widen(const StepBegin& begin, const Points& x, BlockSpan blocks) {
+  if (blocks.empty() || !search_.extend(begin.bodies, begin.at, x)) return Widened::no;
+  keep_impulses(blocks);
+  return fill(begin, blocks) ? Widened::others : Widened::alike;
+}
+
+void ContactRows::note_impulses(ConstBlockSpan blocks) {
+  with_contacts(blocks, contacts_, [](const auto& block, auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      if (block.impulse[i][0] > 0) contacts[i].restitution = contacts[i].law.restitution;
+  });
+}
+
+void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
+  with_contacts(blocks, contacts_, [&](auto& block, auto& contacts) {
+    RowResidual own;
+    if (!contacts.empty() && !contacts[0].of_surfaces) find_nearest(place.at, contacts);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      linearise_contact(place, start_v_, contacts[i], block, i, own);
+    sums.squared += own.squared;
+    sums.rounding_squared += own.rounding_squared;
+    sums.impulses_squared += own.impulses_squared;
+  });
+}
+
+void ContactRows::add_geometric_mass(const StepMap& map, const Configuration& at, double factor,
+                                     ConstBlockSpan blocks, std::vector<double>& added_mass) const {
+  with_contacts(blocks, contacts_, [&](const auto& block, const auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      add_contact_stiffness(contacts[i], map, at, factor, block, i, added_mass);
+  });
+}
+
+void ContactRows::perturb(const RowError& error, BlockSpan blocks, Points& push) const {
+  with_contacts(blocks, contacts_, [&]<class Block>(Block& block, const auto& contacts) {
+    typename Block::Jacobian jacobian;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const Touching found = evaluate<Block>(contacts[i], error.turned, jacobian);
+      block.apply(error.inverse_mass, i, jacobian, block.impulse[i], push);
+      const typename Block::Value before = block.bias[i] + block.jacobian[i] * block.gather(error.v, i);
+      const typename Block::Velocities moved =
+          block.gather(error.v, i) + error.scale * block.gather(error.error, i);
+      const typename Block::Value after =
+          rates<Block>(contacts[i], jacobian, found.gap, error.map, block.gather(start_v_, i), moved);
+      block.bias[i] = (after - before) / error.scale - block.jacobian[i] * block.gather(error.error, i);
+      block.bounds[i].freedom = block.impulse[i][0] > 0 ? Freedom::free : Freedom::held;
+      block.impulse[i].setZero();
+    }
+  });
+}
+
+void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at, const Points& v,
+                                     ConstBlockSpan blocks, std::vector<ContactForce>& forces) const {
+  const auto first_node = static_cast<int>(effect_.collider.size() + effect_.node.size());  // of a surface
+  with_contacts(blocks, contacts_, [&]<class Block>(const Block& block, const auto& contacts) {
+    using Full = RowBlock<3, Block::nodes>;  // all three directions, of a contact without friction too
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      typename Full::Jacobian jacobian = Full::Jacobian::Zero();
+      const Touching found = evaluate<Full>(contacts[i], at, jacobian);
+      const Directions<3> directions = directions_in<Full>(contacts[i], jacobian);
+      std::array<int, 2> collider = contacts[i].collider;
+      for (int& own : collider) own += contacts[i].of_surfaces ? first_node : 0;
+      Vec3 impulse = Vec3::Zero();
+      impulse.head<Block::rows>() = block.impulse[i];
+      Vec3 slip = jacobian * block.gather(v, i);
+      slip[0] = 0;
+      forces.push_back({collider, place_of(contacts[i], found), found.normal,
+                        directions.transpose() * impulse / map.h, directions.transpose() * slip, found.gap});
+    }
+  });
+}
+
+void ContactRows::keep_impulses(ConstBlockSpan blocks) {
+  seeds_.clear();
+  with_contacts(blocks, contacts_, [&]<class Block>(const Block& block, const auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (!(block.impulse[i][0] > 0)) continue;
+      const auto directions = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
+      seeds_.push_back(
+          {contacts[i].collider, contacts[i].features.key, directions.transpose() * block.impulse[i]});
+    }
+  });
+  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.name() < b.name(); });
+}
+
+/// What a contact asks for in this step, and the impulse it begins with.
+template <class Block>
+void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact,
+                                Block& block, std::size_t i) const {
+  auto& jacobian = block.jacobian[i];
+  contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
+  const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
+  contact.target = std::min(0.0, gap + effect_.recovery * begin.map.h);
+
+  const double closing = (jacobian * block.gather(start_v_, i))[0];
+  const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
+  contact.closing = closing < 0;
+  contact.restitution = closing < 0 && ahead < 0 ? contact.law.restitution : 0.0;
+  const double share = 1 / (1 + contact.law.damping / begin.map.d);
+  contact.compliance = share * contact.law.compliance;
+  contact.offset = (1 - share) * (gap - contact.target + (jacobian * block.gather(shifts.own, i))[0]);
+
+  const Seed wanted{contact.collider, contact.features.key, {}};
+  const auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), wanted,
+                                     [](const Seed& x, const Seed& y) { return x.name() < y.name(); });
+  if (seed == seeds_.end() || seed->name() != wanted.name()) return;
+  block.impulse[i] = directions_in<Block>(contact, jacobian) * seed->impulse;
+  block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
+}
+
+/// True if the rows connect other columns than before.
+bool ContactRows::fill(const StepBegin& begin, BlockSpan blocks) {
+  search_.find(begin.at, contacts_);
+  const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x};
+  bool others = false;
+  with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
+    std::vector<typename Block::Shape::Nodes> before;
+    before.swap(block.node);
+    block.resize_contacts(contacts.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      block.node[i] = columns_of_contact<Block>(contacts[i], begin.bodies);
+      if (block.frictional()) block.friction[i] = contacts[i].law.friction;
+      begin_contact(begin, shifts, contacts[i], block, i);
+    }
+    others |= block.node != before;
+  });
+  return others;
+}
+
+}  // namespace pbd

@@ -1,0 +1,72 @@
+// Rows of contacts: one source among others. Which contacts a step has is found where it begins
+// (contact_search.h); gap and normal n follow the iterates. Rows of a contact, with the velocities v of the
+// map x(v) (integrators.h):
+//   normal      (g(x) - min(0, g_l + recovery h)) / d, g the gap (m), g_l where the step begins
+//               or, where shapes collide with restitution e in this step, by their free motion or as an
+//               iterate has found, n . (u(v) + e u(v_l)), u the relative velocity of what touches (the
+//               smaller of the two where they did not approach each other): with newmark and alpha = 1/2
+//               energy is then kept for e = 1
+//   tangential  t_j . u(v), two directions across n that follow it
+// A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
+//
+// Limits: features stay those of the step's beginning, so that a face goes on as its plane within a step.
+// Impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they turn
+// nothing together. Nodes do not touch nodes. Deformable surfaces touch by nodes over triangles and edges
+// that cross, where the nearest points lie on them as the step begins; the side is the one on which it
+// begins. What overlaps from the start stays on the wrong side; a node that comes over an edge or a corner
+// within a step is held by whatever else is near. `thickness` should be well below the shortest edge; a
+// crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
+// converge. Restitution is Newton's: each pair that collides in this step, by its free motion or as an
+// iterate has found, returns its speed by e.
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+#include "effects/contact_search.h"
+#include "rows/source.h"
+
+namespace pbd {
+
+class ContactRows final : public Source {
+ public:
+  ContactRows(const Scene& scene, const Contact& effect, Friction law);
+
+  std::vector<AnyBlock> allocate(bool hard_alone) override;
+  bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
+  Widened widen(const StepBegin& begin, const Points& x, BlockSpan blocks) override;
+  void note_impulses(ConstBlockSpan blocks) override;
+  void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
+  void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
+                          std::vector<double>& added_mass) const override;
+  void perturb(const RowError& error, BlockSpan blocks, Points& push) const override;
+  void add_contact_forces(const StepMap& map, const Configuration& at, const Points& v, ConstBlockSpan blocks,
+                          std::vector<ContactForce>& forces) const override;
+
+ private:
+  struct Seed {  // of an impulse: what it was in the last step
+    std::array<int, 2> collider;
+    std::uint64_t key;
+    Vec3 impulse;  // N s, on a, in the world
+
+    auto name() const { return std::tie(collider, key); }
+  };
+  struct Shifts {  // m, from the step's start to the free motion's end and to x0
+    Points free, own;
+  };
+
+  void keep_impulses(ConstBlockSpan blocks);
+  bool fill(const StepBegin& begin, BlockSpan blocks);
+  template <class Block>
+  void begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact, Block& block,
+                     std::size_t i) const;
+
+  const Contact& effect_;
+  Friction law_;
+  ContactSearch search_;
+  ContactLists contacts_;
+  std::vector<Seed> seeds_;
+  Points start_v_;  // m/s, where the step begins
+};
+
+}  // namespace pbd

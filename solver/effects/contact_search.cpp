@@ -1,0 +1,144 @@
+#include "effects/contact_search.h"
+
+#include <algorithm>
+
+namespace pbd {
+
+ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect_(effect) {
+  if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
+  apart_ = effect.apart;
+  for (const Effect& other : scene.effects)
+    std::visit(
+        [&]<class E>(const E& joint) {
+          if constexpr (requires { joint.body[0][1]; })
+            apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
+        },
+        other);
+  for (auto& pair : apart_)
+    if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
+  std::sort(apart_.begin(), apart_.end());
+}
+
+double ContactSearch::displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
+                                   const Points& to) const {
+  const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
+  if (motion.is_node) return shift(motion.carrier).norm();
+  const Pose& pose = start.pose[static_cast<std::size_t>(motion.carrier)];
+  const double turn = (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm();
+  return shift(bodies.node(motion.carrier)).norm() + motion.radius * turn;
+}
+
+void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& start,
+                                    const std::vector<double>& inverse_mass) {
+  motions_.resize(effect_.collider.size() + effect_.node.size());
+  const auto moves = [&](Eigen::Index column) { return inverse_mass[column] > 0; };
+  for (std::size_t k = 0; k < effect_.collider.size(); ++k) {
+    const Collider& collider = effect_.collider[k];
+    const Pose& pose = start.pose[collider.body];
+    Motion& motion = motions_[k];
+    motion.shape = &collider.shape;
+    motion.frame = {pose.x + pose.rotation * collider.frame.origin, pose.rotation * collider.frame.rotation};
+    motion.carrier = collider.body;
+    motion.moves = moves(bodies.node(collider.body)) || moves(bodies.column(collider.body));
+    const double radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
+    motion.radius = std::isfinite(radius) ? radius : 0.0;
+  }
+  for (std::size_t k = 0; k < effect_.node.size(); ++k) {
+    Motion& motion = motions_[effect_.collider.size() + k];
+    motion.node_shape = Sphere{effect_.radius[k]};
+    motion.shape = &motion.node_shape;
+    motion.frame = {start.x.col(effect_.node[k]), Eigen::Matrix3d::Identity()};
+    motion.carrier = effect_.node[k];
+    motion.is_node = true;
+    motion.moves = moves(effect_.node[k]);
+  }
+}
+
+void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
+  const int material = effect_.surface_material;
+  const ContactLaw& law = effect_.law[material * effect_.materials + material];
+  surface_contacts_.clear();
+  surfaces_->find(x, travel_, effect_.thickness, surface_contacts_);
+  for (const SurfaceContact& found : surface_contacts_) {
+    ActiveContact contact;
+    contact.of_surfaces = true;
+    contact.carrier = {-1, -1};
+    contact.features.point_a = contact.features.point_b = Vec3::Zero();
+    contact.surface = found;
+    contact.law = law;
+    contact.collider = {found.node[0], found.edges ? found.node[2] : found.node[1]};
+    const auto rest = static_cast<std::uint64_t>(found.edges ? found.node[3] : found.node[2]);
+    contact.features.key = 2 * (rest + static_cast<std::uint64_t>(x.cols()) *
+                                           static_cast<std::uint64_t>(found.node[found.edges ? 1 : 3])) +
+                           (found.edges ? 1 : 0);
+    contacts[law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
+  }
+}
+
+void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
+  const Motion &one = motions_[first], &two = motions_[second];
+  if (!one.is_node && !two.is_node) {
+    const std::array<int, 2> bodies{std::min(one.carrier, two.carrier), std::max(one.carrier, two.carrier)};
+    if (std::binary_search(apart_.begin(), apart_.end(), bodies)) return;
+  }
+  found_.clear();
+  generate(*one.shape, one.frame, *two.shape, two.frame, effect_.margin + one.travel + two.travel, scratch_,
+           found_);
+  const auto local = [&](int collider) {
+    return motions_[collider].is_node ? Frame{} : effect_.collider[collider].frame;
+  };
+  const ContactLaw& law = effect_.between(first, second);
+  for (const ContactPoint& point : found_) {
+    const std::array<int, 2> sides = point.swapped ? std::array{second, first} : std::array{first, second};
+    ActiveContact contact;
+    contact.features = placed(point, local(sides[0]), local(sides[1]));
+    contact.collider = sides;
+    for (const int side : {0, 1}) {
+      const Motion& own = motions_[sides[side]];
+      contact.carrier[side] = own.carrier;
+      if (own.is_node) contact.node_side = side;
+    }
+    contact.law = law;
+    const std::size_t group =
+        (contact.node_side < 0 ? bodies_rough : nodes_rough) + (law.friction > 0 ? 0 : 1);
+    contacts[group].push_back(contact);
+  }
+}
+
+void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,
+                          const std::vector<double>& inverse_mass) {
+  place_colliders(bodies, start, inverse_mass);
+  for (Motion& motion : motions_) motion.travel = displacement(motion, bodies, start, free);
+  if (!surfaces_) return;
+  travel_.assign(bodies.nodes(), 0.0);
+  for (const int node : surfaces_->nodes()) travel_[node] = (free.col(node) - start.x.col(node)).norm();
+}
+
+bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
+  bool farther = false;
+  const auto extend = [&](double& travel, double reached) {
+    constexpr double rounding = 1e-9, room = 2;  // a second widening is rare
+    if (!(reached > (1 + rounding) * travel)) return;
+    travel = room * reached;
+    farther = true;
+  };
+  for (Motion& motion : motions_) extend(motion.travel, displacement(motion, bodies, start, x));
+  if (surfaces_)
+    for (const int node : surfaces_->nodes()) extend(travel_[node], (x.col(node) - start.x.col(node)).norm());
+  return farther;
+}
+
+void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
+  for (auto& list : contacts) list.clear();
+  boxes_.clear();
+  for (const Motion& motion : motions_) {
+    const Eigen::AlignedBox3d box = bounds_of(*motion.shape, motion.frame);
+    const Vec3 slack = Vec3::Constant(motion.travel + effect_.margin);
+    const int group = motion.is_node ? -1 : motion.carrier;  // nodes touch no nodes, bodies not themselves
+    boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
+  }
+  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, contacts);
+  if (surfaces_) add_surfaces(start.x, contacts);
+}
+
+}  // namespace pbd

@@ -1,0 +1,39 @@
+#include "effects/distance.h"
+
+#include "rows/effect_rows.h"
+
+namespace pbd {
+
+using C = Constraint<Distance>;
+
+C::Nodes C::node(const Distance& effect, std::size_t i) {
+  return effect.node[i];
+}
+
+C::Square C::compliance(const Distance& effect, std::size_t i) {
+  return Square(effect.compliance[i]);
+}
+
+C::Square C::retardation(const Distance& effect, std::size_t i) {
+  return Square(effect.damping[i]);
+}
+
+void C::evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
+                 Jacobian& jacobian) {
+  const Vec3 link = x.col(1) - x.col(0);
+  const double length = link.norm();
+  const Vec3 direction = length > 0 ? Vec3(link / length) : Vec3::UnitX();
+  value[0] = length - effect.rest_length[i];
+  jacobian << -direction.transpose(), direction.transpose();
+}
+
+C::NodeBounds C::geometric_bound(const Distance&, std::size_t, const Positions& x, const Value& impulse) {
+  const double length = (x.col(1) - x.col(0)).norm();
+  return NodeBounds::Constant(length > 0 ? std::max(0.0, -impulse[0]) * 2 / length : 0.0);
+}
+
+std::unique_ptr<Source> make_source(const Scene& scene, const Distance& effect) {
+  return std::make_unique<EffectRows<Distance>>(scene, effect);
+}
+
+}  // namespace pbd

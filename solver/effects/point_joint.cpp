@@ -1,0 +1,29 @@
+#include "effects/point_joint.h"
+
+#include "rows/effect_rows.h"
+
+namespace pbd {
+
+using C = Constraint<PointJoint>;
+
+void C::evaluate(const PointJoint& effect, std::size_t i, const Positions& at, Value& value,
+                 Jacobian& jacobian) {
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  const Vec3 lever_a = a.rotation * effect.point[i][0], lever_b = b.rotation * effect.point[i][1];
+  value = b.x + lever_b - a.x - lever_a;
+  jacobian << -Square::Identity(), cross_matrix(lever_a) * a.turn_per_arc, Square::Identity(),
+      -cross_matrix(lever_b) * b.turn_per_arc;
+}
+
+C::NodeBounds C::geometric_bound(const PointJoint& effect, std::size_t i, const Positions& at,
+                                 const Value& impulse) {
+  const Pose &a = *at.body[0], &b = *at.body[1];
+  return {0, largest_of(lever_form(-impulse, a.rotation * effect.point[i][0]), a), 0,
+          largest_of(lever_form(impulse, b.rotation * effect.point[i][1]), b)};
+}
+
+std::unique_ptr<Source> make_source(const Scene& scene, const PointJoint& effect) {
+  return std::make_unique<EffectRows<PointJoint>>(scene, effect);
+}
+
+}  // namespace pbd

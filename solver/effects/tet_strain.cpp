@@ -1,0 +1,143 @@
+#include "effects/tet_strain.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "effects/stress_bound.h"
+#include "mesh.h"
+#include "rows/effect_rows.h"
+#include "rows/polar.h"
+#include "rows/symmetric_eigen.h"
+
+namespace pbd {
+namespace {
+
+using C = Constraint<TetStrain>;
+
+/// Y C^-1 at Poisson's ratio nu
+C::Square inverse_elasticity(double nu) {
+  C::Square inverse = C::Square::Zero();
+  inverse.topLeftCorner<3, 3>().setConstant(-nu);
+  inverse.diagonal() << 1, 1, 1, 2 * (1 + nu), 2 * (1 + nu), 2 * (1 + nu);
+  return inverse;
+}
+
+Eigen::Matrix3d stress_of(const C::Value& p) {
+  Eigen::Matrix3d matrix;
+  matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
+  return matrix;
+}
+
+Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
+  const auto& rest = effect.rest[i];
+  return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
+}
+
+Eigen::Matrix<double, 4, 3> gradients(const Eigen::Matrix3d& inverse) {
+  Eigen::Matrix<double, 4, 3> y;
+  y << -inverse.colwise().sum(), inverse;
+  return y;
+}
+
+Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
+  switch (strain) {
+    case Strain::green:
+      return f;
+    case Strain::corotational:
+      return polar_rotation(f);
+    case Strain::linear:
+      return Eigen::Matrix3d::Identity();
+  }
+  return f;
+}
+
+}  // namespace
+
+C::Nodes C::node(const TetStrain& effect, std::size_t i) {
+  return effect.node[i];
+}
+
+const C::Positions& C::rest(const TetStrain& effect, std::size_t i) {
+  return effect.rest[i];
+}
+
+C::Square C::compliance(const TetStrain& effect, std::size_t i) {
+  return inverse_elasticity(effect.material.poisson) / (effect.material.young * tet_volume(effect.rest[i]));
+}
+
+C::Square C::retardation(const TetStrain& effect, std::size_t) {
+  return inverse_elasticity(effect.material.poisson) *
+         inverse_of(inverse_elasticity(effect.damping->poisson)) *
+         (effect.damping->young / effect.material.young);
+}
+
+C::Deformation C::deformation(const TetStrain& effect, std::size_t i, const Positions& x) {
+  const Eigen::Matrix3d inverse = inverse_rest(effect, i);
+  const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
+  return {inverse, f, directions(effect.strain, f)};
+}
+
+C::Value C::strain(const TetStrain& effect, const Deformation& at) {
+  const Eigen::Matrix3d stretch = at.t.transpose() * at.f;
+  const Eigen::Matrix3d twice = stretch + stretch.transpose();
+  Value value;
+  value << twice.diagonal() / 2, twice(0, 1), twice(1, 2), twice(2, 0);
+  if (effect.strain == Strain::green) value /= 2;
+  value.head<3>().array() -= effect.strain == Strain::green ? 0.5 : 1.0;
+  return value;
+}
+
+C::Positions C::push(const Deformation& at, const Value& impulse) {
+  const Eigen::Matrix3d stress = stress_of(impulse);
+  Positions pushed;
+  pushed.rightCols<3>().noalias() = at.t * stress * at.inverse.transpose();
+  pushed.col(0) = -pushed.rightCols<3>().rowwise().sum();
+  return pushed;
+}
+
+Eigen::Matrix3d C::weighted_deformation(const TetStrain& effect, std::size_t i, const Positions& x) {
+  const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse_rest(effect, i);
+  return tet_volume(effect.rest[i]) * (effect.strain == Strain::linear ? Eigen::Matrix3d::Identity() : f);
+}
+
+void C::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
+                 Jacobian& jacobian) {
+  const auto [inverse, f, t] = deformation(effect, i, x);
+  value = strain(effect, {inverse, f, t});
+  const Eigen::Matrix<double, 4, 3> y = gradients(inverse);
+  for (int node_index = 0; node_index < 4; ++node_index)
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3;
+      jacobian.block<1, 3>(a, 3 * node_index) = y(node_index, a) * t.col(a).transpose();
+      jacobian.block<1, 3>(3 + a, 3 * node_index) =
+          y(node_index, b) * t.col(a).transpose() + y(node_index, a) * t.col(b).transpose();
+    }
+}
+
+C::NodeBounds C::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
+                                 const Value& impulse) {
+  if (effect.strain == Strain::linear) return NodeBounds::Zero();
+  const Eigen::Matrix3d stress = stress_of(impulse);
+  const Eigen::Matrix3d inverse = inverse_rest(effect, i);
+  if (effect.strain == Strain::green) return stress_bound(gradients(inverse), Eigen::Matrix3d(-stress));
+  const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
+  const Eigen::Matrix3d stretch = polar_rotation(f).transpose() * f;
+  const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
+  const double pair = symmetric.trace() - symmetric_eigenvalues(symmetric).maxCoeff();
+  constexpr double least_pair = 0.1;
+  const Vec3 tension = symmetric_eigenvalues(-stress);
+  double largest = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double one = tension[a], other = tension[(a + 1) % 3];
+    largest = std::max(largest, (one + other + std::sqrt(2 * (one * one + other * other))) / 2);
+  }
+  return stress_bound(gradients(inverse),
+                      Eigen::Matrix3d(largest / std::max(pair, least_pair) * Eigen::Matrix3d::Identity()));
+}
+
+std::unique_ptr<Source> make_source(const Scene& scene, const TetStrain& effect) {
+  return std::make_unique<EffectRows<TetStrain>>(scene, effect);
+}
+
+}  // namespace pbd

@@ -1,0 +1,50 @@
+// The augmented Lagrangian of linear rows with bounds and friction, by velocities. With the slips s_i = mu
+// |u_t| held fixed, Coulomb's law is that of the convex cone (rows/laws.h) for rows shifted by s_i
+// e_n, and the impulses that minimise 1/2 |v - v_free|_M^2 under the rows are found by rounds of
+//   p_i(v) = P_i(p_i - (sigma_i + Sigma_i)^-1 (J_i v + b_i + s_i e_n + Sigma_i p_i)),   v = argmin of a
+//   convex function whose gradient is M (v - v_free) - J^T p(v),   p <- p(v),   s from the new v
+// (rockafellar1976augmented; for contact alart1991mixed; s as a fixed point: acary2011formulation). The
+// function is minimised by Newton's method with line search, which converges from anywhere; sigma_i is 1e-4
+// of N_ii: the smaller, the fewer rounds, and the worse conditioned the function.
+#pragma once
+
+#include "linear/sparse_factor.h"
+#include "linear/sweeps.h"
+#include "rows/velocity_system.h"
+
+namespace pbd {
+
+class AugmentedLagrangian {
+ public:
+  /// True unless impulses obey the law `box` (a pyramid; P is a cone's here) or rows are local and know no
+  /// masses.
+  static bool applies(const Rows& rows);
+
+  static constexpr std::string_view name = "augmented_lagrangian";
+  void begin(Rows&, const Points&, bool) { further_sweeps_ = 0; }
+
+  /// One `improve`; returns the natural residual it met.
+  Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
+
+  /// Factorisations since `begin`.
+  std::int64_t further_sweeps() const { return further_sweeps_; }
+
+  /// Some rounds from the rows' impulses and v, which belong together; returns the number of factorisations.
+  int improve(Rows& rows, Points& v);
+
+ private:
+  /// The function's value at v, J; sets `asked_`, `gradient_` and the matrix of second derivatives.
+  double evaluate(const Rows& rows, const Points& v);
+  int minimise(const Rows& rows, Points& v);
+
+  Eigen::VectorXd anchor_, slip_, asked_;  // p (N s), s_i e_n (m/s) and p(v) (N s): one entry a row
+  Points free_, tried_;
+  Eigen::VectorXd gradient_, step_;  // N s, m/s: one entry an unknown
+  VelocitySystem system_;
+  SparseMatrix matrix_;
+  SparseLdlt factor_;
+  bool analysed_ = false;
+  std::int64_t further_sweeps_ = 0;
+};
+
+}  // namespace pbd

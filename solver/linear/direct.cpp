@@ -1,0 +1,52 @@
+#include "linear/direct.h"
+
+#include <algorithm>
+
+#include "linear/gauss_seidel.h"
+#include "linear/natural_residual.h"
+
+namespace pbd {
+
+void Direct::begin(Rows& rows, const Points& v, bool fresh) {
+  part_ = rows.contacts ? SemismoothNewton::name : Ldlt::name;
+  if (!rows.contacts) return ldlt_.begin(rows, v, fresh);
+  newton_.begin(rows, v, fresh);
+  lowest_ = infinity;
+  idle_ = 0;
+  further_sweeps_ = 0;
+}
+
+Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  if (!rows.contacts) return ldlt_.sweep(rows, v, seconds);
+  constexpr int patience = 10;  // iterations without a gain
+  const double residual = natural_residual(rows, v);
+  idle_ = residual < SemismoothNewton::enough_fall * lowest_ ? 0 : idle_ + 1;
+  lowest_ = std::min(lowest_, residual);
+  if (!(residual > 0) || idle_ > patience) return {residual, true};
+  const bool augments = AugmentedLagrangian::applies(rows);
+  part_ = SemismoothNewton::name;
+  if (newton_.improve(rows, v, residual, augments ? 2 : 3)) return {residual};
+  part_ = AugmentedLagrangian::name;
+  if (augments && augment(rows, v, residual)) return {residual};
+  part_ = GaussSeidel::name;
+  const int instead = 10 * (1 + idle_);
+  for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
+  further_sweeps_ += instead;
+  return {residual};
+}
+
+bool Direct::augment(Rows& rows, Points& v, double residual) {
+  keep_impulses_and_biases(rows, kept_);
+  start_ = v;
+  for (int call = 0; call <= idle_; ++call) {
+    further_sweeps_ += augmented_.improve(rows, v);
+    if (!(natural_residual(rows, v) < SemismoothNewton::enough_fall * residual)) continue;
+    newton_.trust();
+    return true;
+  }
+  restore_impulses_and_biases(kept_, rows);
+  v = start_;
+  return false;
+}
+
+}  // namespace pbd

@@ -1,0 +1,40 @@
+// The composition that solves any rows. Without contacts it is `ldlt`. With contacts a sweep is an iteration
+// of `semismooth_newton`; where none of its steps reduces the residual, that of `augmented_lagrangian` may,
+// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. Nothing bounds the
+// work of one step but the budget of sweeps and this patience.
+#pragma once
+
+#include "linear/augmented_lagrangian.h"
+#include "linear/ldlt.h"
+#include "linear/semismooth_newton.h"
+
+namespace pbd {
+
+class Direct {
+ public:
+  static constexpr std::string_view name = "direct";
+  void begin(Rows& rows, const Points& v, bool fresh);
+  Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
+
+  /// Since `begin`, besides one an iteration: factorisations of the augmented Lagrangian, sweeps of
+  /// Gauss-Seidel.
+  std::int64_t further_sweeps() const { return further_sweeps_; }
+
+  /// The name of the part that made the last gain.
+  std::string_view part() const { return part_; }
+
+ private:
+  bool augment(Rows& rows, Points& v, double residual);
+
+  Ldlt ldlt_;
+  SemismoothNewton newton_;
+  AugmentedLagrangian augmented_;
+  std::string_view part_ = Ldlt::name;
+  std::vector<double> kept_;  // impulses and biases, and
+  Points start_;              // velocities where the augmented Lagrangian begins
+  double lowest_ = infinity;  // residual since `begin`
+  int idle_ = 0;              // iterations since the residual was clearly lower than ever
+  std::int64_t further_sweeps_ = 0;
+};
+
+}  // namespace pbd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "linear/sweeps.h"
+
+namespace pbd {
+
+/// Block Gauss-Seidel in the scene's order: dp_i = -N_ii^-1 r_i, v updated at once.
+struct GaussSeidel {
+  static constexpr std::string_view name = "gauss_seidel";
+  void begin(Rows&, const Points&, bool) {}
+  Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
+};
+
+}  // namespace pbd

@@ -1,0 +1,15 @@
+// Names of the linear solvers.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace pbd {
+
+/// All of them.
+std::vector<std::string_view> linear_solver_names();
+
+/// Those that solve any rows: all but the parts of `direct`.
+std::vector<std::string_view> general_solver_names();
+
+}  // namespace pbd

@@ -1,0 +1,143 @@
+#include "linear/semismooth_newton.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "linear/natural_residual.h"
+#include "rows/dense.h"
+#include "rows/laws.h"
+
+namespace pbd {
+namespace {
+
+/// own dp + by_step J dv = right, constraint i's row of the linear system.
+template <class Block>
+struct LinearLaw {
+  typename Block::Square own, by_step;
+  typename Block::Value right;
+};
+
+template <class Block>
+LinearLaw<Block> linear_law(const Block& block, std::size_t i, const Points& v, double shift) {
+  using Square = typename Block::Square;
+  LinearLaw<Block> law{Square::Identity(), Square::Zero(), Block::Value::Zero()};
+  const double weight = block.inverse_diagonal[i].trace() / Block::rows;  // about w
+  if (!(weight > 0)) return law;                                          // nothing that it could move
+  const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+  const typename Block::Value step = -block.inverse_diagonal[i] * r;
+  const auto found = allowed_derivative(block, projected_law(block, i), i, block.impulse[i], step);
+  law.by_step = found.by_change;
+  Square compliance = block.compliance[i];
+  compliance.diagonal().array() += shift / weight;
+  law.own = law.by_step * compliance;
+  law.right = -r;
+  if (block.bounded()) {
+    law.own += (Square::Identity() - found.by_p) / weight;
+    law.right = allowed(block, i, block.impulse[i], step) / weight;
+  }
+  return law;
+}
+
+bool has_local_contacts(const Rows& rows) {
+  return std::any_of(rows.blocks.begin(), rows.blocks.end(),
+                     [](const AnyBlock& block) { return std::holds_alternative<LocalContacts>(block); });
+}
+
+}  // namespace
+
+void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
+  system_.begin(rows);
+  const auto impulses = static_cast<int>(row_count(rows));
+  keeps_impulses_ = impulses <= system_.size || has_local_contacts(rows);
+  const int unknowns = system_.size + (keeps_impulses_ ? impulses : 0);
+  right_.setZero(unknowns);
+  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
+    const auto [own, by_step, right] = linear_law(block, i, v, shift_);
+    if (!keeps_impulses_) {
+      const typename Block::Square inverse = inverse_of(own);
+      system_.add(block, i, inverse * by_step);
+      system_.push(block, i, inverse * right, right_);
+      return;
+    }
+    const int row = system_.size + static_cast<int>(first);
+    right_.segment<Block::rows>(row) = right;
+    auto& entries = system_.entries;
+    for (int k = 0; k < Block::rows; ++k)
+      for (int l = 0; l < Block::rows; ++l) entries.emplace_back(row + k, row + l, own(k, l));
+    if constexpr (is_local<Block>)
+      for (const auto& [contact, w] : block.column[i]) {  // J dv = W dp
+        const typename Block::Square coupled = by_step * w.transpose();
+        const int other = row + Block::rows * (contact - static_cast<int>(i));
+        for (int k = 0; k < Block::rows; ++k)
+          for (int l = 0; l < Block::rows; ++l) entries.emplace_back(row + k, other + l, coupled(k, l));
+      }
+    const typename Block::Jacobian across = by_step * block.jacobian[i];
+    system_.each_node(block, i, [&](int column, int a) {
+      for (int k = 0; k < Block::rows; ++k)
+        for (int axis = 0; axis < 3; ++axis) {
+          entries.emplace_back(row + k, column + axis, across(k, 3 * a + axis));
+          entries.emplace_back(column + axis, row + k, -block.jacobian[i](k, 3 * a + axis));
+        }
+    });
+  });
+  pbd::assemble(unknowns, system_.entries, matrix_);
+}
+
+/// The step of the impulses, one entry a row.
+void SemismoothNewton::find_step(const Rows& rows, const Points& v) {
+  solution_ = factor_.solve(right_);
+  step_.resize(row_count(rows));
+  if (keeps_impulses_) {
+    step_ = solution_.tail(step_.size());
+    return;
+  }
+  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
+    const auto [own, by_step, right] = linear_law(block, i, v, shift_);
+    step_.segment<Block::rows>(first) =
+        inverse_of(own) * (right - by_step * system_.along(block, i, solution_));
+  });
+}
+
+/// Solves the linear system and takes the longest step that ends below that residual; false, and nothing
+/// changed, where none does.
+bool SemismoothNewton::descend(Rows& rows, Points& v, double below) {
+  constexpr double shortest = 0.1;  // step: other means gain more than shorter ones
+  assemble(rows, v);
+  if (!factor_.factorise(matrix_)) return false;
+  find_step(rows, v);
+  for (double length = 1; length > shortest; length /= 2) {
+    each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, Eigen::Index first) {
+      const typename Block::Value target = block.impulse[i] + length * step_.segment<Block::rows>(first);
+      const typename Block::Value change = cut(block, i, target) - block.impulse[i];
+      block.impulse[i] += change;
+      block.apply(rows.inverse_mass, i, change, v);
+    });
+    if (natural_residual(rows, v) < below) return true;
+    restore_impulses_and_biases(kept_, rows);
+    v = start_;
+  }
+  return false;
+}
+
+bool SemismoothNewton::improve(Rows& rows, Points& v, double residual, int attempts) {
+  constexpr double change = 100;  // of the shift, from attempt to attempt
+  keep_impulses_and_biases(rows, kept_);
+  start_ = v;
+  for (int k = 0; k < attempts; ++k) {
+    if (descend(rows, v, enough_fall * residual)) {
+      shift_ = std::max(least_shift, shift_ / change);
+      return true;
+    }
+    shift_ = std::min(most_shift, shift_ * change);
+  }
+  return false;
+}
+
+Sweep SemismoothNewton::sweep(Rows& rows, Points& v, BlockSeconds) {
+  constexpr int attempts = 3;
+  const double residual = natural_residual(rows, v);
+  return {residual, !(residual > 0) || !improve(rows, v, residual, attempts)};
+}
+
+}  // namespace pbd

@@ -1,0 +1,53 @@
+// Newton's method for linear rows whose impulses obey bounds and laws of friction: with w =
+// `inverse_diagonal` and P what the law makes of a step (rows/laws.h), the rows hold where p = P(p, -w r),
+// r = J v + b + Sigma p. Each iteration solves the linear system of (dv, dp)
+//   M dv - J^T dp = 0,  (1 - P_p) dp / w + P_step (J dv + Sigma dp) = (P(p, -w r) - p) / w
+// (rows without a law: J dv + Sigma dp = -r) by sparse LU, and takes the longest of four steps that reduces
+// the residual. Redundant rows make the system singular: Sigma is taken larger by a part of J W J^T, 1e-8 at
+// least, a proximal term, which the iteration removes. Where there are more rows than velocities, impulses
+// are eliminated (not those of local problems). Where no step reduces the residual the part grows, and
+// shrinks again where steps succeed (levenberg1944method). (Semismooth Newton: qi1993nonsmooth; for friction
+// alart1991mixed.) It converges from near a solution; from afar it may be exhausted without one.
+#pragma once
+
+#include "linear/sparse_factor.h"
+#include "linear/sweeps.h"
+#include "rows/velocity_system.h"
+
+namespace pbd {
+
+class SemismoothNewton {
+ public:
+  static constexpr std::string_view name = "semismooth_newton";
+  static constexpr double enough_fall = 0.9;  // of the residual, to count as a gain
+
+  void begin(Rows&, const Points&, bool) { trust(); }
+
+  /// One iteration.
+  Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
+
+  /// One iteration of so many attempts from where the natural residual is `residual`; false, and nothing
+  /// changed, where none reduces it.
+  bool improve(Rows& rows, Points& v, double residual, int attempts);
+
+  /// Takes the least shift again.
+  void trust() { shift_ = least_shift; }
+
+ private:
+  static constexpr double least_shift = 1e-8, most_shift = 1e-2;  // of Sigma, as a part of J W J^T
+
+  void assemble(const Rows& rows, const Points& v);
+  void find_step(const Rows& rows, const Points& v);
+  bool descend(Rows& rows, Points& v, double below);
+
+  VelocitySystem system_;
+  bool keeps_impulses_ = true;  // as unknowns
+  SparseMatrix matrix_;
+  SparseLu factor_;
+  Eigen::VectorXd right_, solution_, step_;
+  std::vector<double> kept_;  // impulses and biases, and
+  Points start_;              // velocities where the iteration begins
+  double shift_ = least_shift;
+};
+
+}  // namespace pbd

@@ -1,0 +1,59 @@
+// Contact of rigid bodies' shapes, nodes and deformable surfaces, with friction and restitution.
+#pragma once
+
+#include <string_view>
+
+#include "geometry.h"
+#include "shapes.h"
+
+namespace pbd {
+
+/// What two materials do where they touch: Coulomb's coefficient of friction; the share of the approaching
+/// speed that comes back where they collide; compliance (m/N) and retardation time (s) of the gap.
+struct ContactLaw {
+  double friction = 0.5;
+  double restitution = 0;
+  double compliance = 0;
+  double damping = 0;
+};
+
+/// A shape that may touch others, in a frame of its rigid body.
+struct Collider {
+  Shape shape;
+  int body = 0;
+  Frame frame{};
+  int material = 0;
+};
+
+/// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
+/// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`.
+/// Two colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch.
+/// `law` has an entry for each pair of materials, row by row of a symmetric table. Gaps g >= 0 at the end of
+/// each step; where one begins with overlap, the shapes part by at most `recovery` (m/s). Pairs take part
+/// that are nearer than their motions go, and `margin` (m).
+struct Contact {
+  static constexpr std::string_view name = "contact";
+  std::vector<Collider> collider;
+  std::vector<int> node{};
+  std::vector<double> radius{};
+  std::vector<int> node_material{};
+  std::vector<std::array<int, 3>> triangle{};  // of nodes
+  double thickness = 1e-3;                     // m
+  int surface_material = 0;
+  int materials = 1;
+  std::vector<ContactLaw> law{ContactLaw{}};
+  std::vector<std::array<int, 2>> apart{};
+  double margin = 0;
+  double recovery = infinity;
+
+  /// Of the material of collider or node k, nodes behind the colliders.
+  int material(std::size_t k) const {
+    return k < collider.size() ? collider[k].material : node_material[k - collider.size()];
+  }
+  const ContactLaw& between(std::size_t first, std::size_t second) const {
+    const auto row = static_cast<std::size_t>(material(first));
+    return law[row * materials + material(second)];
+  }
+};
+
+}  // namespace pbd

@@ -1,0 +1,14 @@
+#include "outer/acceleration.h"
+
+namespace pbd {
+
+bool Acceleration::refuted(StepSystem& system, const Progress& progress) {
+  constexpr double too_much = 10;  // growth of the residual that an acceleration may bring
+  const double residual = progress.residual();
+  const bool refuted = accelerated_ && residual > too_much * last_residual_;
+  if (refuted) anderson_.reject(system.rows, system.at.v);
+  last_residual_ = residual;
+  return refuted;
+}
+
+}  // namespace pbd

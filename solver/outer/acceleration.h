@@ -1,0 +1,33 @@
+// Anderson's acceleration (anderson.h), taken back where the residual refutes it.
+#pragma once
+
+#include "outer/anderson.h"
+#include "outer/step_system.h"
+
+namespace pbd {
+
+class Acceleration {
+ public:
+  explicit Acceleration(int memory) : anderson_(memory) {}
+
+  void forget() {
+    anderson_.forget();
+    accelerated_ = false;
+  }
+
+  /// Notes where the next image comes from; true if v has been taken back to the last image, so that all has
+  /// to be linearised again before `note`.
+  bool refuted(StepSystem& system, const Progress& progress);
+  void note(const StepSystem& system) { anderson_.begin(system.rows, system.at.v); }
+
+  void accelerate(StepSystem& system) {
+    accelerated_ = anderson_.accelerate(system.problem.inverse_mass, system.rows, system.at.v);
+  }
+
+ private:
+  Anderson anderson_;
+  bool accelerated_ = false;  // v is not an image of the iteration, but its acceleration
+  double last_residual_ = 0;
+};
+
+}  // namespace pbd

@@ -1,0 +1,40 @@
+// auto: quasi_newton for compliant solids; else plain where that contracts, as predicted by the last step's
+// end and a bound of this one's, and as far as the iterates so far show; else proximal. A step that surprises
+// both predictions shows it in two slow iterations, after which it goes on as proximal. Of a sheet of links
+// or triangles quasi_newton's metric counts as stiff what gives way: such rows are left to the other two.
+#pragma once
+
+#include <optional>
+
+#include "outer/proximal.h"
+#include "outer/quasi_newton.h"
+
+namespace pbd {
+
+class Automatic {
+ public:
+  explicit Automatic(StepSystem& system);
+
+  bool on_potential() const { return potential_.has_value(); }
+
+  void begin(StepSystem& system);
+  RowResidual refresh(StepSystem& system);
+  void iterate(StepSystem& system, Progress& progress);
+  void forget();
+  void forget_stiffness() {
+    if (potential_) potential_->forget_stiffness();
+  }
+  void end(StepSystem& system) { proximal_.end(system); }
+  std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
+  void unsettle(StepSystem& system) { potential_->unsettle(system); }
+
+ private:
+  bool plain_contracts(StepSystem& system, const Progress& progress);
+
+  std::optional<QuasiNewton> potential_;  // where it suits
+  Proximal proximal_;
+  GeometricMass mass_;
+  int slow_changes_ = 0;  // of v in this step, in a row
+};
+
+}  // namespace pbd

@@ -1,0 +1,69 @@
+#include "outer/metric.h"
+
+#include "rows/polar.h"
+
+namespace pbd {
+namespace {
+
+template <int B, class Real>
+MetricFactor<B, Real> converted(const std::vector<Eigen::Matrix<double, B, B>>& lower) {
+  MetricFactor<B, Real> factor;
+  factor.lower.resize(lower.size());
+  for (std::size_t k = 0; k < lower.size(); ++k) factor.lower[k] = lower[k].template cast<Real>();
+  return factor;
+}
+
+Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& deformation) {
+  if (deformation.isZero(0)) return Eigen::Matrix3d::Identity();
+  return polar_rotation(deformation);
+}
+
+}  // namespace
+
+void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
+                    const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
+                    double most_products) {
+  constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
+  pattern_ = analyse(inverse_mass, entries);
+  if (pattern_.products() > most_products) {
+    factor_ = converted<1, double>(factorised<1>(pattern_, inverse_mass, entries));
+  } else {
+    const auto lower = factorised<3>(pattern_, inverse_mass, entries);
+    if (pivot_ratio(pattern_, lower) >= single_precision)
+      factor_ = converted<3, float>(lower);
+    else
+      factor_ = converted<3, double>(lower);
+  }
+  inverse_diagonal_ = inverse_mass;
+  for (const auto& entry : entries)
+    if (entry.row == entry.column && inverse_mass[entry.row] > 0)
+      inverse_diagonal_[entry.row] = 1 / (1 / inverse_diagonal_[entry.row] + entry.block.trace() / 3);
+  work_.resize(3, pattern_.columns());
+  rotation_.assign(inverse_mass.size(), Eigen::Matrix3d::Identity());
+  factored_ = rotation_;
+  for (std::size_t node = 0; node < deformation.size(); ++node)
+    factored_[node] = rotation_of(deformation[node]);
+  d_ = map.d;
+  s_ = map.s;
+}
+
+void Metric::turn(const std::vector<Eigen::Matrix3d>& deformation) {
+  if (!turns()) return;
+  for (std::size_t node = 0; node < deformation.size(); ++node)
+    rotation_[node] = rotation_of(deformation[node]) * factored_[node].transpose();
+}
+
+void Metric::solve(const Points& right, Points& result) {
+  result.resizeLike(right);
+  for (std::size_t node = 0; node < rotation_.size(); ++node)
+    if (pattern_.column[node] >= 0)
+      work_.col(pattern_.column[node]).noalias() = rotation_[node].transpose() * right.col(node);
+  std::visit([&](const auto& factor) { factor.solve(pattern_, work_); }, factor_);
+  for (std::size_t node = 0; node < rotation_.size(); ++node)
+    if (pattern_.column[node] >= 0)
+      result.col(node).noalias() = rotation_[node] * work_.col(pattern_.column[node]);
+    else
+      result.col(node).setZero();
+}
+
+}  // namespace pbd

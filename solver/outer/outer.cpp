@@ -1,0 +1,137 @@
+#include "outer/outer.h"
+
+#include "names.h"
+
+namespace pbd {
+
+void Plain::iterate(StepSystem& system, Progress& progress) {
+  system.at.v = system.at.rebuilt;
+  relax(system, progress);
+}
+
+void Incremental::iterate(StepSystem& system, Progress& progress) {
+  if (progress.outer_iterations == 0) system.at.v = system.at.rebuilt;
+  relax(system, progress);
+}
+
+void Frozen::iterate(StepSystem& system, Progress& progress) {
+  rest.setZero(3, system.at.v.cols());
+  linearise_at(system, rest);
+  const double stabilisation = system.problem.method.stabilisation;
+  if (stabilisation != 1) scale_hard_biases(system.rows, stabilisation);
+  system.at.v = system.at.rebuilt;
+  relax(system, progress);
+}
+
+namespace {
+
+template <class Kind>
+OuterIteration make(StepSystem& system) {
+  if constexpr (std::is_constructible_v<Kind, StepSystem&>)
+    return Kind(system);
+  else
+    return Kind{};
+}
+
+struct Outer {
+  std::string_view name;
+  bool solves_step;
+  OuterIteration (*make)(StepSystem& system);
+};
+
+const std::vector<Outer>& outers() {
+  static const std::vector<Outer> list{
+      {"auto", true, make<Automatic>},           {"plain", true, make<Plain>},
+      {"proximal", true, make<Proximal>},        {"quasi_newton", true, make<QuasiNewton>},
+      {"incremental", false, make<Incremental>}, {"frozen", false, make<Frozen>}};
+  return list;
+}
+
+}  // namespace
+
+std::vector<OuterName> outer_names() {
+  std::vector<OuterName> all;
+  for (const Outer& outer : outers()) all.push_back({outer.name, outer.solves_step});
+  return all;
+}
+
+void require_outer(std::string_view name) {
+  find_named(outers(), "outer", name);
+}
+
+OuterIteration make_outer(std::string_view name, StepSystem& system) {
+  return find_named(outers(), "outer", name).make(system);
+}
+
+// What an iteration does not state it does not need.
+
+void begin(OuterIteration& outer, StepSystem& system) {
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.begin(system); }) kind.begin(system);
+      },
+      outer);
+}
+
+RowResidual refresh(OuterIteration& outer, StepSystem& system) {
+  return std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.refresh(system); }) return kind.refresh(system);
+        return linearise_at(system, system.at.v);
+      },
+      outer);
+}
+
+void iterate(OuterIteration& outer, StepSystem& system, Progress& progress) {
+  std::visit([&](auto& kind) { kind.iterate(system, progress); }, outer);
+}
+
+void forget(OuterIteration& outer) {
+  std::visit(
+      [](auto& kind) {
+        if constexpr (requires { kind.forget(); }) kind.forget();
+      },
+      outer);
+}
+
+void forget_stiffness(OuterIteration& outer) {
+  std::visit(
+      [](auto& kind) {
+        if constexpr (requires { kind.forget_stiffness(); }) kind.forget_stiffness();
+      },
+      outer);
+}
+
+void end(OuterIteration& outer, StepSystem& system) {
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.end(system); }) kind.end(system);
+      },
+      outer);
+}
+
+std::optional<RowResidual> settle(OuterIteration& outer, StepSystem& system, const Progress& progress,
+                                  bool stalled) {
+  return std::visit(
+      [&](auto& kind) -> std::optional<RowResidual> {
+        if constexpr (requires { kind.settle(system, progress, stalled); })
+          return kind.settle(system, progress, stalled);
+        return std::nullopt;
+      },
+      outer);
+}
+
+void unsettle(OuterIteration& outer, StepSystem& system) {
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.unsettle(system); }) kind.unsettle(system);
+      },
+      outer);
+}
+
+bool on_potential(const OuterIteration& outer) {
+  if (const auto* automatic = std::get_if<Automatic>(&outer)) return automatic->on_potential();
+  return std::holds_alternative<QuasiNewton>(outer);
+}
+
+}  // namespace pbd

@@ -1,0 +1,60 @@
+#include "outer/potential.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace pbd {
+
+RowResidual Potential::evaluate(StepSystem& system) {
+  const Problem& problem = system.problem;
+  CurrentIterate& at = system.at;
+  at.x = problem.map.x0 + problem.map.d * at.v;
+  const Configuration here = placed(problem, at.x, at.poses, problem.x_time);
+  system.rows.inverse_mass = problem.inverse_mass;
+  at.rebuilt = problem.map.v_free;
+  value = std::pow(mass_distance(problem.inverse_mass, at.v, problem.map.v_free), 2) / 2;
+  const RowPlace place{problem.map, here, nullptr, at.v, problem.inverse_mass, problem.finite_mass};
+  RowResidual sums;
+  for (Slot& slot : system.slots) {
+    const auto start = std::chrono::steady_clock::now();
+    if (slot.eliminated)
+      slot.source->add_potential(problem.map, at.x, problem.inverse_mass, slot.blocks(system.rows),
+                                 at.rebuilt, value);
+    else
+      slot.source->linearise(place, slot.blocks(system.rows), sums);
+    slot.cost.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  gradient = at.v - at.rebuilt;
+  const Bodies& bodies = problem.bodies;
+  for (int b = 0; b < bodies.count() && problem.implicit_gyroscopic; ++b)
+    gradient.col(bodies.column(b)) -= problem.map.s * bodies.gyroscopic(b, at.v.col(bodies.column(b)));
+  for (std::size_t node = 0; node < problem.inverse_mass.size(); ++node)
+    gradient.col(node) *= problem.inverse_mass[node] > 0 ? 1 / problem.inverse_mass[node] : 0.0;
+  apply_impulses(system.rows, at.rebuilt, eliminated);
+  at.torque_missed = add_gyroscopic(system, at.rebuilt);
+  return sums;
+}
+
+void Potential::begin_metric(StepSystem& system) {
+  const Problem& problem = system.problem;
+  if (!metric.factored_for(problem.map)) factor_metric(system, MetricShape::rest);
+  system.at.x = problem.map.x0 + problem.map.d * system.at.v;
+  deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
+  for (const Slot& slot : system.slots) slot.source->add_deformation(system.at.x, deformation_);
+  metric.turn(deformation_);
+}
+
+void Potential::factor_metric(StepSystem& system, MetricShape shape) {
+  const Problem& problem = system.problem;
+  const Points& x = shape == MetricShape::rest ? problem.scene.initial.x : system.at.x;
+  std::vector<MetricEntry> entries;
+  for (Slot& slot : system.slots)
+    if (slot.eliminated) slot.source->add_metric(problem.map, x, shape, slot.blocks(system.rows), entries);
+  deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
+  if (shape == MetricShape::current)
+    for (const Slot& slot : system.slots) slot.source->add_deformation(system.at.x, deformation_);
+  metric.factor(problem.map, problem.inverse_mass, entries, deformation_);
+  since_factor = 0;
+}
+
+}  // namespace pbd

@@ -1,0 +1,203 @@
+#include "outer/quasi_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "error.h"
+
+namespace pbd {
+namespace {
+
+bool eliminates(const Slot& slot) {
+  const Source::Kind& kind = slot.source->kind();
+  return kind.compliant && !kind.of_bodies && !kind.contacts;
+}
+
+/// |.|_M^2 by the product of one vector with itself.
+double squared(const Problem& problem, const Points& v) {
+  return mass_product(problem.inverse_mass, v, v);
+}
+
+}  // namespace
+
+QuasiNewton::QuasiNewton(StepSystem& system)
+    : lbfgs_(system.problem.method.memory),
+      zero_(Points::Zero(3, system.problem.bodies.columns())),
+      acceleration_(system.problem.method.memory) {
+  const auto refuse = [](const char* what, const char* allowed) {
+    throw SetupError("outer", std::string("quasi_newton ") + what, allowed);
+  };
+  if (system.problem.direction_blend != 1)
+    refuse("with directions that are not those at x",
+           "direction_blend 1 and an implicit integrator, or another outer iteration");
+  bool any = false, limited = false;
+  for (Slot& slot : system.slots) {
+    if (slot.count == 0) continue;
+    slot.eliminated = eliminates(slot);
+    all_eliminated_ &= slot.eliminated;
+    any = true;
+    limited |= slot.source->kind().limited && !slot.source->kind().contacts;
+    potential_.eliminated.insert(potential_.eliminated.end(), slot.count, slot.eliminated);
+  }
+  all_eliminated_ &= any && system.problem.bodies.count() == 0;
+  if (!all_eliminated_ && limited)
+    refuse("with limits or motors of limited force", "another outer iteration");
+  if (!all_eliminated_ && system.rows.contacts) refuse("with contact", "another outer iteration");
+}
+
+bool QuasiNewton::suits(const StepSystem& system) {
+  if (system.rows.blocks.empty() || system.problem.direction_blend != 1 || system.problem.bodies.count() > 0)
+    return false;
+  return std::all_of(system.slots.begin(), system.slots.end(), [](const Slot& slot) {
+    return slot.count == 0 || (eliminates(slot) && slot.source->kind().fills_space);
+  });
+}
+
+void QuasiNewton::begin(StepSystem& system) {
+  acceleration_.forget();
+  lbfgs_.forget();
+  evaluated_ = false;
+  potential_.since_factor = 0;
+  lowest_ = infinity;
+  without_fall_ = 0;
+  potential_.begin_metric(system);
+}
+
+RowResidual QuasiNewton::evaluate(StepSystem& system) {
+  evaluated_ = all_eliminated_;
+  return potential_.evaluate(system);
+}
+
+RowResidual QuasiNewton::refresh(StepSystem& system) {
+  return evaluated_ ? RowResidual{} : evaluate(system);
+}
+
+void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
+  if (all_eliminated_)
+    descend(system, progress.outer_iterations == 0);
+  else
+    project(system, progress);
+}
+
+/// One proximal step in the metric: down the gradient, under the rows that are not eliminated.
+void QuasiNewton::project(StepSystem& system, Progress& progress) {
+  if (acceleration_.refuted(system, progress)) evaluate(system);
+  acceleration_.note(system);
+  const double accuracy = inner_accuracy(system.problem.method, progress);
+  potential_.metric.solve(potential_.gradient, direction_);
+  system.at.v -= direction_;
+  const auto sweeps = hard_rows_.solve(system.rows, potential_.eliminated, potential_.metric, accuracy,
+                                       system.problem.method.max_sweeps, system.at.v);
+  progress.sweeps += sweeps;
+  progress.row_updates += sweeps * row_count(system.rows, potential_.eliminated);
+  acceleration_.accelerate(system);
+}
+
+/// Finds the direction at v; returns Newton's decrement, sqrt(-gradient . direction), an estimate of the
+/// distance from the solution (sqrt(J)).
+double QuasiNewton::find_direction() {
+  const auto find = [this] {
+    lbfgs_.direction(potential_.gradient, potential_.metric, direction_);
+    slope_ = (potential_.gradient.array() * direction_.array()).sum();
+  };
+  find();
+  if (!(slope_ < 0)) {
+    lbfgs_.forget();
+    find();
+  }
+  return std::sqrt(-slope_);
+}
+
+/// Goes where the potential is lowest: the old velocity, the free one or rest. Not above rest, a step gains
+/// no energy but what the given forces bring: 1/2 |v - v_free|^2 + U <= 1/2 |v_free|^2 + U_old. True if it
+/// moved.
+bool QuasiNewton::start_low(StepSystem& system) {
+  const Problem& problem = system.problem;
+  Points& v = system.at.v;
+  search_from_ = v;
+  last_gradient_ = potential_.gradient;
+  double lowest = potential_.value;
+  const Points* last = &search_from_;
+  for (const Points* start : {&problem.map.v_free, static_cast<const Points*>(&zero_)}) {
+    if (start == &zero_ && lowest <= squared(problem, problem.map.v_free) / 2) break;
+    v = *start;
+    evaluate(system);
+    if (potential_.value < lowest) {
+      lowest = potential_.value;
+      search_from_ = v;
+      last_gradient_ = potential_.gradient;
+      last = start;
+    }
+  }
+  const bool moved = last != &search_from_;
+  if (moved && potential_.value > lowest) {
+    v = search_from_;
+    evaluate(system);
+  }
+  v = search_from_;
+  potential_.gradient = last_gradient_;
+  potential_.value = lowest;
+  return moved;
+}
+
+/// One line search down the potential along the direction found. Stays where no length gains anything. The
+/// first iteration of a step goes where the potential is lowest.
+void QuasiNewton::descend(StepSystem& system, bool first) {
+  constexpr double sufficient = 1e-4;
+  constexpr double flat = 1e-10, flatter = 0.8;  // where the potential's change is lost in its rounding
+  constexpr int most_halvings = 30, most_iterations = 30;
+  if (first) {
+    if (start_low(system)) return;
+    find_direction();
+  }
+  if (++potential_.since_factor > most_iterations) {
+    potential_.factor_metric(system, MetricShape::current);
+    lbfgs_.forget();
+    find_direction();
+  }
+  Points& v = system.at.v;
+  const double before = potential_.value;
+  search_from_ = v;
+  last_gradient_ = potential_.gradient;
+  double length = 1;
+  for (int k = 0; k < most_halvings; ++k, length /= 2) {
+    v = search_from_ + length * direction_;
+    evaluate(system);
+    const double along = (potential_.gradient.array() * direction_.array()).sum();
+    if (potential_.value <= before + sufficient * length * slope_ ||
+        (potential_.value <= (1 + flat) * before && along <= flatter * std::abs(slope_))) {
+      lbfgs_.learn(v - search_from_, potential_.gradient - last_gradient_);
+      return;
+    }
+  }
+  v = search_from_;
+  evaluate(system);
+  lbfgs_.forget();
+}
+
+std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progress& progress, bool stalled) {
+  if (!all_eliminated_ || progress.outer_iterations == 0) return std::nullopt;
+  constexpr int patience = 5;
+  constexpr double near = 10;          // times the tolerance
+  constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows
+  const Method& method = system.problem.method;
+  without_fall_ = progress.primal < lowest_ ? 0 : without_fall_ + 1;
+  lowest_ = std::min(lowest_, progress.primal);
+  const bool solved = find_direction() <= near * method.tolerance * progress.scale;
+  if (!stalled && !(solved && without_fall_ >= patience) && progress.outer_iterations + 1 < method.max_outer)
+    return std::nullopt;
+  search_from_ = system.at.v;
+  linearise_at(system, system.at.v);
+  settling_.solve(inner_share * method.tolerance * progress.scale, potential_.gradient, potential_.metric,
+                  system.rows, system.at.v);
+  evaluated_ = false;
+  return linearise_at(system, system.at.v);
+}
+
+void QuasiNewton::unsettle(StepSystem& system) {
+  without_fall_ = 0;
+  system.at.v = search_from_;
+  evaluate(system);
+}
+
+}  // namespace pbd

@@ -1,0 +1,71 @@
+// quasi_newton: v <- v - t H grad phi(v) on the potential that remains when compliant rows are eliminated
+// (potential.h), L-BFGS in a constant metric, backtracking on phi. Where hard rows are left they stay dual
+// (hard_rows.h): argmin of the potential's model in the metric P under them, accelerated by Anderson's
+// method; that is not globalised by a line search, and P knows nothing of the hard rows' geometric stiffness.
+//
+// The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
+// positions) until 30 iterations of a step were not enough: it is then factored anew at the current shape,
+// which allocates. Above 1e9 block products (about 18000 nodes of a beam four times as long as high) it falls
+// back to one number a pair of nodes, which takes several times the iterations (measured: `rival_newton`).
+#pragma once
+
+#include <optional>
+
+#include "outer/acceleration.h"
+#include "outer/hard_rows.h"
+#include "outer/lbfgs.h"
+#include "outer/potential.h"
+#include "outer/settle.h"
+
+namespace pbd {
+
+class QuasiNewton {
+ public:
+  /// Marks the slots that it eliminates. Throws SetupError where there is no potential.
+  explicit QuasiNewton(StepSystem& system);
+
+  /// True if `auto` takes it: every row is compliant, of points, and stiff in every direction.
+  static bool suits(const StepSystem& system);
+
+  void begin(StepSystem& system);
+  RowResidual refresh(StepSystem& system);
+  void iterate(StepSystem& system, Progress& progress);
+
+  /// The iterate or the impulses have been changed from outside.
+  void forget() {
+    evaluated_ = false;
+    acceleration_.forget();
+  }
+
+  /// The stiffness of an effect is another now.
+  void forget_stiffness() { potential_.metric.forget(); }
+
+  /// The rows' own impulses answer for what rounding makes of x, times the stiffness. Where the iteration has
+  /// arrived, or may not go on, takes v and them to the solution of the linear rows at v and returns the
+  /// residual there. `unsettle` comes back.
+  std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
+  void unsettle(StepSystem& system);
+
+ private:
+  RowResidual evaluate(StepSystem& system);
+  double find_direction();
+  bool start_low(StepSystem& system);
+  void descend(StepSystem& system, bool first);
+  void project(StepSystem& system, Progress& progress);
+
+  bool all_eliminated_ = true;
+  Potential potential_;
+  Lbfgs lbfgs_;
+  Settling settling_;
+  bool evaluated_ = false;  // the potential and the impulses are those of v
+  double slope_ = 0;        // of the potential along `direction`, J
+  Points last_gradient_, direction_, search_from_, zero_;
+  double lowest_ = infinity;  // primal residual of this step,
+  int without_fall_ = 0;      // and iterations since
+
+  // Where hard rows are left.
+  HardRows hard_rows_;
+  Acceleration acceleration_;
+};
+
+}  // namespace pbd

@@ -1,0 +1,254 @@
+// The source of an effect that states Constraint<E>: loops over its constraints, instantiated in the file of
+// that effect alone. Damping is a change of value and compliance. A constraint's value follows the
+// integrator's rule for positions (integrators.h), so that its rate belongs to the velocity v:
+//   dc/dt = (c - c0)/d,   c0 = c_l + J_l (x_v v_l + x_a a_l) + before (c_l - c_l-1) + k v_l^T c'' v_l
+// with k = x_a, and less d^2/2 where x is no position of the motion but the middle of a chord (midpoint).
+// Implicit Euler has c0 = c_l. Then c + T dc/dt + A gamma = 0 is
+//   c - offset + (1 + T/d)^-1 A gamma = 0,   offset = (1 - (1 + T/d)^-1) c0.
+// For solids (1 + T/d)^-1 A is the inverse of V (C + C_d/d). It is the gradient of a potential: elastic
+// energy and d/2 (dc/dt)^T A^-1 T (dc/dt) (servin2006interactive).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "rows/effect_constraint.h"
+#include "rows/row_operations.h"
+
+namespace pbd {
+
+/// k of c0.
+inline double bend_of_rate(const StepCoefficients& c) {
+  return c.x_a - (c.extension == 1 ? 0.0 : c.d * c.d / 2);
+}
+
+template <class E>
+class EffectRows final : public Source {
+  using C = Constraint<E>;
+  using Block = RowBlock<C::rows, C::nodes>;
+  using Operations = RowOperations<C::rows, C::nodes>;
+  using Value = typename C::Value;
+  using Jacobian = typename C::Jacobian;
+  using Square = typename C::Square;
+
+ public:
+  EffectRows(const Scene& scene, const E& effect) : Source(kind_of(effect)), scene_(scene), effect_(effect) {}
+
+  std::vector<AnyBlock> allocate(bool hard_alone) override {
+    std::vector<std::size_t> entries;
+    for (std::size_t i = 0; i < constraint_count(effect_); ++i)
+      if (!hard_alone || !gives_way(effect_, i)) entries.push_back(i);
+    if (entries.empty()) return {};
+    Block block;
+    block.resize(entries.size());
+    for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = columns_of(scene_, effect_, entries[i]);
+    if (entries.size() < constraint_count(effect_)) block.entries = entries;
+    if (kind().limited) block.bounds.resize(block.size());
+    std::vector<AnyBlock> blocks;
+    blocks.emplace_back(std::move(block));
+    return blocks;
+  }
+
+  bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
+    if (kind().damped)
+      for (AnyBlock& any : blocks) begin_damping(begin, std::get<Block>(any));
+    return false;
+  }
+
+  void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override {
+    for (AnyBlock& any : blocks) {
+      RowResidual own;
+      linearise_block(place, std::get<Block>(any), own);
+      sums.squared += own.squared;
+      sums.rounding_squared += own.rounding_squared;
+      sums.impulses_squared += own.impulses_squared;
+    }
+  }
+
+  void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
+                          std::vector<double>& added_mass) const override {
+    for (const AnyBlock& any : blocks) {
+      const auto& block = std::get<Block>(any);
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const std::size_t entry = block.entry(i);
+        const auto bound = C::geometric_bound(effect_, entry, local_at(effect_, entry, block.node[i], at),
+                                              factor * block.impulse[i]);
+        for (int a = 0; a < C::nodes; ++a) added_mass[block.node[i][a]] += map.d / 2 * bound[a];
+      }
+    }
+  }
+
+  void perturb(const RowError& error, BlockSpan blocks, Points& push) const override {
+    Value value;
+    Jacobian jacobian;
+    for (AnyBlock& any : blocks) {
+      auto& block = std::get<Block>(any);
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        evaluate(block, i, error.turned, value, jacobian);
+        if (error.directions != nullptr) take_directions(block, i, *error.directions, jacobian);
+        if (!block.offset.empty()) value -= block.offset[i];
+        Operations::perturb(error, value, jacobian, block, i, push);
+      }
+    }
+  }
+
+  void add_potential(const StepMap& map, const Points& x, const std::vector<double>& inverse_mass,
+                     BlockSpan blocks, Points& v, double& sum) const override {
+    if constexpr (!BodyEffect<E>)
+      for (AnyBlock& any : blocks) {
+        double potential = 0;
+        auto& block = std::get<Block>(any);
+        for (std::size_t i = 0; i < block.size(); ++i) {
+          const auto respond = [&](Value value) -> const Value& {
+            if (!block.offset.empty()) value -= block.offset[i];
+            block.impulse[i].noalias() = block.stiffness[i] * (value / -map.d);
+            potential -= value.dot(block.impulse[i]) / (2 * map.d);
+            return block.impulse[i];
+          };
+          const auto push = push_of(effect_, i, positions_of(block.node[i], x), respond);
+          for (int a = 0; a < C::nodes; ++a) {
+            const int node = block.node[i][a];
+            v.col(node) += inverse_mass[node] * push.col(a);
+          }
+        }
+        sum += potential;
+      }
+  }
+
+  void add_metric(const StepMap& map, const Points& x, MetricShape shape, BlockSpan blocks,
+                  std::vector<MetricEntry>& entries) const override {
+    if constexpr (!BodyEffect<E>)
+      for (AnyBlock& any : blocks) {
+        auto& block = std::get<Block>(any);
+        Value value;
+        Jacobian jacobian;
+        block.stiffness.resize(block.size());
+        for (std::size_t i = 0; i < block.size(); ++i) {
+          auto at = positions_of(block.node[i], x);
+          if constexpr (requires { C::rest(effect_, i); })
+            if (shape == MetricShape::rest) at = C::rest(effect_, i);
+          C::evaluate(effect_, i, at, value, jacobian);
+          block.stiffness[i] =
+              inverse_of(block.offset.empty() ? Square(C::compliance(effect_, i) / (map.s * map.d))
+                                              : block.compliance[i]);
+          Operations::append_metric(block, i, jacobian, !C::fills_space, entries);
+        }
+      }
+  }
+
+  void add_deformation(const Points& x, std::vector<Eigen::Matrix3d>& deformation) const override {
+    if constexpr (requires { C::weighted_deformation(effect_, 0, {}); })
+      for (std::size_t i = 0; i < constraint_count(effect_); ++i) {
+        const auto nodes = C::node(effect_, i);
+        const Eigen::Matrix3d own = C::weighted_deformation(effect_, i, positions_of(nodes, x));
+        for (const int node : nodes) deformation[node] += own;
+      }
+  }
+
+  void add_compliant_forces(const Configuration& at, const Points& v, const std::vector<double>& inverse_mass,
+                            Points& acceleration) const override {
+    Value value;
+    Jacobian jacobian;
+    for (std::size_t i = 0; i < constraint_count(effect_); ++i) {
+      if (!gives_way(effect_, i)) continue;
+      const auto node = columns_of(scene_, effect_, i);
+      C::evaluate(effect_, i, local_at(effect_, i, node, at), value, jacobian);
+      if (kind().damped) value += C::retardation(effect_, i) * (jacobian * positions_of(node, v).reshaped());
+      const Value force = -solve_definite(C::compliance(effect_, i), value);
+      const Eigen::Matrix<double, 3, C::nodes> push = (jacobian.transpose() * force).reshaped(3, C::nodes);
+      for (int a = 0; a < C::nodes; ++a) acceleration.col(node[a]) += inverse_mass[node[a]] * push.col(a);
+    }
+  }
+
+  void measure(const Configuration& at, ConstraintMeasure& sum) const override {
+    Value value;
+    Jacobian jacobian;
+    for (std::size_t i = 0; i < constraint_count(effect_); ++i) {
+      C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, jacobian);
+      const Square compliance = C::compliance(effect_, i);
+      if (compliance.isZero(0))  // no effect has both kinds of rows in one constraint
+        sum.missed = std::max(sum.missed, unmet(effect_, i, value));
+      else
+        sum.energy += held_energy(effect_, i, value, compliance);
+    }
+  }
+
+  Eigen::VectorXd push(std::size_t i, const std::vector<double>& gamma,
+                       const Configuration& at) const override {
+    Value value;
+    Jacobian jacobian;
+    C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, jacobian);
+    return jacobian.transpose() * Value::Map(gamma.data() + i * C::rows);
+  }
+
+ private:
+  static Kind kind_of(const E& effect) {
+    Kind kind{.of_bodies = BodyEffect<E>, .fills_space = C::fills_space || constraint_count(effect) == 0};
+    for (std::size_t i = 0; i < constraint_count(effect); ++i)
+      kind.compliant = kind.compliant && gives_way(effect, i);
+    if constexpr (requires { effect.bounds; }) kind.limited = !effect.bounds.empty();
+    kind.damped = damped(effect);
+    return kind;
+  }
+
+  void evaluate(const Block& block, std::size_t i, const Configuration& at, Value& value,
+                Jacobian& jacobian) const {
+    const std::size_t entry = block.entry(i);
+    C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
+  }
+
+  /// J of constraint i at other positions than its value's.
+  void take_directions(const Block& block, std::size_t i, const Configuration& at, Jacobian& jacobian) const {
+    Value unused;
+    evaluate(block, i, at, unused, jacobian);
+  }
+
+  void linearise_block(const RowPlace& place, Block& block, RowResidual& sums) const {
+    const bool damped = !block.offset.empty();  // its compliance is set for the whole step
+    Value value;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const std::size_t entry = block.entry(i);
+      const auto own = local_at(effect_, entry, block.node[i], place.at);
+      C::evaluate(effect_, entry, own, value, block.jacobian[i]);
+      if (place.directions != nullptr) take_directions(block, i, *place.directions, block.jacobian[i]);
+      if (damped) value -= block.offset[i];
+      if (!damped) block.compliance[i] = C::compliance(effect_, entry) / (place.map.s * place.map.d);
+      if constexpr (requires { effect_.bounds; })
+        if (block.bounded())
+          block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
+      Operations::linearise(place, value, largest_coordinate<E>(own), block, i, sums);
+    }
+  }
+
+  void begin_damping(const StepBegin& begin, Block& block) const {
+    const StepCoefficients& c = begin.coefficients;
+    Square share;  // (1 + T/d)^-1
+    Jacobian unused;
+    block.offset.resize(block.size());
+    block.begin_value.resize(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const std::size_t entry = block.entry(i);
+      Value value, ahead, behind;
+      evaluate(block, i, begin.at, value, block.jacobian[i]);
+      Value from = value;  // c0
+      if (c.x_v != 0) from += block.jacobian[i] * (c.x_v * block.gather(begin.v, i));
+      if (c.x_a != 0) from += block.jacobian[i] * (c.x_a * block.gather(begin.a, i));
+      if (c.before != 0) from += c.before * (value - block.begin_value[i]);
+      if (bend_of_rate(c) != 0) {
+        evaluate(block, i, begin.ahead, ahead, unused);
+        evaluate(block, i, begin.behind, behind, unused);
+        from += bend_of_rate(c) * ((ahead - 2 * value + behind) / (c.d * c.d));
+      }
+      block.begin_value[i] = value;
+      if (i == 0 || !C::one_material)
+        share = inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
+      block.offset[i] = from - share * from;
+      block.compliance[i] = share * C::compliance(effect_, entry) / (c.s * c.d);
+    }
+  }
+
+  const Scene& scene_;
+  const E& effect_;
+};
+
+}  // namespace pbd

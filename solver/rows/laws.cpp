@@ -1,0 +1,137 @@
+#include "rows/laws.h"
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "names.h"
+
+namespace pbd {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of p_t -> bound p_t/|p_t|, bound = mu p_n with dp_n by `normal`.
+void scale_tangent(double mu, double bound, const Vector3d& z, const Eigen::RowVector3d& normal,
+                   Matrix3d& derivative) {
+  const double length = std::hypot(z[1], z[2]);
+  const Eigen::Vector2d along = z.tail<2>() / length;
+  derivative.bottomRows<2>() = mu * along * normal;
+  derivative.bottomRightCorner<2, 2>() +=
+      bound / length * (Eigen::Matrix2d::Identity() - along * along.transpose());
+}
+
+Matrix3d cone_derivative(double mu, const Vector3d& z) {
+  const double tangential = std::hypot(z[1], z[2]);
+  Matrix3d derivative = Matrix3d::Zero();
+  if (z[0] < 0 && mu * tangential <= -z[0]) return derivative;
+  if (tangential <= mu * z[0]) return Matrix3d::Identity();
+  const double share = 1 / (1 + mu * mu);
+  derivative.row(0) << share, mu * share * z[1] / tangential, mu * share * z[2] / tangential;
+  const Eigen::RowVector3d normal = derivative.row(0);
+  scale_tangent(mu, mu * share * (mu * tangential + z[0]), z, normal, derivative);
+  return derivative;
+}
+
+Matrix3d disc_derivative(double mu, const Vector3d& z) {
+  Matrix3d derivative = Matrix3d::Zero();
+  if (!(z[0] > 0)) return derivative;
+  if (std::hypot(z[1], z[2]) <= mu * z[0]) return Matrix3d::Identity();
+  derivative(0, 0) = 1;
+  scale_tangent(mu, mu * z[0], z, Eigen::RowVector3d(1, 0, 0), derivative);
+  return derivative;
+}
+
+Matrix3d box_derivative(double mu, const Vector3d& z) {
+  Matrix3d derivative = Matrix3d::Zero();
+  if (!(z[0] > 0)) return derivative;
+  derivative(0, 0) = 1;
+  for (const int axis : {1, 2})
+    if (std::abs(z[axis]) <= mu * z[0])
+      derivative(axis, axis) = 1;
+    else
+      derivative(axis, 0) = std::copysign(mu, z[axis]);
+  return derivative;
+}
+
+/// A contact that slides by Coulomb's law: u_n = 0, |p_t| = mu p_n, u_t = -lambda p_t. Without p_n, by u_n =
+/// 0, (A + lambda) p_t = -b: an equation in lambda = t/(1 - t) tr A. At t = 0 it sticks, which has been
+/// refused: |p_t| > mu p_n; at t = 1 p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi
+/// (Illinois: dowell1971modified).
+Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
+  const double pressed = -q[0] / n(0, 0);
+  if (mu == 0) return {pressed, 0, 0};
+  const Eigen::Vector2d coupling = n.bottomLeftCorner<2, 1>() / n(0, 0);
+  const Eigen::Matrix2d a = n.bottomRightCorner<2, 2>() - coupling * n.topRightCorner<1, 2>();
+  const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
+  const Eigen::Matrix2d scale = a.trace() * Eigen::Matrix2d::Identity();
+  Vector3d p;
+  double rounding = 0;
+  const auto excess_at = [&](double t) {
+    p.tail<2>() = (t - 1) * ((1 - t) * a + t * scale).inverse() * b;
+    const double lifted = coupling.dot(p.tail<2>()), tangential = std::hypot(p[1], p[2]);
+    p[0] = pressed - lifted;
+    rounding = 16 * std::numeric_limits<double>::epsilon() * (tangential + mu * (pressed + std::abs(lifted)));
+    return tangential - mu * p[0];
+  };
+  constexpr int most = 60;
+  double low = 0, high = 1, over = excess_at(low), under = -mu * pressed;
+  double found = over;
+  for (int k = 0, last = 0; k < most && !(std::abs(found) <= rounding); ++k) {
+    const double t = low + (high - low) * over / (over - under);
+    found = excess_at(t);
+    const int side = found > 0 ? 1 : -1;
+    (side > 0 ? low : high) = t;
+    (side > 0 ? over : under) = found;
+    if (side == last) (side > 0 ? under : over) /= 2;
+    last = side;
+  }
+  return project(Friction::disc, mu, p, Vector3d::Zero());
+}
+
+}  // namespace
+
+ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Vector3d& p,
+                                        const Eigen::Vector3d& step) {
+  Vector3d z = p + step;
+  if (law == Friction::disc || law == Friction::box) {
+    const Matrix3d derivative = law == Friction::disc ? disc_derivative(mu, z) : box_derivative(mu, z);
+    return {derivative, derivative};
+  }
+  if (law == Friction::cone) {
+    const Matrix3d derivative = cone_derivative(mu, z);
+    return {derivative, derivative};
+  }
+  const double slip = std::hypot(step[1], step[2]);
+  z[0] -= mu * slip;
+  const Matrix3d derivative = cone_derivative(mu, z);
+  Matrix3d shifted = Matrix3d::Identity();  // d(step - mu |step_t| e_n) by step
+  if (slip > 0) shifted.row(0).tail<2>() = -mu / slip * step.tail<2>().transpose();
+  return {derivative, derivative * shifted};
+}
+
+Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
+                              const Eigen::Vector3d& start) {
+  const double slip = std::hypot(q[1], q[2]);
+  if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
+  constexpr double singular = 1e-12;  // of a determinant over that of equal eigenvalues
+  if (n.determinant() > singular * std::pow(n.trace() / 3, 3)) {
+    Eigen::Vector3d sticking = -n.inverse() * q;
+    if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
+    if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
+  }
+
+  constexpr int most = 30;
+  constexpr double settled = 1e-14;
+  const double step = 1 / n.rowwise().lpNorm<1>().maxCoeff();  // at least the largest eigenvalue's inverse
+  Eigen::Vector3d p = start;
+  for (int k = 0; k < most; ++k) {
+    const Eigen::Vector3d next = project(law, mu, p, -step * (n * p + q));
+    const double change = (next - p).squaredNorm();
+    p = next;
+    if (change <= settled * settled * p.squaredNorm()) break;
+  }
+  return p;
+}
+
+}  // namespace pbd

@@ -1,0 +1,50 @@
+// Products of velocities in the metric of the masses, over the nodes that can move: |v|_M^2 = sum m |v|^2, J.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "geometry.h"
+
+namespace pbd {
+
+/// `sum` + a . M b
+inline double mass_product(const std::vector<double>& inverse_mass, const Points& a, const Points& b,
+                           double sum = 0) {
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    if (inverse_mass[node] > 0) sum += a.col(node).dot(b.col(node)) / inverse_mass[node];
+  return sum;
+}
+
+/// `sum` + |a - b|_M^2
+inline double squared_mass_distance(const std::vector<double>& inverse_mass, const Points& a, const Points& b,
+                                    double sum = 0) {
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    if (inverse_mass[node] > 0) sum += (a.col(node) - b.col(node)).squaredNorm() / inverse_mass[node];
+  return sum;
+}
+
+inline double mass_distance(const std::vector<double>& inverse_mass, const Points& a, const Points& b) {
+  return std::sqrt(squared_mass_distance(inverse_mass, a, b));
+}
+
+inline double squared_mass_norm(const std::vector<double>& inverse_mass, const Points& v) {
+  double sum = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    if (inverse_mass[node] > 0) sum += v.col(node).squaredNorm() / inverse_mass[node];
+  return sum;
+}
+
+inline double mass_norm(const std::vector<double>& inverse_mass, const Points& v) {
+  return std::sqrt(squared_mass_norm(inverse_mass, v));
+}
+
+/// |force|_W = |W force|_M of momenta (N s).
+inline double momentum_norm(const std::vector<double>& inverse_mass, const Points& momentum) {
+  double sum = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    sum += inverse_mass[node] * momentum.col(node).squaredNorm();
+  return std::sqrt(sum);
+}
+
+}  // namespace pbd

@@ -1,0 +1,96 @@
+#include "rows/row_operations.h"
+
+#include "rows/invert.h"
+
+namespace pbd {
+
+template <int R, int K>
+bool RowOperations<R, K>::invert_diagonal(Block& block, const std::vector<double>& inverse_mass,
+                                          std::size_t i) {
+  Square n = block.compliance[i];
+  for (int a = 0; a < K; ++a) {
+    const auto part = block.jacobian[i].template middleCols<3>(3 * a);
+    n.noalias() += inverse_mass[block.node[i][a]] * (part * part.transpose());
+  }
+  bool singular = false;
+  if (block.frictional()) {
+    block.delassus[i] = n;
+    block.inverse_diagonal[i] = R / n.trace() * Square::Identity();
+  } else {
+    block.inverse_diagonal[i] = invert(n, singular);
+  }
+  return singular;
+}
+
+template <int R, int K>
+void RowOperations<R, K>::linearise(const RowPlace& place, const Value& value, double size, Block& block,
+                                    std::size_t i, RowResidual& sums) {
+  block.bias[i] = value / place.map.d - block.jacobian[i] * block.gather(place.v, i);
+  const bool singular = invert_diagonal(block, place.inverse_mass, i);
+  const Value r = value / place.map.d + block.compliance[i] * block.impulse[i];
+  sums.squared += singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r);
+  const double rounding = value_rounding * size / place.map.d;
+  sums.rounding_squared +=
+      rounding * rounding *
+      block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
+  sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
+}
+
+namespace {
+
+/// What the impulse of a row with bounds and the value `missed` (per second) can err by near the solution:
+/// nothing where it is at a bound.
+template <class Block>
+Freedom freedom_of_errors(const Block& block, const typename Block::Value& missed, std::size_t i) {
+  const auto& p = block.impulse[i];
+  const typename Block::Value full = -block.inverse_diagonal[i] * (missed + block.compliance[i] * p);
+  return allowed(block, i, p, full) == full ? Freedom::free : Freedom::held;
+}
+
+}  // namespace
+
+template <int R, int K>
+void RowOperations<R, K>::perturb(const RowError& error, const Value& value, const Jacobian& jacobian,
+                                  Block& block, std::size_t i, Points& push) {
+  block.apply(error.inverse_mass, i, jacobian, block.impulse[i], push);
+  const Value before = block.bias[i] + block.jacobian[i] * block.gather(error.v, i);
+  block.bias[i] =
+      (value / error.map.d - before) / error.scale - block.jacobian[i] * block.gather(error.error, i);
+  if constexpr (R == 1)
+    if (block.bounded()) block.bounds[i].freedom = freedom_of_errors(block, before, i);
+  block.impulse[i].setZero();
+}
+
+template <int R, int K>
+void RowOperations<R, K>::append_metric(const Block& block, std::size_t i, const Jacobian& jacobian,
+                                        bool one_number, std::vector<MetricEntry>& entries) {
+  for (int a = 0; a < K; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const Eigen::Matrix<double, R, 3> own = jacobian.template middleCols<3>(3 * a),
+                                        other = jacobian.template middleCols<3>(3 * b);
+      const Eigen::Matrix<double, 3, R> stiff = own.transpose() * block.stiffness[i];
+      Eigen::Matrix3d pair = stiff * other;
+      if (one_number) pair = Eigen::Matrix3d(Vec3::Constant(pair.trace() / 3).asDiagonal());
+      entries.push_back({block.node[i][a], block.node[i][b], pair});
+    }
+}
+
+// The shapes of AnyBlock that have masses.
+template struct RowOperations<3, 1>;
+template struct RowOperations<1, 2>;
+template struct RowOperations<1, 4>;
+template struct RowOperations<3, 3>;
+template struct RowOperations<6, 4>;
+template struct RowOperations<2, 4>;
+template struct RowOperations<3, 4>;
+template struct RowOperations<1, 3>;
+
+void refresh_inverse_diagonal(Rows& rows) {
+  for_each_block(rows.blocks, [&]<class Block>(Block& block) {
+    if constexpr (!is_local<Block>)
+      for (std::size_t i = 0; i < block.size(); ++i)
+        RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, rows.inverse_mass, i);
+  });
+}
+
+}  // namespace pbd

@@ -1,0 +1,38 @@
+// What sources do with one constraint of a block once its value and Jacobian are known, whatever the effect:
+// compiled once for each shape of block, R rows by K columns.
+#pragma once
+
+#include "rows/dense.h"
+#include "rows/laws.h"
+#include "rows/source.h"
+
+namespace pbd {
+
+template <int R, int K>
+struct RowOperations {
+  using Block = RowBlock<R, K>;
+  using Value = typename Block::Value;
+  using Square = typename Block::Square;
+  using Jacobian = typename Block::Jacobian;
+
+  /// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.
+  static bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i);
+
+  /// Sets bias and N_ii^-1 by the value c (less its offset), J and Sigma that the block has, and adds to
+  /// `sums`. `size` (m) is the constraint's largest coordinate.
+  static void linearise(const RowPlace& place, const Value& value, double size, Block& block, std::size_t i,
+                        RowResidual& sums);
+
+  /// Source::perturb of constraint i with the turned value (less its offset) and Jacobian.
+  static void perturb(const RowError& error, const Value& value, const Jacobian& jacobian, Block& block,
+                      std::size_t i, Points& push);
+
+  /// Appends J^T stiffness J of constraint i by pairs of nodes; `one_number`: the mean of its diagonal.
+  static void append_metric(const Block& block, std::size_t i, const Jacobian& jacobian, bool one_number,
+                            std::vector<MetricEntry>& entries);
+};
+
+/// Refreshes N_ii^-1 for other inverse masses than the rows were linearised with.
+void refresh_inverse_diagonal(Rows& rows);
+
+}  // namespace pbd

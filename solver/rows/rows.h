@@ -1,0 +1,186 @@
+// Rows: all that a relaxation sees of a scene. Find impulses p and velocities v with
+//   J v + b + Sigma p = 0,   v = v_free + W J^T p,   W = M^-1 (one inverse mass a node);
+// where an impulse has bounds, J v + b + Sigma p >= 0 at the lower one and <= 0 at the upper one do. Rows of
+// three with friction are a contact's, normal first, and obey its law instead. What a law lets an impulse be
+// is in laws.h; here are data, and the products with J.
+// Rows come in blocks of one effect each, and within a block in constraints of R rows and K nodes; arrays are
+// contiguous, one entry a constraint; a rigid body counts as two nodes (bodies.h), a local problem's contact
+// as one. Units: v m/s, p N s for lengths; b, J v in the constraint's unit per second.
+//
+// `inverse_diagonal` is N_ii^-1 with N_ii = J_i W J_i^T + Sigma_i, or its pseudo-inverse where N_ii is
+// singular; with friction one number for the three rows, 3/trace(N_ii), so that projections remain Euclidean.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "friction.h"
+#include "rows/constraint.h"
+
+namespace pbd {
+
+/// What an impulse may be: as its bounds and its law of friction let it, anything, or nothing.
+enum class Freedom : std::uint8_t { lawful, free, held };
+
+/// Of an impulse (R = 1), or of a contact's normal one, while it is `lawful`.
+struct Bounds {
+  double lower = 0, upper = infinity;  // N s
+  Freedom freedom = Freedom::lawful;
+};
+
+template <int R, int K>
+struct RowBlock : ConstraintShape<R, K> {
+  using Shape = ConstraintShape<R, K>;
+  using Velocities = Eigen::Matrix<double, 3 * K, 1>;
+
+  std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
+  std::vector<typename Shape::Nodes> node;
+  std::vector<typename Shape::Jacobian> jacobian;
+  std::vector<typename Shape::Value> bias;
+  std::vector<typename Shape::Square> compliance;  // Sigma
+  std::vector<typename Shape::Square> inverse_diagonal;
+  std::vector<typename Shape::Value> impulse;
+  std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
+  std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
+  std::vector<typename Shape::Value> begin_value;  // where there is none
+  std::vector<Bounds> bounds;                      // empty where every impulse is free
+  std::vector<double> friction;                    // mu, for R = 3; empty where there is none
+  std::vector<typename Shape::Square> delassus;    // N_ii, kept where there is friction
+  Friction law = Friction::coulomb;
+
+  std::size_t size() const { return node.size(); }
+
+  /// Index in the effect of constraint i.
+  std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
+
+  /// Contacts: impulses with bounds, and with friction for R = 3.
+  void resize_contacts(std::size_t count) {
+    resize(count);
+    bounds.assign(count, {});
+    if constexpr (R == 3) {
+      friction.resize(count);
+      delassus.resize(count);
+    }
+  }
+
+  void resize(std::size_t count) {
+    node.resize(count);
+    jacobian.resize(count);
+    bias.resize(count);
+    compliance.resize(count);
+    inverse_diagonal.resize(count);
+    impulse.assign(count, Shape::Value::Zero());
+  }
+
+  std::int64_t bytes() const {
+    return static_cast<std::int64_t>(
+        entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
+        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
+  }
+
+  /// Velocities of constraint i's nodes, three entries a node.
+  Velocities gather(const Points& v, std::size_t i) const {
+    Velocities local;
+    for (int a = 0; a < K; ++a) local.template segment<3>(3 * a) = v.col(node[i][a]);
+    return local;
+  }
+
+  /// v += W J_i^T p
+  void apply(const std::vector<double>& inverse_mass, std::size_t i, const typename Shape::Value& p,
+             Points& v) const {
+    apply(inverse_mass, i, jacobian[i], p, v);
+  }
+
+  /// v += W J^T p with other directions for constraint i
+  void apply(const std::vector<double>& inverse_mass, std::size_t i,
+             const typename Shape::Jacobian& directions, const typename Shape::Value& p, Points& v) const {
+    const Velocities push = directions.transpose() * p;
+    for (int a = 0; a < K; ++a) {
+      const int index = node[i][a];
+      v.col(index) += inverse_mass[index] * push.template segment<3>(3 * a);
+    }
+  }
+
+  bool bounded() const { return !bounds.empty(); }
+  bool frictional() const { return !friction.empty(); }
+
+  /// |W J_i^T p|_M^2 of constraint i's impulse p, J.
+  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i) const {
+    const Velocities push = jacobian[i].transpose() * impulse[i];
+    double sum = 0;
+    for (int a = 0; a < K; ++a)
+      sum += inverse_mass[node[i][a]] * push.template segment<3>(3 * a).squaredNorm();
+    return sum;
+  }
+
+  /// J_i v + b_i + Sigma_i p
+  typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
+    return bias[i] + compliance[i] * p + jacobian[i] * gather(v, i);
+  }
+};
+
+/// Contacts of a local problem, u = W p + q: node i is the relative velocity u of contact i, and has no mass.
+/// What an impulse does to velocities is a column of the Delassus matrix W.
+struct LocalContacts : RowBlock<3, 1> {
+  struct Coupling {
+    int contact;
+    Square block;  // 1/kg
+  };
+  std::vector<std::vector<Coupling>> column;  // of W, its blocks that are not zero
+
+  void apply(const std::vector<double>&, std::size_t i, const Value& p, Points& v) const {
+    for (const auto& [contact, block] : column[i]) v.col(contact) += block * p;
+  }
+};
+
+template <class Block>
+inline constexpr bool is_local = std::is_same_v<Block, LocalContacts>;
+
+using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
+                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>, LocalContacts>;
+
+struct Rows {
+  std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass
+  std::vector<AnyBlock> blocks;      // in the scene's order, without empty ones
+  bool contacts = false;             // some blocks are those of contacts
+  int generation = 0;                // raised with each other set of contacts
+};
+
+/// Entry k of a start vector that no symmetry of a scene leaves out a mode of; in [-1, 1].
+double irregular(std::size_t k);
+
+/// f(block) for every block, in order.
+template <class Blocks, class F>
+void for_each_block(Blocks&& blocks, F&& f) {
+  for (auto& block : blocks) std::visit(f, block);
+}
+
+/// Number of scalar rows; those of some blocks may be left out.
+std::int64_t row_count(const Rows& rows, const std::vector<bool>& without = {});
+std::int64_t row_count(const AnyBlock& block);
+std::int64_t row_count(std::span<const AnyBlock> blocks);
+
+/// What the blocks' rows take in memory.
+std::int64_t bytes(std::span<const AnyBlock> blocks);
+
+void clear_impulses(Rows& rows);
+
+/// The impulses and biases of all rows, to be put back later.
+void keep_impulses_and_biases(const Rows& rows, std::vector<double>& kept);
+void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows);
+
+/// Multiplies the biases of rows without compliance.
+void scale_hard_biases(Rows& rows, double factor);
+
+/// v += W J^T p with the impulses stored in the blocks.
+void apply_impulses(std::span<const AnyBlock> blocks, const std::vector<double>& inverse_mass, Points& v);
+
+/// The same of all rows; those of some blocks may be left out.
+void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without = {});
+
+}  // namespace pbd

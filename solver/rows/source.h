@@ -1,0 +1,173 @@
+// What an effect with rows is to the solver: a source, which fills rows at an iterate x_k = x0 + d v_k,
+//   J,  b = c(x_k)/d - J v_k,  Sigma = A/(s d),  N_ii^-1 = (J W J^T + Sigma)^-1
+// and states what else of its formulas the outer iterations ask for. The formulas are compiled behind this
+// interface, once: in the effect's own file.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rows/bodies.h"
+#include "rows/costs.h"
+#include "rows/rows.h"
+#include "rows/step_map.h"
+
+namespace pbd {
+
+/// Squared dual residual of rows, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
+/// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J; and
+/// what the rows' impulses p do each alone, sum_i |W J_i^T p_i|_M^2. All in J.
+struct RowResidual {
+  double squared = 0;
+  double rounding_squared = 0;
+  double impulses_squared = 0;
+};
+inline constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
+
+/// Where a step begins, and what its map is.
+struct StepBegin {
+  const Bodies& bodies;
+  const StepMap& map;
+  const StepCoefficients& coefficients;
+  const Configuration& at;
+  const Configuration &ahead, &behind;  // d further and back along v; read where c0 bends (damping)
+  const Points& v;                      // m/s
+  const Points& a;                      // m/s^2, that the integrator carries on; empty if none
+  const std::vector<double>& inverse_mass;
+  bool warm_start;
+};
+
+/// Where rows are taken. `directions` is where J is, if not at x. What no impulse can move weighs with
+/// `unreachable_mass` (kg): where N_ii is singular and r is not zero, r^2 times that is its residual.
+struct RowPlace {
+  const StepMap& map;
+  const Configuration& at;
+  const Configuration* directions;
+  const Points& v;
+  const std::vector<double>& inverse_mass;
+  double unreachable_mass;
+};
+
+/// An error of the iterate v, and where it leads: x(v + scale * error).
+struct RowError {
+  const StepMap& map;
+  const Configuration& turned;
+  const Configuration* directions;  // where the turned J is taken; null: at `turned`
+  const Points& v;
+  double scale;
+  const Points& error;
+  const std::vector<double>& inverse_mass;
+};
+
+/// A block of s d K, kg, row >= column in the order of nodes or not; each pair of nodes once.
+struct MetricEntry {
+  int row, column;
+  Eigen::Matrix3d block;
+};
+
+/// Of the effects, for the quasi-Newton metric: at rest, or as it is.
+enum class MetricShape { rest, current };
+
+/// Whether rows have been found anew, and whether they connect other columns than before.
+enum class Widened : std::uint8_t { no, alike, others };
+
+using BlockSpan = std::span<AnyBlock>;
+using ConstBlockSpan = std::span<const AnyBlock>;
+
+class Source {
+ public:
+  /// What its rows are, which nothing changes.
+  struct Kind {
+    bool compliant = true;    // every constraint gives way: A is positive definite
+    bool of_bodies = false;   // no potential by the columns
+    bool fills_space = true;  // stiff in every direction, or no rows
+    bool limited = false;     // impulses with bounds
+    bool damped = false;
+    bool contacts = false;  // rows come and go, and act at a step's end alone
+
+    bool operator==(const Kind&) const = default;
+  };
+
+  explicit Source(Kind kind) : kind_(kind) {}
+  virtual ~Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  const Kind& kind() const { return kind_; }
+
+  /// Blocks with impulses zero, none where there are no rows: of all constraints, or of the hard ones alone.
+  virtual std::vector<AnyBlock> allocate(bool hard_alone) = 0;
+
+  /// Gets ready for a step; true if the rows are others than before.
+  virtual bool begin_step(const StepBegin& begin, BlockSpan blocks) = 0;
+
+  /// Refreshes the rows.
+  virtual void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) = 0;
+
+  /// Adds half the geometric bounds times d to `added_mass` (kg, one a column): what the proximal outer
+  /// iteration adds, and half a bound of the geometric stiffness. Of `factor` times the impulses.
+  virtual void add_geometric_mass(const StepMap& map, const Configuration& at, double factor,
+                                  ConstBlockSpan blocks, std::vector<double>& added_mass) const = 0;
+
+  /// Rows of the error's map: adds W J(turned)^T p to `push`, then sets the impulses to zero and the biases
+  /// to what the values at `turned` have beyond J, (c(turned) - c(x))/(d scale) - J error.
+  virtual void perturb(const RowError& error, BlockSpan blocks, Points& push) const = 0;
+
+  /// The step's potential as compliant rows give it, 1/2 (c/d)^T Sigma^-1 (c/d): adds it to `potential` (J),
+  /// sets impulses p = -Sigma^-1 c/d at positions x and adds W J^T p to v. Asked of blocks with a stiffness.
+  virtual void add_potential(const StepMap&, const Points& /*x*/, const std::vector<double>& /*inverse_mass*/,
+                             BlockSpan, Points& /*v*/, double& /*potential*/) const {}
+
+  /// Appends its share of the quasi-Newton metric, J at positions x or, with MetricShape::rest, at the
+  /// effect's rest shape if it states one. Fills the blocks' `stiffness`.
+  virtual void add_metric(const StepMap&, const Points& /*x*/, MetricShape, BlockSpan,
+                          std::vector<MetricEntry>&) const {}
+
+  /// Adds the volumes times the deformation gradients (m^3) of the elements about each node at positions x.
+  virtual void add_deformation(const Points& /*x*/, std::vector<Eigen::Matrix3d>&) const {}
+
+  /// Forces of compliant constraints as they are in a given state, without rows: adds the accelerations
+  /// W J^T (-A^-1 (c + T J v)) (m/s^2); hard ones have no force by their value and add nothing.
+  virtual void add_compliant_forces(const Configuration&, const Points& /*v*/,
+                                    const std::vector<double>& /*inverse_mass*/,
+                                    Points& /*acceleration*/) const {}
+
+  /// Adds to `sum.energy`, and takes the larger `sum.missed`.
+  virtual void measure(const Configuration&, ConstraintMeasure& /*sum*/) const {}
+
+  /// J^T gamma of constraint i by its columns, three entries each, gamma all constraints' force multipliers.
+  virtual Eigen::VectorXd push(std::size_t /*i*/, const std::vector<double>& /*gamma*/,
+                               const Configuration&) const {
+    return {};
+  }
+
+  // Of contacts alone.
+
+  /// Takes note of an iterate's impulses: what has been pushed collides, and returns its speed.
+  virtual void note_impulses(ConstBlockSpan) {}
+
+  /// Finds rows anew where x(v) goes farther than was thought of; they are to be linearised again then.
+  virtual Widened widen(const StepBegin&, const Points& /*x*/, BlockSpan) { return Widened::no; }
+
+  virtual void add_contact_forces(const StepMap&, const Configuration&, const Points& /*v*/, ConstBlockSpan,
+                                  std::vector<ContactForce>&) const {}
+
+ private:
+  Kind kind_;
+};
+
+/// An effect with rows, and which blocks of the rows are its own.
+struct Slot {
+  std::unique_ptr<Source> source;
+  std::size_t effect = 0;  // index in the scene
+  std::size_t first = 0, count = 0;
+  EffectCost cost;
+  bool eliminated = false;  // its impulses are its own, p = -Sigma^-1 c/d
+
+  BlockSpan blocks(Rows& rows) const { return BlockSpan(rows.blocks).subspan(first, count); }
+  ConstBlockSpan view(const Rows& rows) const { return ConstBlockSpan(rows.blocks).subspan(first, count); }
+};
+
+}  // namespace pbd

@@ -1,0 +1,133 @@
+#include "step/history.h"
+
+#include <algorithm>
+
+#include "effects/sources.h"
+
+namespace pbd {
+
+/// Whoever has changed the state since the last step begins anew.
+bool History::goes_on(const StepSystem& system, const State& state) const {
+  if (!(h_ > 0)) return false;
+  if (system.problem.bodies.count() == 0) return state.x == system.at.x && state.v == system.at.v;
+  const auto same = [](const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+    return a.coeffs() == b.coeffs();
+  };
+  return state.x == ended_.x && state.v == ended_.v && state.spin == ended_.spin &&
+         std::equal(state.orientation.begin(), state.orientation.end(), ended_.orientation.begin(), same);
+}
+
+/// q_l and a_l of the step that begins.
+void History::carry_on(double h, bool goes_on, StepSystem& system) {
+  const Problem& problem = system.problem;
+  const StepCoefficients& c = problem.coefficients;
+  q_ = acceleration_;
+  if (!goes_on) {
+    for (const Slot& slot : system.slots)
+      slot.source->add_compliant_forces(problem.start(), problem.start_v, problem.inverse_mass, q_);
+    const Bodies& bodies = problem.bodies;
+    for (int b = 0; b < bodies.count() && problem.implicit_gyroscopic; ++b)
+      q_.col(bodies.column(b)) += bodies.gyroscopic(b, problem.start_v.col(bodies.column(b)));
+    a_ = q_;
+    return;
+  }
+  q_ += (system.at.v - problem.map.v_free) / problem.map.s;
+  if (system.rows.contacts) {  // they act as the step ends alone
+    impulse_.setZero(3, q_.cols());
+    for (const Slot& slot : system.slots)
+      if (slot.source->kind().contacts)
+        apply_impulses(slot.view(system.rows), problem.inverse_mass, impulse_);
+    q_ -= impulse_ / problem.map.s;
+  }
+  if (c.a_v > 0) a_ = (system.at.v - v_ - c.a_a * a_) / c.a_v;
+  // a_l is the acceleration at an instant apart from t_l, in proportion to the step.
+  if (h != h_) a_ = q_ + h / h_ * (a_ - q_);
+}
+
+void History::set_map(double h, bool goes_on, Problem& problem) {
+  problem.coefficients = integrator_->coefficients(
+      {problem.method, h, goes_on ? h_ : infinity, goes_on || !problem.hard_constraints});
+  const StepCoefficients& c = problem.coefficients;
+  StepMap& map = problem.map;
+  map.d = c.d;
+  map.s = c.s;
+  map.h = h;
+  map.x0 = problem.start_x;
+  map.v_free = problem.start_v + map.s * acceleration_;
+  problem.x_time = problem.start_time + h / c.extension;
+  if (c.x_v != 0) map.x0 += c.x_v * problem.start_v;
+  if (c.x_a != 0) map.x0 += c.x_a * a_;
+  if (c.v_q != 0) map.v_free += c.v_q * q_;
+  if (c.v_a != 0) map.v_free += c.v_a * a_;
+  if (c.before != 0) {
+    map.x0 += c.before * (problem.start_x - x_);
+    map.v_free += c.before * (problem.start_v - v_);
+  }
+}
+
+void History::begin_step(double h, const State& state, StepSystem& system) {
+  Problem& problem = system.problem;
+  const bool goes_on = this->goes_on(system, state);
+  if (goes_on && integrator_->keeps == Keeps::states) {  // a body's arc, from where it begins now
+    const int count = problem.bodies.count();
+    x_.rightCols(count) = -problem.coefficients.extension * system.at.x.rightCols(count);
+  }
+  problem.bodies.begin(state, problem.start_x, problem.start_v);
+  problem.start_time = state.time;
+  placed(problem, problem.start_x, problem.start_poses, state.time);
+  set_given_accelerations(
+      problem.scene, {problem.bodies, problem.start_poses, problem.start_v, integrator_->explicit_forces},
+      acceleration_);
+  if (integrator_->explicit_forces)
+    for (const Slot& slot : system.slots)
+      slot.source->add_compliant_forces(problem.start(), problem.start_v, problem.inverse_mass,
+                                        acceleration_);
+  if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
+  set_map(h, goes_on, problem);
+  if (begin_sources(system)) ++system.rows.generation;
+  if (integrator_->keeps == Keeps::nothing) return;
+  h_ = h;
+  x_ = problem.start_x;
+  v_ = problem.start_v;
+}
+
+/// Gets the sources ready for the step of the system's map; true if their rows are others than before.
+bool History::begin_sources(StepSystem& system) {
+  const Problem& problem = system.problem;
+  const auto damped = [](const Slot& slot) { return slot.source->kind().damped; };
+  const double d = std::any_of(system.slots.begin(), system.slots.end(), damped) ? problem.coefficients.d : 0;
+  ahead_x_ = problem.start_x + d * problem.start_v;
+  behind_x_ = problem.start_x - d * problem.start_v;
+  const Configuration start = problem.start(),
+                      ahead = placed(problem, ahead_x_, ahead_poses_, problem.start_time),
+                      behind = placed(problem, behind_x_, behind_poses_, problem.start_time);
+  const StepBegin begin{problem.bodies,
+                        problem.map,
+                        problem.coefficients,
+                        start,
+                        ahead,
+                        behind,
+                        problem.start_v,
+                        a_,
+                        problem.inverse_mass,
+                        problem.method.warm_start};
+  bool others = false;
+  for (Slot& slot : system.slots) others |= slot.source->begin_step(begin, slot.blocks(system.rows));
+  return others;
+}
+
+void History::end_step(double h, const StepSystem& system, State& state) {
+  const Problem& problem = system.problem;
+  const double extension = problem.coefficients.extension;
+  if (extension == 1) {
+    problem.bodies.end(system.at.x, system.at.v, state);
+  } else {
+    end_x_ = problem.start_x + extension * (system.at.x - problem.start_x);
+    end_v_ = problem.start_v + extension * (system.at.v - problem.start_v);
+    problem.bodies.end(end_x_, end_v_, state);
+  }
+  state.time += h;
+  if (problem.bodies.count() > 0) ended_ = state;
+}
+
+}  // namespace pbd

@@ -1,0 +1,43 @@
+// From the integrator's coefficients to the affine map of a step, from the solved map to the step's end, and
+// what an integrator keeps of earlier steps.
+#pragma once
+
+#include "outer/step_system.h"
+#include "step/integrators.h"
+
+namespace pbd {
+
+class History {
+ public:
+  explicit History(const Integrator& integrator) : integrator_(&integrator) {}
+
+  /// Sets the problem's map of a step of h seconds from `state`, and what else of it belongs to the step.
+  void begin_step(double h, const State& state, StepSystem& system);
+
+  /// Carries the solved map on to the step's end.
+  void end_step(double h, const StepSystem& system, State& state);
+
+  /// The next step is a start.
+  void forget() { h_ = 0; }
+
+  const Integrator& integrator() const { return *integrator_; }
+
+ private:
+  bool goes_on(const StepSystem& system, const State& state) const;
+  void carry_on(double h, bool goes_on, StepSystem& system);
+  void set_map(double h, bool goes_on, Problem& problem);
+  bool begin_sources(StepSystem& system);
+
+  const Integrator* integrator_;
+  double h_ = 0;               // s, of the last step; 0 if there is none
+  Points x_, v_;               // where the last step began
+  Points q_, a_;               // m/s^2, as in integrators.h; empty where the integrator asks for none
+  Points acceleration_;        // m/s^2, by given forces
+  Points impulse_;             // m/s, what those of contacts have brought
+  Points ahead_x_, behind_x_;  // m, d further and back along v, where an effect is damped
+  std::vector<Pose> ahead_poses_, behind_poses_;
+  Points end_x_, end_v_;
+  State ended_;  // where the last step ended, kept where there are rigid bodies
+};
+
+}  // namespace pbd

@@ -1,0 +1,49 @@
+// What a step reached.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "geometry.h"
+
+namespace pbd {
+
+enum class Status { ok, not_converged, diverged };
+inline constexpr std::array<std::string_view, 3> status_names{"ok", "not_converged", "diverged"};
+
+/// Residuals are absolute, in sqrt(J).
+struct Report {
+  Status status = Status::ok;
+  std::string_view reason;  // empty if ok
+  int outer_iterations = 0;
+  std::int64_t sweeps = 0;
+  std::int64_t row_updates = 0;
+  double primal = 0;
+  double dual = 0;
+  double scale = 0;
+  double contraction = std::nan("");  // of plain at the step's end: what it multiplies an error by; an
+                                      // estimate, for quasi_newton an upper bound
+  std::string_view linear_part;       // the linear solver, or which part of `direct` made the last gain
+
+  /// Largest residual relative to `scale`; 0 if both vanish.
+  double residual() const {
+    const double largest = std::max(primal, dual);
+    return largest > 0 ? largest / scale : largest;
+  }
+};
+
+/// State of the iteration at an outer iterate, shown to an observer before the iterate is improved.
+struct Iterate {
+  int outer_iteration;
+  std::int64_t sweeps;
+  std::int64_t row_updates;
+  double primal, dual, scale;
+  const Points& x;  // x(v)
+  const Points& v;
+};
+using Observer = std::function<void(const Iterate&)>;
+
+}  // namespace pbd

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "step/workspace.h"
+
+namespace pbd {
+namespace {
+
+constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+constexpr std::string_view not_finite = "not finite";
+
+/// What the residuals of a step are compared with.
+struct Levels {
+  double free_change = 0, free_speed = 0;               // |v_free - v_l|_M, |v_free|_M
+  double velocity_rounding = 0, rounding = 0;           // of the primal and of the dual residual
+  double first_residual = 0, last_residual = infinity;  // of this step
+};
+
+/// Residuals, scale and rounding level of the iterate.
+void measure(const StepSystem& system, const RowResidual& found, Levels& levels, Progress& progress) {
+  const auto& inverse_mass = system.problem.inverse_mass;
+  progress.dual = std::sqrt(found.squared);
+  progress.primal = std::hypot(mass_distance(inverse_mass, system.at.v, system.at.rebuilt),
+                               std::sqrt(system.at.torque_missed));
+  progress.scale = mass_distance(inverse_mass, system.at.v, system.problem.start_v) + levels.free_change;
+  const double impulses = std::sqrt(found.impulses_squared);
+  const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
+  levels.velocity_rounding = 8 * rounding_unit * (levels.free_speed + (balance ? impulses : 0.0));
+  levels.rounding = 8 * rounding_unit * levels.free_speed + std::sqrt(found.rounding_squared);
+}
+
+/// Sets status and reason; true if the outer iteration is to end.
+bool finished(const Method& method, const Levels& levels, const Progress& progress, Report& report) {
+  constexpr double blown_up = 1e8;  // growth beyond any transient
+  if (!std::isfinite(progress.primal) || !std::isfinite(progress.dual) || !std::isfinite(progress.scale)) {
+    report.status = Status::diverged;
+    report.reason = not_finite;
+  } else if (progress.primal <= std::max(method.tolerance * progress.scale, levels.velocity_rounding) &&
+             progress.dual <= std::max(method.tolerance * progress.scale, levels.rounding)) {
+    report.status = Status::ok;
+    report.reason = "";
+  } else if (progress.residual() > blown_up * std::max(levels.first_residual, progress.scale)) {
+    report.status = Status::diverged;
+    report.reason = "residual grew beyond 1e8 times its start";
+  } else {
+    report.status = Status::not_converged;
+    report.reason = "outer iterations spent";
+    return progress.outer_iterations >= method.max_outer;
+  }
+  return true;
+}
+
+/// A step that is easy ends before the first iterate that is kept.
+void keep_if_best(const StepSystem& system, const Progress& progress, BestIterate& best) {
+  constexpr int first_kept = 10;
+  if (progress.outer_iterations < first_kept || !(progress.residual() < best.residual)) return;
+  best.residual = progress.residual();
+  best.v = system.at.v;
+  keep_impulses_and_biases(system.rows, best.rows);
+}
+
+/// Takes note of what the iterate's impulses say of the contacts.
+void note_impulses(StepSystem& system) {
+  for (Slot& slot : system.slots) slot.source->note_impulses(slot.view(system.rows));
+}
+
+/// True if the iterates' motion has brought rows that were not thought of.
+bool widen(StepSystem& system) {
+  const Problem& problem = system.problem;
+  const Configuration start = problem.start();
+  const StepBegin begin{problem.bodies,  problem.map, problem.coefficients, start, start, start,
+                        problem.start_v, {},          problem.inverse_mass, true};
+  bool widened = false;
+  for (Slot& slot : system.slots) {
+    const Widened found = slot.source->widen(begin, system.at.x, slot.blocks(system.rows));
+    widened |= found != Widened::no;
+    if (found == Widened::others) ++system.rows.generation;
+  }
+  return widened;
+}
+
+/// One step in the making.
+struct StepRun {
+  WorkspaceData& w;
+  Levels levels{};
+  Progress progress{};
+  Report report{};
+
+  void begin(double h, const State& state);
+  void iterate(const Observer& observer);
+  void end(double h, State& state);
+
+ private:
+  bool settled(bool stalled);
+  bool stalls();
+  void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
+};
+
+void StepRun::begin(double h, const State& state) {
+  StepSystem& system = w.system;
+  if (!w.method.warm_start) {
+    forget(system.solver);
+    w.contraction.forget();
+  }
+  w.history.begin_step(h, state, system);
+  if (!w.method.warm_start) clear_impulses(system.rows);
+  for (Slot& slot : system.slots)
+    if (slot.source->kind().contacts) {
+      slot.cost.rows = row_count(slot.view(system.rows));
+      slot.cost.bytes = bytes(slot.view(system.rows));
+    }
+  system.at.v = system.problem.start_v;
+  w.best.residual = infinity;
+  pbd::begin(w.outer, system);
+  const auto& inverse_mass = system.problem.inverse_mass;
+  levels.free_change = mass_distance(inverse_mass, system.problem.map.v_free, system.problem.start_v);
+  levels.free_speed = mass_norm(inverse_mass, system.problem.map.v_free);
+  progress.contraction = w.contraction.value();
+  progress.forcing = w.method.inner_tolerance;
+}
+
+/// True if v has arrived and the residual no longer falls: the impulses may go on where v has arrived.
+bool StepRun::stalls() {
+  constexpr double falling = 0.5;
+  const double now = progress.residual();
+  const bool stalled =
+      progress.outer_iterations > 0 &&
+      progress.change <= rounding_unit * mass_norm(w.system.problem.inverse_mass, w.system.at.v) &&
+      !(now < falling * levels.last_residual);
+  levels.last_residual = now;
+  return stalled;
+}
+
+/// True if the iterate ends the step once its impulses are settled.
+bool StepRun::settled(bool stalled) {
+  const auto found = settle(w.outer, w.system, progress, stalled);
+  if (!found) return false;
+  measure(w.system, *found, levels, progress);
+  if (finished(w.method, levels, progress, report)) return true;
+  unsettle(w.outer, w.system);
+  return false;
+}
+
+void StepRun::iterate(const Observer& observer) {
+  StepSystem& system = w.system;
+  Points& previous = w.previous;
+  previous = system.at.v;
+  for (;; ++progress.outer_iterations) {
+    if (progress.outer_iterations > 0) note_impulses(system);
+    measure_here();
+    if (progress.outer_iterations == 0) levels.first_residual = progress.residual();
+    if (observer)
+      observer({progress.outer_iterations, progress.sweeps, progress.row_updates, progress.primal,
+                progress.dual, progress.scale, system.at.x, system.at.v});
+    keep_if_best(system, progress, w.best);
+    progress.last_change = progress.change;
+    progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
+    const bool stalled = stalls();
+    const bool ended = finished(w.method, levels, progress, report);
+    if (ended && (report.status != Status::ok || !widen(system))) break;
+    if (ended) {
+      forget(w.outer);
+      w.best.residual = infinity;
+      continue;
+    }
+    if (settled(stalled)) break;
+    if (stalled) {
+      report.reason = "stalled away from the solution";
+      break;
+    }
+    previous = system.at.v;
+    pbd::iterate(w.outer, system, progress);
+  }
+  if (report.status != Status::not_converged || !(w.best.residual < progress.residual())) return;
+  system.at.v = w.best.v;
+  restore_impulses_and_biases(w.best.rows, system.rows);
+  forget(w.outer);
+  measure_here();
+}
+
+void StepRun::end(double h, State& state) {
+  StepSystem& system = w.system;
+  if (!system.at.x.allFinite() || !system.at.v.allFinite() || !std::isfinite(state.time + h)) {
+    report.status = Status::diverged;
+    report.reason = not_finite;
+  }
+  if (report.status == Status::diverged) {
+    clear_impulses(system.rows);
+    w.contraction.forget();
+    w.history.forget();
+  } else {
+    w.contraction.update(system, on_potential(w.outer), progress);
+    report.contraction = w.contraction.value();
+    pbd::end(w.outer, system);
+    w.history.end_step(h, system, state);
+  }
+  report.outer_iterations = progress.outer_iterations;
+  report.sweeps = progress.sweeps;
+  report.row_updates = progress.row_updates;
+  report.primal = progress.primal;
+  report.dual = progress.dual;
+  report.scale = progress.scale;
+  report.linear_part = part(system.solver);
+}
+
+}  // namespace
+
+Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
+  StepRun run{*workspace.data_};
+  run.begin(h, state);
+  run.iterate(observer);
+  run.end(h, state);
+  return run.report;
+}
+
+}  // namespace pbd

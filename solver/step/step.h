@@ -1,0 +1,73 @@
+// One time step: integrator, then (linearise, relax) until the nonlinear residual is small or the budget is
+// spent.
+//
+// With x(v) = x0 + d v and impulse scale s from the integrator, the step's solution (v, p) satisfies
+//   primal   M (v - v_free) = J(x(v))^T p
+//   dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)
+//
+// that is, impulses act along the directions at x(v), the end of the step (midpoint: its middle), and every
+// constraint is met up to its compliance A.
+//
+// Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
+// N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
+// with scale = |v - v_old|_M + |v_free - v_old|_M. The first iterate is v = v_old. What rounding makes of x
+// in a constraint's value counts as solved (RowResidual in rows/source.h); where impulses balance each other
+// to half of the digits, so that next to nothing moves, what it makes of their velocities does, too.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "method.h"
+#include "rows/costs.h"
+#include "scene.h"
+#include "step/report.h"
+
+namespace pbd {
+
+struct WorkspaceData;
+
+/// A scene and a method, and everything a step needs besides them and the state: rows, impulses,
+/// factorisations. Allocated once.
+class Workspace {
+ public:
+  /// Validates the scene and the method and looks up the method's names; throws SetupError.
+  Workspace(Scene scene, Method method);
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  const Scene& scene() const;
+  const Method& method() const;
+
+  /// Replaces effect `index` between two steps: other forces, rates, rest values, compliances or moduli of
+  /// the same constraints. Throws SetupError, and changes nothing, if the scene would not be valid, if the
+  /// effect is of another kind, connects others, has limits or damping where it had none (or the other way
+  /// round), or hard constraints where they gave way (or the other way round); contact cannot be changed.
+  void change(std::size_t index, const Effect& effect);
+
+  /// Rows, bytes and seconds per effect with rows, in the scene's order, summed over all steps so far.
+  std::vector<EffectCost> costs() const;
+
+  /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R for each of
+  /// its constraints that is a row.
+  std::vector<double> impulses(std::size_t index) const;
+
+  /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
+  /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
+  /// ones under explicit forces). J^T times them are the forces.
+  std::vector<double> forces(std::size_t index) const;
+
+  /// All contacts of the last step, open ones included.
+  std::vector<ContactForce> contacts() const;
+
+ private:
+  std::unique_ptr<WorkspaceData> data_;
+  friend Report step(Workspace&, double, State&, const Observer&);
+};
+
+/// Advances `state` by h seconds. Does not throw: what went wrong stands in the report. A diverged step
+/// leaves `state` as it was.
+Report step(Workspace& workspace, double h, State& state, const Observer& observer = {});
+
+}  // namespace pbd

@@ -1,0 +1,192 @@
+#include "step/workspace.h"
+
+#include <algorithm>
+
+#include "effects/sources.h"
+#include "names.h"
+#include "rows/laws.h"
+#include "validate.h"
+#include "validate_effect.h"
+
+namespace pbd {
+namespace {
+
+void require_contact(const Integrator& integrator, const Method& method) {
+  if (!integrator.contact)
+    throw SetupError("integrator", std::string(integrator.name) + " with contact",
+                     "implicit_euler, newmark by alpha or symplectic_euler");
+  if (method.beta && method.gamma)
+    throw SetupError("beta", "Newmark's own family with contact", "newmark by alpha");
+}
+
+double finite_mass_of(const Scene& scene) {
+  double sum = 0;
+  for (const double mass : scene.mass)
+    if (std::isfinite(mass)) sum += mass;
+  return sum > 0 ? sum : 1;  // nothing moves, and an unmet constraint still weighs
+}
+
+StepSystem system_of(const Scene& scene, const Method& method) {
+  const Integrator& integrator = find_named(integrators(), "integrator", method.integrator);
+  require_outer(method.outer);
+  StepSystem system(scene, method);
+  system.solver = make_linear_solver(method.relaxation);
+  system.slots =
+      allocate_rows(scene, friction_by_name(method.friction), integrator.explicit_forces, system.rows);
+  Problem& problem = system.problem;
+  problem.inverse_mass = system.rows.inverse_mass;
+  problem.finite_mass = finite_mass_of(scene);
+  problem.direction_blend = integrator.explicit_forces ? 0 : method.direction_blend;
+  for (const Effect& effect : scene.effects)
+    if (const auto* gyroscopic = std::get_if<Gyroscopic>(&effect))
+      problem.implicit_gyroscopic = gyroscopic->implicit && !integrator.explicit_forces;
+  for (Slot& slot : system.slots) {
+    problem.hard_constraints |= !slot.source->kind().compliant;
+    slot.cost.rows = row_count(slot.view(system.rows));
+    slot.cost.bytes = bytes(slot.view(system.rows));
+  }
+  return system;
+}
+
+/// True if the rows of both effects, which are of one kind, have the same Sigma.
+bool same_stiffness(const Effect& a, const Effect& b) {
+  const auto same = [](const Material& one, const Material& other) {
+    return one.young == other.young && one.poisson == other.poisson;
+  };
+  return std::visit(
+      [&]<class E>(const E& one) {
+        const E& other = std::get<E>(b);
+        if constexpr (requires { one.compliance; })
+          return one.compliance == other.compliance && one.damping == other.damping;
+        else if constexpr (requires { one.material; })
+          return same(one.material, other.material) && one.damping.has_value() == other.damping.has_value() &&
+                 (!one.damping || same(*one.damping, *other.damping));
+        return true;
+      },
+      a);
+}
+
+/// True if the sources' rows are of the same columns.
+bool same_rows(Source& source, bool hard_alone, ConstBlockSpan blocks) {
+  const std::vector<AnyBlock> stated = source.allocate(hard_alone);
+  return std::equal(
+      stated.begin(), stated.end(), blocks.begin(), blocks.end(), [](const AnyBlock& a, const AnyBlock& b) {
+        return std::visit(
+            [&]<class Block>(const Block& own) {
+              const Block* other = std::get_if<Block>(&b);
+              return other != nullptr && own.node == other->node && own.entries == other->entries;
+            },
+            a);
+      });
+}
+
+}  // namespace
+
+WorkspaceData::WorkspaceData(Scene stated_scene, Method stated_method)
+    : scene(std::move(stated_scene)),
+      method(std::move(stated_method)),
+      system(system_of(scene, method)),
+      history(find_named(integrators(), "integrator", method.integrator)),
+      outer(make_outer(method.outer, system)),
+      contraction(system) {
+  if (system.rows.contacts) require_contact(history.integrator(), method);
+  require_solvable(system.solver, system.rows);
+}
+
+Workspace::Workspace(Scene scene, Method method) {
+  validate(scene);
+  validate(method);
+  data_ = std::make_unique<WorkspaceData>(std::move(scene), std::move(method));
+}
+Workspace::~Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
+const Scene& Workspace::scene() const {
+  return data_->scene;
+}
+
+const Method& Workspace::method() const {
+  return data_->method;
+}
+
+void Workspace::change(std::size_t index, const Effect& effect) {
+  auto& effects = data_->scene.effects;
+  const std::string where = "effects[" + std::to_string(index) + "]";
+  if (index >= effects.size())
+    throw SetupError(where, "no such effect", "an index below " + std::to_string(effects.size()));
+  const auto name = std::visit([](const auto& own) { return own.name; }, effect);
+  if (effects[index].index() != effect.index())
+    throw SetupError(where, name, "an effect of the kind that it replaces");
+  if (std::holds_alternative<Contact>(effect))
+    throw SetupError(where, name, "an effect that may change between steps: not contact");
+  const Effect before = effects[index];
+  const auto& slots = data_->system.slots;
+  const auto slot =
+      std::find_if(slots.begin(), slots.end(), [&](const Slot& own) { return own.effect == index; });
+  effects[index] = effect;  // in place: the sources refer to it
+  try {
+    validate_effect(data_->scene, index);
+    if (slot == slots.end()) return;
+    const auto source = make_source(data_->scene, effects[index], Friction::coulomb);
+    if (source->kind() != slot->source->kind() ||
+        !same_rows(*source, data_->history.integrator().explicit_forces, slot->view(data_->system.rows)))
+      throw SetupError(
+          where, name,
+          "the same constraints as before, with or without bounds, damping and compliance as before");
+  } catch (...) {
+    effects[index] = before;
+    throw;
+  }
+  if (same_stiffness(before, effect)) return;
+  forget(data_->system.solver);
+  if (slot->eliminated) forget_stiffness(data_->outer);
+}
+
+std::vector<EffectCost> Workspace::costs() const {
+  std::vector<EffectCost> all;
+  for (const Slot& slot : data_->system.slots)
+    if (slot.count > 0) all.push_back(slot.cost);
+  return all;
+}
+
+namespace {
+
+/// f(block) for every block of an effect.
+template <class F>
+void each_block_of(const StepSystem& system, std::size_t effect, F&& f) {
+  for (const Slot& slot : system.slots)
+    if (slot.effect == effect) for_each_block(slot.view(system.rows), f);
+}
+
+}  // namespace
+
+std::vector<double> Workspace::impulses(std::size_t index) const {
+  std::vector<double> flat;
+  each_block_of(data_->system, index, [&](const auto& block) {
+    for (const auto& impulse : block.impulse) flat.insert(flat.end(), impulse.begin(), impulse.end());
+  });
+  return flat;
+}
+
+std::vector<double> Workspace::forces(std::size_t index) const {
+  std::vector<double> flat;
+  each_block_of(data_->system, index, [&]<class Block>(const Block& block) {
+    flat.assign(Block::rows * (block.entry(block.size() - 1) + 1), std::nan(""));
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (int r = 0; r < Block::rows; ++r)
+        flat[Block::rows * block.entry(i) + r] = block.impulse[i][r] / data_->system.problem.map.s;
+  });
+  return flat;
+}
+
+std::vector<ContactForce> Workspace::contacts() const {
+  const StepSystem& system = data_->system;
+  const Configuration at{system.at.x, system.at.poses, system.problem.x_time};
+  std::vector<ContactForce> all;
+  for (const Slot& slot : system.slots)
+    slot.source->add_contact_forces(system.problem.map, at, system.at.v, slot.view(system.rows), all);
+  return all;
+}
+
+}  // namespace pbd

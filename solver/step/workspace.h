@@ -1,0 +1,34 @@
+// What a Workspace owns.
+#pragma once
+
+#include "outer/contraction.h"
+#include "outer/outer.h"
+#include "step/history.h"
+#include "step/step.h"
+
+namespace pbd {
+
+/// The iterate of the smallest residual so far. A step that is easy ends before any is kept.
+struct BestIterate {
+  double residual = infinity;  // sqrt(J)
+  Points v;
+  std::vector<double> rows;  // impulses and biases
+};
+
+struct WorkspaceData {
+  Scene scene;
+  Method method;
+  StepSystem system;
+  History history;
+  OuterIteration outer;
+  ContractionEstimate contraction;
+  BestIterate best;
+  Points previous;  // m/s, v of the last outer iteration
+
+  WorkspaceData(Scene stated_scene, Method stated_method);
+  // Sources and the problem refer to scene and method.
+  WorkspaceData(const WorkspaceData&) = delete;
+  WorkspaceData& operator=(const WorkspaceData&) = delete;
+};
+
+}  // namespace pbd

@@ -1,0 +1,153 @@
+// The program as a user runs it: what it writes and its exit codes.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "results.h"
+#include "scenes/scene_file.h"
+
+using namespace pbdcheck;
+using namespace pbdcheck::test;
+
+namespace {
+
+const std::filesystem::path scenes = PBDCHECK_SCENES;
+
+}  // namespace
+
+TEST_CASE("every scene that comes with the program is read, and says what it shows") {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    CHECK_FALSE(read_scene_file(entry.path()).description.empty());
+    ++count;
+  }
+  CHECK(count >= 12);
+}
+
+TEST_CASE("simulate writes a row of probes a step and a record of the run") {
+  const TemporaryFolder folder;
+  const auto ran =
+      run_program({"simulate", scenes / "net.toml", "--set", "step.duration_s=0.1", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto rows = rows_of(folder.path / "probes.csv");
+  REQUIRE(rows.size() == 1 + 21);
+  CHECK(rows[0][0] == "step");
+  CHECK(rows[0][1] == "time_s");
+  CHECK(rows[0][4] == "momentum_z_kg_m_s");
+  // Constraints between particles do not change the momentum; gravity takes 6 kg x 9.81 m/s^2 x 0.1 s of it.
+  CHECK(std::stod(rows[21][4]) == Approx(12 - 6 * 9.81 * 0.1).epsilon(1e-12));
+  const auto record = record_of(folder.path);
+  CHECK(record["status"] == "complete");
+  CHECK(record["report"]["steps_by_status"]["ok"] == 20);
+  CHECK(record["settings"]["set"][0] == "step.duration_s=0.1");
+  CHECK(record["rows"].dump() == "{\"probes\":21}");
+  CHECK(record["commit"].get<std::string>().size() >= 7);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "probes.csv.partial"));
+}
+
+TEST_CASE("a step that misses its tolerance is counted, warned about, and makes the exit code 1") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"simulate", scenes / "chain.toml", "--set", "step.duration_s=0.01", "--set",
+                                "method.relaxation=gauss_seidel", "--set", "method.max_outer=1", "--set",
+                                "method.max_sweeps=1", "-o", folder.path});
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Catch::Contains("warning: 5 of 5 steps missed the tolerance"));
+  CHECK(record_of(folder.path)["report"]["steps_by_status"]["not_converged"] == 5);
+}
+
+TEST_CASE("an interrupted simulation exits with 3 and leaves complete files of what was done") {
+  const TemporaryFolder folder;
+  const auto ran =
+      run_program({"simulate", scenes / "pendulum.toml", "--set", "step.duration_s=1e6", "-o", folder.path},
+                  "timeout --preserve-status -s INT 1");
+  CHECK(ran.exit_code == 3);
+  const auto record = record_of(folder.path);
+  CHECK(record["status"] == "interrupted");
+  CHECK(rows_of(folder.path / "probes.csv").size() == record["report"]["steps"].get<std::size_t>() + 2);
+}
+
+TEST_CASE("VTK frames hold the scene's cells and the collection names every frame") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"simulate", scenes / "cantilever.toml", "--set", "step.duration_s=0.03",
+                                "--export", "vtk", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto frame = read_text(folder.path / "frames" / "frame_000003.vtu");
+  CHECK_THAT(frame, Catch::Contains("NumberOfPoints=\"81\" NumberOfCells=\"192\""));
+  CHECK_THAT(frame, Catch::Contains("Name=\"velocity\""));
+  CHECK_THAT(read_text(folder.path / "simulation.pvd"), Catch::Contains("frames/frame_000003.vtu"));
+}
+
+TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
+  const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
+  CHECK(listed[0]["name"] == "gauss_seidel");
+  CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);
+  for (const auto* name : {"primal_newton\n", "ipopt\n", "ode  ", "closed_form  "})
+    CHECK_THAT(run_program({"list", "references"}).out, Catch::Contains(name));
+  CHECK_THAT(run_program({"completion"}).out, Catch::Contains("words=\"primal_newton ipopt\""));
+  CHECK_THAT(run_program({"list", "scenes"}).out, Catch::Contains("pendulum.toml"));
+  CHECK_THAT(run_program({"--version"}).out, Catch::Contains("pbdcheck ") && Catch::Contains("eigen 3."));
+  for (const auto* command : {"list", "simulate", "compare", "run", "completion"}) {
+    const auto ran = run_program({command, "--help"});
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.out, Catch::Contains("--help"));
+  }
+  CHECK_THAT(run_program({"completion"}).out, Catch::Contains("complete -F _pbdcheck pbdcheck"));
+}
+
+TEST_CASE("what the command line does not allow is refused with option, value and what is allowed") {
+  const std::string chain = scenes / "chain.toml";
+  std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"run", "--all", "--threads", "2000000000"},
+       "--threads: got `2000000000`; allowed: an integer from 1 to 1024"},
+      {{"run", "--all", "--threads", "many"}, "--threads: got `many`; allowed: an integer from 1 to 1024"},
+      {{"run", "--all", "--resume=7"}, "--resume: got `7`; allowed: only true"},
+      {{"compare", chain, "--method", "outer=plain", "--at-step", "-1"},
+       "--at-step: got `-1`; allowed: an integer from 0 to 2147483647"},
+      {{"compare", chain, "--method", "outer=plain", "--at-step", "1.5"},
+       "--at-step: got `1.5`; allowed: an"},
+      {{"compare", chain, "--method", "outer=plain", "--reference", ""},
+       "--reference: got ``; allowed: one of primal_newton, ipopt"},
+      {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1"},
+       "effects[1] damping: got damping; allowed: none: this judge knows elastic forces only"},
+      {{"compare", scenes / "incline.toml", "--method", "outer=plain"},
+       "--reference primal_newton: got a scene with contact; allowed: a scene without the table [contact]: "
+       "this "
+       "reference solves equations"},
+      {{"compare", scenes / "incline.toml", "--method", "rival=newton", "--reference", "ipopt"},
+       "--reference ipopt: got a scene with contact"},
+      {{"compare", chain, "--method", "outer=plain", "--at-step", "100000"},
+       "--at-step: got 100000; allowed: 0 to 499: the scene has 500 steps"},
+      {{"compare", chain, "--method", "outer=plain", "--set", "method.integrator=bdf2"},
+       "--set method.integrator: got `bdf2`; allowed: implicit_euler"},
+      {{"compare", chain, "--method", "outer=plain integrator=bdf2"},
+       "--method integrator: got `bdf2`; allowed: implicit_euler"},
+      {{"compare", chain, "--method", "outer=plain", "--method", "outer=plain"},
+       "--method: got `outer=plain`, the same as `outer=plain`; allowed: methods that differ"},
+      {{"simulate", chain, "-o", ""}, "-o: got ``, no directory"},
+      {{"simulate", chain, "--export", ""}, "--export: got ``; allowed: only vtk"},
+      {{"list", "--json=abc"}, "--json: got `abc`; allowed: only true"}};
+  const std::vector<std::pair<std::string, std::string>> refused_methods{
+      {"", ": got ``; allowed: \"KEY=VALUE ...\""},
+      {"tolerance=1e-3 tolerance=1e-6",
+       " tolerance: got `tolerance=1e-3 tolerance=1e-6`; allowed: each key once"},
+      {"relaxation", ": got `relaxation`; allowed: KEY=VALUE, as in relaxation=jacobi"},
+      {"rival=newtown", " rival: got `newtown`; allowed: only newton; did you mean `newton`?"},
+      {"rival", " rival: got ``; allowed: only newton"},
+      {"rival=newton relaxation=direct",
+       " relaxation: got `relaxation=direct` for a rival; allowed: tolerance, max_outer"},
+      {"rival=newton rival=newton", " rival: got"},
+      {"rival=newton tolerance=-1", " tolerance: got -1; allowed: "},
+      {"rival=newton", " \"rival=newton\": newton: anchor compliance[0]: got 0; allowed: a number > 0"}};
+  for (const auto& [method, message] : refused_methods)
+    refused.push_back({{"compare", chain, "--method", method}, "--method" + message});
+  for (const auto& [arguments, message] : refused) {
+    INFO(message);
+    const auto ran = run_program(arguments);
+    CHECK(ran.exit_code == 2);
+    CHECK_THAT(ran.err, Catch::StartsWith("error: " + message));
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  }
+}

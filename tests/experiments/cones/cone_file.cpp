@@ -1,0 +1,225 @@
+// Contact problems from files: what was written is read, in every form, and mistakes are named.
+#include "cones/cone_file.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cone_interior_point.h"
+#include "linear/linear_names.h"
+#include "mistakes.h"
+#include "planted_cones.h"
+#include "program.h"
+
+using namespace pbdcheck;
+using namespace pbdcheck::test;
+using namespace pbd::reference;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+PlantedCone stack() {
+  return planted_families()[5].draw(FrictionLaw::coulomb, 2);
+}
+
+std::string text(const MatrixXd& numbers) {  // column by column
+  std::string all;
+  for (const double value : numbers.reshaped()) all += fmt::format("{:.17g} ", value);
+  return all + "\n";
+}
+
+std::string dense(const MatrixXd& w, const VectorXd& q, const VectorXd& mu) {
+  return fmt::format("3\n{}\n0\n{}\n{}\n", mu.size(), w.rows(), w.cols()) + text(w) + text(q) + text(mu);
+}
+
+/// All blocks, each written column by column, or row by row.
+std::string blocks(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_rows) {
+  const auto n = mu.size();
+  std::string file = fmt::format("3\n{0}\n1\n{1}\n{1}\n{2}\n{0}\n{0}\n", n, 3 * n, n * n);
+  for (int side = 0; side < 2; ++side)
+    for (Eigen::Index i = 1; i <= n; ++i) file += fmt::format("{} ", 3 * i);
+  file += fmt::format("\n{}\n{}\n", n + 1, n * n);
+  for (Eigen::Index i = 0; i <= n; ++i) file += fmt::format("{} ", i * n);
+  for (Eigen::Index k = 0; k < n * n; ++k) file += fmt::format("{} ", k % n);
+  for (Eigen::Index k = 0; k < n * n; ++k) {
+    const Eigen::Matrix3d block = w.block<3, 3>(3 * (k / n), 3 * (k % n));
+    file += fmt::format("{}\n", k) + text(by_rows ? Eigen::Matrix3d(block.transpose()) : block);
+  }
+  return file + text(q) + text(mu);
+}
+
+void check_same(const ConeProblem& read, const ConeProblem& written) {
+  CHECK((MatrixXd(read.delassus) - MatrixXd(written.delassus)).norm() < 1e-15 * written.delassus.norm());
+  CHECK(read.free_velocity == written.free_velocity);
+  CHECK(read.friction == written.friction);
+}
+
+}  // namespace
+
+TEST_CASE("a problem survives writing and reading in each form") {
+  const TemporaryFolder folder;
+  const PlantedCone p = stack();
+  const MatrixXd w = p.problem.delassus;
+  ConeSolution solution;
+  solution.impulse = p.impulse, solution.velocity = p.velocity;
+  write_cone_file(folder.path / "p.hdf5", p.problem, solution);
+  check_same(read_cone_file(folder.path / "p.hdf5").problem, p.problem);
+  check_same(
+      read_cone_file(folder.write("d.dat", dense(w, p.problem.free_velocity, p.problem.friction))).problem,
+      p.problem);
+  for (const bool by_rows : {false, true}) {
+    const auto file = read_cone_file(
+        folder.write("b.dat", blocks(w, p.problem.free_velocity, p.problem.friction, by_rows)));
+    check_same(file.problem, p.problem);
+    CHECK_THAT(file.form, Catch::EndsWith(by_rows ? "row by row" : "column by column"));
+  }
+}
+
+TEST_CASE("an unsymmetric W is replaced by its symmetric part, and its asymmetry told") {
+  const TemporaryFolder folder;
+  MatrixXd w = MatrixXd::Identity(3, 3);
+  w(0, 1) = 2e-3;
+  const auto file = read_cone_file(folder.write("w.dat", dense(w, VectorXd::Ones(3), VectorXd::Ones(1))));
+  CHECK(std::abs(file.problem.delassus.coeff(1, 0) - 1e-3) < 1e-18);
+  CHECK(std::abs(file.asymmetry - 2e-3 * std::sqrt(2) / std::sqrt(3 + 4e-6)) < 1e-15);
+}
+
+TEST_CASE("mistakes in problem files are named, with exit code 2") {
+  const TemporaryFolder folder;
+  const MatrixXd w = MatrixXd::Identity(3, 3);
+  const VectorXd q = VectorXd::Ones(3), mu = VectorXd::Ones(1);
+  MatrixXd indefinite = w;
+  indefinite(2, 2) = -1e-3;
+  MatrixXd unsymmetric = w;
+  unsymmetric(0, 1) = 0.1;
+  const std::string good = dense(w, q, mu);
+  const std::vector<Mistake> mistakes{
+      {"", {"end of the file", "dimension"}},
+      {"scene = 1", {"`scene`", "a number"}},
+      {"2\n1\n0\n2\n2\n", {"dimension = 2"}},
+      {"3\n1\n2\n3\n3\n", {"storage", "from 0 to 1"}},
+      {"3\n1\n0\n3\n4\n", {"columns = 4", "allowed: 3"}},
+      {"3\n1000000000\n0\n3\n3\n", {"contacts = 1"}},
+      {good.substr(0, good.size() / 2), {"end of the file", "W"}},
+      {good + " 7", {"`7` after mu"}},
+      {"3\n1\n\n0\n3\nthree\n", {"bad.dat:6: got `three` for the number of columns"}},
+      {good.substr(0, good.find_last_of('1')) + "0." + std::string(3, '\0'), {"for mu", "a number"}},
+      {"3\n1000\n0\n3000\n3000\n1", {"bad.dat:2: got the number of contacts = 1000 in a file of"}},
+      {"3\n4\n0\n12\n12\n1 2 3\n", {"bad.dat:5: got 12 x 12 numbers of W in a file of 18 characters"}},
+      {dense(w, q, -mu), {"mu = -1 at contact 0", "from 0 to 1e+07"}},
+      {dense(w, q, mu * 1e20), {"mu = ", "from 0 to 1e+07"}},
+      {dense(w, q * 1e101, mu), {"bad.dat:7", "for q", "at most 1e+100"}},
+      {dense(w, VectorXd::Constant(3, std::nan("")), mu), {"bad.dat:7", "`nan` for q"}},
+      {dense(w * std::nan(""), q, mu), {"bad.dat:6", "nan` for W"}},
+      {dense(indefinite, q, mu), {"not positive semidefinite"}},
+      {dense(unsymmetric, q, mu), {"W unsymmetric by 0.0", "at most 0.01"}},
+  };
+  for (const auto& mistake : mistakes) {
+    INFO(mistake.text);
+    const auto file = folder.write("bad.dat", mistake.text);
+    auto parts = mistake.message;
+    parts.insert(parts.end(), {"bad.dat:", ": got "});
+    check_refused(run_program({"cone", file.string()}), parts);
+  }
+  check_refused(run_program({"cone", (folder.path / "none").string()}), {"none: got no file"});
+  const auto fine = folder.write("good.dat", good).string();
+  check_refused(run_program({"cone", fine, "--law", "disc"}), {"cone, coulomb, box"});
+  check_refused(run_program({"cone", fine, "--law", "box"}), {"box", "one of coulomb, cone"});
+  check_refused(run_program({"cone", fine, "-o", fine}), {"another file than the problem"});
+  const auto link = folder.path / "link";
+  std::filesystem::create_symlink("/dev/null", link);  // a device, safe from being replaced
+  check_refused(run_program({"cone", fine, "-o", link.string()}), {"cannot be written"});
+  check_refused(run_program({"cone", fine, "--relaxation", "cone_ipop"}), {"did you mean `cone_ipopt`"});
+  check_refused(run_program({"cone", fine, "--tolerance", "0"}), {"--tolerance", "a number > 0"});
+  check_refused(run_program({"cone", fine, "-o", folder.path.string()}), {"cannot be written"});
+}
+
+TEST_CASE("numbers whose squares vanish are measured all the same") {
+  const ConeProblem problem{MatrixXd::Identity(3, 3).sparseView(), Eigen::Vector3d(-1e-165, 1e-165, 0),
+                            VectorXd::Ones(1)};
+  CHECK(std::abs(measure_cone(problem, FrictionLaw::cone, Eigen::Vector3d::Zero()).natural_residual - 1) <
+        1e-12);
+}
+
+TEST_CASE("one contact that separates is left alone, however much friction there is") {
+  const ConeProblem problem{MatrixXd::Identity(3, 3).sparseView(), Eigen::Vector3d(1, 1, 0),
+                            VectorXd::Constant(1, 1e4)};
+  const ConeSolution found = cone_interior_point(problem, FrictionLaw::coulomb, 1e-8);
+  CHECK(found.outcome == Outcome::ok);
+  CHECK(found.impulse.isZero(0));
+}
+
+TEST_CASE("HDF5 files cut short anywhere are refused, never a crash") {
+  const TemporaryFolder folder;
+  const PlantedCone p = stack();
+  ConeSolution solution;
+  solution.impulse = p.impulse, solution.velocity = p.velocity;
+  write_cone_file(folder.path / "p.hdf5", p.problem, solution);
+  const std::string whole = read_text(folder.path / "p.hdf5");
+  for (int part = 1; part < 16; ++part) {
+    const auto cut =
+        folder.write("cut.hdf5", whole.substr(0, whole.size() * static_cast<std::size_t>(part) / 16));
+    CHECK_THROWS_WITH(read_cone_file(cut), Catch::Contains("cut.hdf5: got "));
+  }
+}
+
+TEST_CASE("cone prints one JSON object and writes what it solved") {
+  const TemporaryFolder folder;
+  const PlantedCone p = stack();
+  ConeSolution nothing;
+  nothing.impulse = nothing.velocity = VectorXd::Zero(p.impulse.size());
+  write_cone_file(folder.path / "p.hdf5", p.problem, nothing);
+  const auto solved = (folder.path / "solved.hdf5").string();
+  const auto ran = run_program({"cone", (folder.path / "p.hdf5").string(), "--json", "-o", solved});
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.err.empty());
+  const auto json = nlohmann::ordered_json::parse(ran.out);
+  std::string keys;
+  for (const auto& [key, value] : json.items()) keys += key + " ";
+  CHECK(keys ==
+        "status law relaxation contacts natural_residual gap feasibility objective sweeps wall_s velocity "
+        "impulse ");
+  CHECK(json["status"] == "ok");
+  CHECK(json["law"] == "coulomb");
+  const auto impulse = json["impulse"].get<std::vector<double>>();
+  const VectorXd r = Eigen::Map<const VectorXd>(impulse.data(), p.impulse.size());
+  CHECK(measure_cone(p.problem, FrictionLaw::coulomb, r).natural_residual <= 1e-8);
+  check_same(read_cone_file(solved).problem, p.problem);
+}
+
+TEST_CASE("cone fails with exit code 1 where no impulse is within the tolerance") {
+  const TemporaryFolder folder;
+  const auto fixed =
+      folder.write("fixed.dat", dense(MatrixXd::Zero(3, 3), Eigen::Vector3d(-1, 0, 0), VectorXd::Ones(1)));
+  const auto ran = run_program({"cone", fixed.string()});
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Catch::Contains("fixed.dat: ") && Catch::Contains("asked for 1e-08"));
+}
+
+TEST_CASE("each of the solver's relaxations solves a problem from a file") {
+  const auto cube = (std::filesystem::path(PBDCHECK_PROBLEMS) / "sliding_cube.dat").string();
+  for (const auto relaxation : pbd::general_solver_names())
+    for (const auto* law : {"cone", "coulomb", "box"}) {
+      const auto ran =
+          run_program({"cone", cube, "--law", law, "--relaxation", std::string(relaxation), "--json"});
+      CHECK(ran.exit_code == 0);
+      const auto json = nlohmann::json::parse(ran.out);
+      CHECK(json["relaxation"] == std::string(relaxation));
+      CHECK(json["natural_residual"].get<double>() <= 1e-8);
+      CHECK(json["sweeps"].get<int>() > 0);
+    }
+}
+
+TEST_CASE("the problems that come with the program are solved by the judges' laws") {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PBDCHECK_PROBLEMS))
+    if (entry.path().extension() != ".md")
+      for (const auto* law : {"cone", "coulomb"}) {
+        ++files;
+        CHECK(run_program({"cone", entry.path().string(), "--law", law}).exit_code == 0);
+      }
+  CHECK(files == 4);
+}

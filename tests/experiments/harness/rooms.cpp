@@ -1,0 +1,58 @@
+// The rooms of experiments/ include each other one way only, as experiments/README.md lists them.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string_view>
+
+#include "program.h"
+
+using namespace pbdcheck::test;
+
+namespace {
+
+const std::filesystem::path experiments = std::filesystem::path(PBDCHECK_SCENES).parent_path();
+
+/// From what is on top to what all others may include.
+const std::vector<std::string> order{"main.cpp", "commands", "studies", "cones",
+                                     "harness",  "scenes",   "rivals"};
+
+std::ptrdiff_t rank(const std::string& room) {
+  return std::find(order.begin(), order.end(), room) - order.begin();
+}
+
+/// The files of experiments/ that a source includes, from there.
+std::vector<std::filesystem::path> includes(const std::filesystem::path& source) {
+  constexpr std::string_view before = "#include \"";
+  std::vector<std::filesystem::path> found;
+  std::istringstream in(read_text(source));
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(before)) continue;
+    const auto name = line.substr(before.size(), line.rfind('"') - before.size());
+    if (std::filesystem::exists(experiments / name)) found.emplace_back(name);
+  }
+  return found;
+}
+
+/// The room of a study; a helper of all studies has none.
+std::string study(const std::filesystem::path& file) {
+  return *file.begin() == "studies" && std::distance(file.begin(), file.end()) > 2 ? *std::next(file.begin())
+                                                                                   : "";
+}
+
+}  // namespace
+
+TEST_CASE("rooms include downwards only") {
+  int seen = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(experiments)) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+    const auto file = std::filesystem::relative(entry.path(), experiments);
+    REQUIRE(rank(*file.begin()) < std::ssize(order));
+    for (const auto& included : includes(entry.path())) {
+      INFO(file.string() << " includes " << included.string());
+      CHECK(rank(*file.begin()) <= rank(*included.begin()));
+      const auto from = study(file), to = study(included);
+      CHECK((from.empty() || to.empty() || from == to || (from == "robustness" && to == "contact")));
+      ++seen;
+    }
+  }
+  CHECK(seen > 100);
+}

@@ -1,0 +1,16 @@
+// A scene file, read from a text.
+#pragma once
+
+#include "program.h"
+#include "scenes/scene_file.h"
+
+namespace pbdcheck::test {
+
+inline const std::string step = "[step]\nstep_s = 0.01\nsteps = 2\n";
+
+inline SceneFile read(const std::string& text, const std::vector<std::string>& settings = {}) {
+  const TemporaryFolder folder;
+  return read_scene_file(folder.write("scene.toml", text + step), settings);
+}
+
+}  // namespace pbdcheck::test

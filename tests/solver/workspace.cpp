@@ -1,0 +1,98 @@
+// What may change between two steps of one workspace.
+#include <catch2/catch.hpp>
+
+#include "error.h"
+#include "scenes.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double h = 1.0 / 60;
+
+Method by_quasi_newton() {
+  Method method;
+  method.outer = "quasi_newton";
+  method.tolerance = 1e-10;
+  return method;
+}
+
+/// The scene's strain with another Young's modulus.
+TetStrain stiffer(const Scene& scene, std::size_t index, double young) {
+  TetStrain strain = std::get<TetStrain>(scene.effects[index]);
+  strain.material.young = young;
+  return strain;
+}
+
+std::size_t strain_of(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.effects.size(); ++i)
+    if (std::holds_alternative<TetStrain>(scene.effects[i])) return i;
+  throw std::logic_error("no solid");
+}
+
+}  // namespace
+
+TEST_CASE("a modulus changed between steps is that of the next step, as in a workspace of its own") {
+  const Scene soft = cantilever(4, {1e5, 0.3}, Strain::green);
+  const std::size_t index = strain_of(soft);
+  Scene hard = soft;
+  hard.effects[index] = stiffer(soft, index, 1e7);
+  for (const std::string outer : {"quasi_newton", "auto", "plain"}) {
+    INFO(outer);
+    Method method = by_quasi_newton();
+    method.outer = outer;
+    Workspace changed(soft, method);
+    State state = soft.initial;
+    for (int k = 0; k < 3; ++k) step(changed, h, state);
+    State expected = state, old = state;
+    changed.change(index, hard.effects[index]);
+    CHECK(std::get<TetStrain>(changed.scene().effects[index]).material.young == 1e7);
+    CHECK(step(changed, h, state).status == Status::ok);
+    Workspace fresh(hard, method), unchanged(soft, method);
+    step(fresh, h, expected);
+    step(unchanged, h, old);
+    // Both solve the step to the tolerance times its scale, the change of velocity that gravity brings.
+    CHECK((state.x - expected.x).norm() < 1e-6 * (state.x - soft.initial.x).norm());
+    CHECK((state.x - old.x).norm() > 1e-2 * (state.x - soft.initial.x).norm());
+  }
+}
+
+TEST_CASE("an effect is replaced by one of the same constraints only, and nothing changes otherwise") {
+  const Scene scene = chain(4);
+  std::size_t index = 0;
+  while (!std::holds_alternative<Distance>(scene.effects[index])) ++index;
+  const Distance links = std::get<Distance>(scene.effects[index]);
+  Workspace workspace(scene, {});
+  Distance other = links;
+  SECTION("other nodes") {
+    std::swap(other.node[0], other.node[1]);
+  }
+  SECTION("one link less") {
+    other.node.pop_back();
+    other.rest_length.pop_back();
+    other.compliance.pop_back();
+  }
+  SECTION("a hard link that gives way") {
+    other.compliance.assign(other.compliance.size(), 1e-3);
+  }
+  SECTION("damping where there was none") {
+    other.damping.assign(other.node.size(), 0.1);
+  }
+  SECTION("a length below zero") {
+    other.rest_length[0] = -1;
+  }
+  CHECK_THROWS_AS(workspace.change(index, other), SetupError);
+  CHECK_THROWS_AS(workspace.change(index, Gravity{}), SetupError);
+  CHECK_THROWS_AS(workspace.change(99, links), SetupError);
+  const auto& kept = std::get<Distance>(workspace.scene().effects[index]);
+  CHECK(kept.node == links.node);
+  CHECK(kept.rest_length == links.rest_length);
+  CHECK(kept.damping == links.damping);
+  Distance longer = links;
+  for (double& length : longer.rest_length) length *= 1.1;
+  workspace.change(index, longer);
+  State state = scene.initial;
+  CHECK(step(workspace, h, state).status == Status::ok);
+  CHECK((state.x.col(1) - state.x.col(0)).norm() == Approx(longer.rest_length[0]).epsilon(1e-6));
+}

@@ -6,6 +6,7 @@
 
 #include "effects/sources.h"
 #include "scenes.h"
+#include "scenes/contacts.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -157,6 +158,28 @@ TEST_CASE("direct solves doubled constraints and gives equal motion") {
   doubled.effects.push_back(doubled.effects.back());
   const Planted problem(doubled);
   CHECK(errors(problem, "direct", 4).back() < 1e-11);
+}
+
+TEST_CASE("the parts of direct solve bilateral rows alone, each by its own rate") {
+  const Planted problem(chain(8, 10));
+  CHECK(errors(problem, "ldlt", 3).back() < 1e-9);
+  // A proximal shift of 1e-8 of N_ii leaves that share, over the smallest eigenvalue, of the error.
+  CHECK(errors(problem, "semismooth_newton", 4).back() < 1e-9);
+  CHECK(errors(problem, "augmented_lagrangian", 10).back() < 1e-9);
+}
+
+TEST_CASE("direct says which part made the last gain, and ldlt refuses contact") {
+  Method method;
+  method.relaxation = "direct";
+  const Scene links = chain(4);
+  State state = links.initial;
+  CHECK(one_step(links, method, 0.01, state).linear_part == "ldlt");
+  const Scene pile = pbdcheck::pile();
+  state = pile.initial;
+  const auto part = one_step(pile, method, 0.01, state).linear_part;
+  CHECK((part == "semismooth_newton" || part == "augmented_lagrangian" || part == "gauss_seidel"));
+  method.relaxation = "ldlt";
+  CHECK_THROWS_WITH(Workspace(pile, method), Catch::Contains("relaxation") && Catch::Contains("ldlt"));
 }
 
 TEST_CASE("an unknown relaxation is refused with the list") {

@@ -20,7 +20,7 @@ Quadratic square(Complex a, Complex b) {
 }
 
 /// The product, of conjugates or summed with its conjugate: its coefficients are real.
-Quartic product(const Quadratic& p, const Quadratic& q) {
+Quartic product_of(const Quadratic& p, const Quadratic& q) {
   Quartic result{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) result[i + j] += (p[i] * q[j]).real();
@@ -43,7 +43,7 @@ double circling_growth(double alpha, double turn, double stiffness) {
   const double tension = -(rate * rate).real();
   const Quadratic n = square(-1, e), d = square(1 - alpha, alpha * e);
   const Quadratic n_back = square(-1, std::conj(e)), d_back = square(1 - alpha, alpha * std::conj(e));
-  const Quartic both = product(n, n_back), one = product(n, d_back), none = product(d, d_back);
+  const Quartic both = product_of(n, n_back), one = product_of(n, d_back), none = product_of(d, d_back);
   Quartic equation;  // over k + tension, so that a hard link is a limit
   const bool hard = std::isinf(stiffness);
   const double k = stiffness * stiffness;

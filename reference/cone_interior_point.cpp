@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 // Lorentz cone |x_1| <= x_0 with the product x o y = (x.y, x_0 y_1 + y_0 x_1), contact by contact.
 
-Vector3d product(const Vector3d& x, const Vector3d& y) {
+Vector3d jordan_product(const Vector3d& x, const Vector3d& y) {
   Vector3d p;
   p << x.dot(y), x(0) * y.tail<2>() + y(0) * x.tail<2>();
   return p;
@@ -146,7 +146,7 @@ class InteriorPoint {
     };
     const VectorXd lambda = theta(x_);
     const VectorXd square =
-        each([&](int i) { return product(lambda.segment<3>(3 * i), lambda.segment<3>(3 * i)); });
+        each([&](int i) { return jordan_product(lambda.segment<3>(3 * i), lambda.segment<3>(3 * i)); });
     // lambda o (Theta dx + Theta^-1 dz) = target,  N dx - dz = -residual
     VectorXd dx, dz;
     const auto direction = [&](const VectorXd& target) {
@@ -165,7 +165,7 @@ class InteriorPoint {
     const VectorXd moved_x = theta(dx), moved_z = inverse(dz);
     if (!direction(each([&](int i) {
           return Vector3d(Vector3d(centring, 0, 0) - square.segment<3>(3 * i) -
-                          product(moved_x.segment<3>(3 * i), moved_z.segment<3>(3 * i)));
+                          jordan_product(moved_x.segment<3>(3 * i), moved_z.segment<3>(3 * i)));
         })))
       return false;
     const double length = std::min(1.0, 0.99 * longest(dx, dz));

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 // A form gives, for one contact with unknowns y: r(y), dr/dy, sum_k u_k d2r_k/dy2, and a constraint g(y) >= 0
 // with its derivatives. mu = 0 fixes the last two unknowns at 0.
 
-struct Polar {
+struct PolarTangent {
   static Vector3d impulse(const Vector3d& y, double mu) { return {y(0), mu * y(0) * y(1), mu * y(0) * y(2)}; }
   static Matrix3d derivative(const Vector3d& y, double mu) {
     Matrix3d d;
@@ -62,9 +62,9 @@ struct Ratio {
 
 /// min 1/2 r.W r + q.r over y.
 template <class Form>
-class Program : public Ipopt::TNLP {
+class ConeProgram : public Ipopt::TNLP {
  public:
-  explicit Program(const ConeProblem& problem)
+  explicit ConeProgram(const ConeProblem& problem)
       : mu_(problem.friction), w_(problem.delassus), q_(problem.free_velocity) {}
 
   VectorXd impulse(const double* y) const {
@@ -165,7 +165,7 @@ VectorXd run(const ConeProblem& scaled, int& iterations) {
   constexpr double complementarity = 1e-16;
   const auto app = ipopt_application(complementarity);
   if (app->Initialize() != Ipopt::Solve_Succeeded) return {};
-  const Ipopt::SmartPtr<Program<Form>> program = new Program<Form>(scaled);
+  const Ipopt::SmartPtr<ConeProgram<Form>> program = new ConeProgram<Form>(scaled);
   app->OptimizeTNLP(GetRawPtr(program));
   if (IsValid(app->Statistics())) iterations += app->Statistics()->IterationCount();
   return program->found;
@@ -180,7 +180,7 @@ ConeSolution minimum(const ConeProblem& problem, double tolerance) {
   if (size > 0) {
     scaled.problem.free_velocity /= size;
     double smallest = infinity;
-    for (const auto form : {run<Polar>, run<Ratio>}) {
+    for (const auto form : {run<PolarTangent>, run<Ratio>}) {
       if (smallest <= tolerance) break;
       const VectorXd found = form(scaled.problem, best.iterations);
       if (found.size() == 0 || !found.allFinite()) continue;

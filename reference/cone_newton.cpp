@@ -48,7 +48,7 @@ Derivative derivative(const ConeProblem& p, FrictionLaw law, const VectorXd& imp
 }
 
 /// Solves A d = b by the regular A + e D, refined while that helps.
-bool solve(const Derivative& at, double regularisation, const VectorXd& b, VectorXd& step) {
+bool newton_step(const Derivative& at, double regularisation, const VectorXd& b, VectorXd& step) {
   SparseMatrix regular = at.matrix + regularisation * at.projection;
   regular.makeCompressed();
   SparseLu lu;
@@ -89,7 +89,7 @@ int cone_newton(const ConeProblem& original, FrictionLaw law, double target, Vec
     VectorXd step;
     bool fell = false;
     ++steps;
-    if (solve(d, regularisation, -map, step))
+    if (newton_step(d, regularisation, -map, step))
       for (double length = 1; length > 1e-3 && !fell; length /= 2) {
         const VectorXd next = at + length * step;
         fell = natural_map(scaled.problem, law, next).norm() <= (1 - 1e-4 * length) * map.norm();

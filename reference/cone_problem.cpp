@@ -61,7 +61,7 @@ VectorXd shifted_velocity(const ConeProblem& problem, FrictionLaw law, const Vec
 namespace {
 
 /// P_K
-Vector3d project(FrictionLaw law, const Vector3d& point, double mu) {
+Vector3d project_contact(FrictionLaw law, const Vector3d& point, double mu) {
   return law == FrictionLaw::box ? project_on_pyramid(point, mu) : project_on_cone(point, mu);
 }
 
@@ -69,7 +69,8 @@ Vector3d project(FrictionLaw law, const Vector3d& point, double mu) {
 VectorXd map_of(FrictionLaw law, const VectorXd& friction, const VectorXd& impulse, const VectorXd& shifted) {
   VectorXd map = impulse;
   for (Eigen::Index i = 0; i < friction.size(); ++i)
-    map.segment<3>(3 * i) -= project(law, impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
+    map.segment<3>(3 * i) -=
+        project_contact(law, impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
   return map;
 }
 
@@ -98,8 +99,9 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   double from_cone = 0, from_dual = 0;
   for (int i = 0; i < problem.contacts(); ++i) {
     const Vector3d r = impulse.segment<3>(3 * i), u = shifted.segment<3>(3 * i);
-    from_cone += (r - project(law, r, problem.friction(i))).squaredNorm();
-    from_dual += project(law, -u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
+    from_cone += (r - project_contact(law, r, problem.friction(i))).squaredNorm();
+    from_dual +=
+        project_contact(law, -u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
   }
   const double quadratic = impulse.dot(problem.delassus * impulse);
   const double linear = impulse.dot(problem.free_velocity);

@@ -9,13 +9,11 @@
 namespace pbd::reference {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-
 constexpr double dependent = 1e-10;  // rows whose pivot is below this share of the largest: rounding
 
 }  // namespace
 
-Contraction extremes(const Matrix& map) {
+Contraction extremes(const Eigen::MatrixXd& map) {
   Contraction found;
   for (const auto& value : eigenvalues(map)) {
     found.smallest = std::min(found.smallest, std::copysign(std::abs(value), value.real()));
@@ -28,9 +26,9 @@ Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::
   const Model model = make_model(scene);
   const Rows rows = all_rows(model, x, gamma);
   const Vector root = model.mass.cwiseSqrt().cwiseInverse();
-  const Matrix jacobian = rows.jacobian * root.asDiagonal();
-  Matrix hard(model.hard_rows, model.unknowns);
-  Matrix metric = Matrix::Identity(model.unknowns, model.unknowns);
+  const Eigen::MatrixXd jacobian = rows.jacobian * root.asDiagonal();
+  Eigen::MatrixXd hard(model.hard_rows, model.unknowns);
+  Eigen::MatrixXd metric = Eigen::MatrixXd::Identity(model.unknowns, model.unknowns);
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const Element& e = model.elements[k];
     const auto own = jacobian.middleRows(rows.first[k], e.rows);
@@ -39,11 +37,12 @@ Contraction plain_contraction(const Scene& scene, const Points& x, const Eigen::
     else
       metric += product(h * h * own.transpose() * e.stiffness, own);
   }
-  const Matrix basis =
-      model.hard_rows > 0 ? null_space(hard, dependent) : Matrix::Identity(model.unknowns, model.unknowns);
+  const Eigen::MatrixXd basis = model.hard_rows > 0
+                                    ? null_space(hard, dependent)
+                                    : Eigen::MatrixXd::Identity(model.unknowns, model.unknowns);
   if (basis.cols() == 0) return {};
-  const Matrix dropped = h * h * (root.asDiagonal() * rows.geometric * root.asDiagonal());
-  const Matrix left = congruence(metric, basis);
+  const Eigen::MatrixXd dropped = h * h * (root.asDiagonal() * rows.geometric * root.asDiagonal());
+  const Eigen::MatrixXd left = congruence(metric, basis);
   return extremes(solve_definite(left, congruence(dropped, basis)));
 }
 
@@ -54,8 +53,9 @@ RelaxationRates relaxation_rates(const Scene& scene, const Points& x, double h, 
       throw SetupError("relaxation_rates", "corotational tetrahedra", "green or linear strain");
   if (model.elements.empty()) throw SetupError("relaxation_rates", "no rows", "a scene with constraints");
   const Rows rows = all_rows(model, x, Vector::Zero(model.hard_rows));
-  Matrix n = product_transposed(rows.jacobian * model.mass.cwiseInverse().asDiagonal(), rows.jacobian);
-  Matrix diagonal = Matrix::Zero(n.rows(), n.cols()), lower = diagonal;
+  Eigen::MatrixXd n =
+      product_transposed(rows.jacobian * model.mass.cwiseInverse().asDiagonal(), rows.jacobian);
+  Eigen::MatrixXd diagonal = Eigen::MatrixXd::Zero(n.rows(), n.cols()), lower = diagonal;
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const int at = rows.first[k], size = model.elements[k].rows;
     if (!model.elements[k].hard())
@@ -67,7 +67,7 @@ RelaxationRates relaxation_rates(const Scene& scene, const Points& x, double h, 
   const double smallest = scaled.minCoeff(), largest = scaled.maxCoeff();
   RelaxationRates rates;
   rates.jacobi = std::max(std::abs(1 - omega * smallest), std::abs(1 - omega * largest));
-  rates.gauss_seidel = eigenvalues(solve(lower, Matrix(lower - n))).cwiseAbs().maxCoeff();
+  rates.gauss_seidel = eigenvalues(solve(lower, Eigen::MatrixXd(lower - n))).cwiseAbs().maxCoeff();
   rates.condition = smallest > 1e-14 * largest ? largest / smallest : infinity;
   return rates;
 }

@@ -33,6 +33,9 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 Eigen::VectorXd solve_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// A^-1 b of a symmetric semidefinite A, by L D L^T with pivoting.
+Eigen::VectorXd solve_semidefinite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
 /// Orthonormal basis of the null space of a wide matrix, one column a direction; pivots below `threshold` of
 /// the largest count as zero.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, double threshold);

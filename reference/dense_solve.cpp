@@ -18,6 +18,10 @@ MatrixXd inverse(const MatrixXd& a) {
   return a.inverse();
 }
 
+VectorXd solve_semidefinite(const MatrixXd& a, const VectorXd& b) {
+  return a.ldlt().solve(b);
+}
+
 VectorXd solve_definite(const MatrixXd& a, const VectorXd& b) {
   return a.llt().solve(b);
 }

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi, amplitude = 0.1;
 
-struct System {
+struct FemSystem {
   Scene scene;
   Model model;
   SparseMatrix stiffness;
 };
 
-System assemble(const LinearSolid& solid) {
-  System s;
+FemSystem assemble(const LinearSolid& solid) {
+  FemSystem s;
   add_solid(s.scene, solid.mesh, solid.density, solid.material, Strain::linear);
   for (std::size_t a = 0; a < solid.fixed.size(); ++a)
     if (solid.fixed[a]) s.scene.mass[a] = infinity;
@@ -43,7 +43,7 @@ double volume_of(const Points& x) {
   return std::abs(homogeneous.determinant()) / 6;
 }
 
-SparseMatrix mass_matrix(const System& s, const LinearSolid& solid, MassMatrix kind) {
+SparseMatrix mass_matrix(const FemSystem& s, const LinearSolid& solid, MassMatrix kind) {
   Triplets entries;
   for (const auto& tet : solid.mesh.tets) {
     const double weight = solid.density * volume_of(corners(solid.mesh, tet));
@@ -145,7 +145,7 @@ Points face_loads(const TetMesh& mesh, const std::function<bool(const Vec3&)>& o
 }
 
 Points linear_static(const LinearSolid& solid, const Points& loads) {
-  const System s = assemble(solid);
+  const FemSystem s = assemble(solid);
   SparseCholesky factor;
   factor.compute(s.stiffness);
   const Vector u = factor.solve(gather(s.model, loads));
@@ -155,7 +155,7 @@ Points linear_static(const LinearSolid& solid, const Points& loads) {
 std::vector<double> linear_modes(const LinearSolid& solid, int count, MassMatrix kind) {
   constexpr int guard = 6, most = 200;
   constexpr double converged = 1e-12;
-  const System s = assemble(solid);
+  const FemSystem s = assemble(solid);
   const SparseMatrix mass = mass_matrix(s, solid, kind);
   SparseCholesky factor;
   factor.compute(s.stiffness);

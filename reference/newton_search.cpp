@@ -6,18 +6,18 @@
 namespace pbd::reference {
 namespace {
 
-struct Slope {
+struct Descent {
   Vector gradient, magnitude;
   double value;
 };
 
 /// Factorises the Hessian at u, made positive definite if it is not. Returns value, gradient and its
 /// magnitude.
-Slope factorise_at(Search& s) {
+Descent factorise_at(Search& s) {
   const Points x = s.objective.positions(s.u);
   const Derivatives* d = &s.assembly.at(x, s.multipliers);
-  Slope slope{s.objective.gradient(s.u, *d), s.objective.magnitude(s.u, *d),
-              s.objective.value(s.u, s.multipliers)};
+  Descent slope{s.objective.gradient(s.u, *d), s.objective.magnitude(s.u, *d),
+                s.objective.value(s.u, s.multipliers)};
   if (factorise(s, d->hessian, 0)) return slope;
   ++s.projected;
   d = &s.assembly.at(x, s.multipliers, Curvature::projected);
@@ -31,7 +31,7 @@ Slope factorise_at(Search& s) {
 }
 
 /// Largest t in 1, 1/2, 1/4 ... with sufficient decrease (up to rounding), or 0.
-double line_search(const Search& s, const Slope& slope, const Vector& dx) {
+double line_search(const Search& s, const Descent& slope, const Vector& dx) {
   const double rounding = 1e-15 * (slope.magnitude.dot(s.u.cwiseAbs()) + std::abs(slope.value));
   const double descent = slope.gradient.dot(dx);
   for (double t = 1; t > 1e-12; t /= 2) {
@@ -67,7 +67,7 @@ bool descend(Search& s, double tolerance) {
   constexpr double rounding = 1e-9;
   double previous = infinity;
   for (; s.iterations < s.settings.max_iterations; ++s.iterations) {
-    const Slope slope = factorise_at(s);
+    const Descent slope = factorise_at(s);
     const Vector dx = -s.factor.solve(slope.gradient);
     const double t = line_search(s, slope, dx);
     s.correction = dx.cwiseAbs().maxCoeff() / s.displacement();

@@ -8,21 +8,21 @@
 namespace pbd::reference {
 namespace {
 
-using Complex = std::complex<double>;
+using Pole = std::complex<double>;
 
 /// h mu.
-Complex exponent(double h, double w, double retardation) {
+Pole exponent(double h, double w, double retardation) {
   const double decay = w * w * retardation / 2;
-  return h * Complex(-decay, std::sqrt(w * w - decay * decay));
+  return h * Pole(-decay, std::sqrt(w * w - decay * decay));
 }
 
-Discrete discrete(Complex root) {
+Discrete discrete(Pole root) {
   return {std::abs(root), std::abs(std::arg(root))};
 }
 
 /// y' = y + h ((1 - theta) f + theta f').
 Discrete theta_rule(double theta, double h, double w, double retardation) {
-  const Complex z = exponent(h, w, retardation);
+  const Pole z = exponent(h, w, retardation);
   return discrete((1.0 + (1 - theta) * z) / (1.0 - theta * z));
 }
 Discrete implicit_euler(double h, double w, double retardation) {
@@ -36,7 +36,7 @@ Discrete damped_trapezoidal(double h, double w, double retardation) {
 }
 
 Discrete bdf2(double h, double w, double retardation) {
-  const Complex z = exponent(h, w, retardation);
+  const Pole z = exponent(h, w, retardation);
   return discrete((2.0 + std::sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z));
 }
 

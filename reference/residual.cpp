@@ -1,6 +1,5 @@
 #include "residual.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 
@@ -43,13 +42,13 @@ void add(const Model& model, const Element& e, const Local& local, const Points&
   RowMatrix sigma = RowMatrix::Zero(e.rows, e.rows);
   if (!e.hard()) sigma = inverse(e.stiffness) / (h * h);
   const RowMatrix n = j * j.transpose() + sigma;
-  const Eigen::SelfAdjointEigenSolver<RowMatrix> eigen(n);
+  const SymmetricEigen eigen = symmetric_eigen(n);
   constexpr double definite = 1e-14;
-  const bool singular = !(eigen.eigenvalues()(0) > definite * eigen.eigenvalues()(e.rows - 1));
+  const bool singular = !(eigen.values(0) > definite * eigen.values(e.rows - 1));
   RowMatrix inverse_root = std::sqrt(all_mass) * RowMatrix::Identity(e.rows, e.rows);
   if (!singular)
-    inverse_root = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal() *
-                   eigen.eigenvectors().transpose();
+    inverse_root =
+        eigen.vectors * eigen.values.cwiseSqrt().cwiseInverse().asDiagonal() * eigen.vectors.transpose();
 
   const int first_row = static_cast<int>(s.right.size());
   const RowVector value = inverse_root * local.value / h;
@@ -77,7 +76,7 @@ void add(const Model& model, const Element& e, const Local& local, const Points&
 }
 
 /// Smallest |A q - b|, and the rounding of finding it.
-void solve(const Squares& s, StepResidual& result) {
+void solve_squares(const Squares& s, StepResidual& result) {
   const Eigen::Index rows = s.right.size();
   const Eigen::Map<const Vector> b(s.right.data(), rows);
   Vector q = Vector::Zero(s.columns);
@@ -106,7 +105,7 @@ StepResidual residual_of(const Scene& scene, const State& start, double h, const
     add(model, e, local, end.x, h, all_mass, s);
   }
   StepResidual result;
-  solve(s, result);
+  solve_squares(s, result);
   result.scale = root.cwiseProduct(after - before).norm() + root.cwiseProduct(forced).norm();
   result.rounding = 8 * roundoff * root.cwiseProduct(before + forced).norm() + std::sqrt(s.rounding_squared);
   return result;

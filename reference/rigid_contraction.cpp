@@ -8,11 +8,9 @@
 namespace pbd::reference {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-
 /// Multipliers of all rows: the judge's of hard ones, -A^-1 c of compliant ones.
 Vector all_multipliers(const RigidModel& model, const RigidSystem& system, const Vector& of_hard) {
-  Matrix compliance = system.compliance;
+  Eigen::MatrixXd compliance = system.compliance;
   Vector right = -system.value;
   for (int i = 0, next = 0; i < model.rows(); ++i)
     if (model.hard[i]) {
@@ -23,9 +21,9 @@ Vector all_multipliers(const RigidModel& model, const RigidSystem& system, const
 }
 
 /// Increments (dx, d) by changes of the velocities.
-Matrix increments(const RigidStep& step, const Vector& velocity) {
+Eigen::MatrixXd increments(const RigidStep& step, const Vector& velocity) {
   const auto n = velocity.size();
-  Matrix inverse(n, n);
+  Eigen::MatrixXd inverse(n, n);
   for (Eigen::Index i = 0; i < n; ++i) inverse.col(i) = velocity_change(step, velocity, Vector::Unit(n, i));
   return reference::inverse(inverse);
 }
@@ -46,13 +44,13 @@ Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, 
   const RigidSystem system =
       system_at(step, velocity, all_multipliers(step.model, without, solved.multiplier));
 
-  const Matrix turn = increments(step, velocity), jacobian = system.jacobian;
-  const Matrix inertia = Vector(step.model.inertia / h).asDiagonal();
+  const Eigen::MatrixXd turn = increments(step, velocity), jacobian = system.jacobian;
+  const Eigen::MatrixXd inertia = Vector(step.model.inertia / h).asDiagonal();
   const auto n = inertia.rows(), rows = jacobian.rows();
-  Matrix left(n + rows, n + rows), right(n + rows, n);
-  left << inertia, -jacobian.transpose(), h * jacobian, Matrix(system.compliance);
-  right << inertia - Matrix(system.tangent) * turn, h * jacobian - jacobian * turn;
-  const Matrix map = solve(left, right).topRows(n);
+  Eigen::MatrixXd left(n + rows, n + rows), right(n + rows, n);
+  left << inertia, -jacobian.transpose(), h * jacobian, Eigen::MatrixXd(system.compliance);
+  right << inertia - Eigen::MatrixXd(system.tangent) * turn, h * jacobian - jacobian * turn;
+  const Eigen::MatrixXd map = solve(left, right).topRows(n);
   return extremes(map);
 }
 

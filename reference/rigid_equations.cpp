@@ -33,9 +33,9 @@ std::array<Jet<3, 1>, 4> turned_quaternion(const Eigen::Quaterniond& from, const
   return {q.w, q.v[0], q.v[1], q.v[2]};
 }
 
-class Builder {
+class EquationBuilder {
  public:
-  Builder(const RigidStep& step, const Layout& layout, const Vector& z)
+  EquationBuilder(const RigidStep& step, const Layout& layout, const Vector& z)
       : s_(step), layout_(layout), z_(z), out_{Vector::Zero(layout.size), {}} {}
 
   Equations build() {
@@ -158,7 +158,7 @@ Layout::Layout(const RigidModel& m) : model(m) {
 }
 
 Equations equations_at(const RigidStep& step, const Layout& layout, const Vector& z) {
-  return Builder(step, layout, z).build();
+  return EquationBuilder(step, layout, z).build();
 }
 
 }  // namespace pbd::reference

@@ -22,7 +22,7 @@ template <class>
 inline constexpr bool never = false;
 
 template <class E>
-constexpr JointKind kind_of() {
+constexpr JointKind joint_kind() {
   if constexpr (std::is_same_v<E, PointJoint> || std::is_same_v<E, Attachment>)
     return JointKind::point;
   else if constexpr (std::is_same_v<E, AxisJoint>)
@@ -60,7 +60,7 @@ constexpr int rows_of(JointKind kind) {
   return 0;
 }
 
-struct Builder {
+struct ModelBuilder {
   const Scene& scene;
   RigidModel& model;
   int effect = 0;
@@ -99,7 +99,7 @@ struct Builder {
   template <class E>
   Joint made(const std::array<int, 2>& body, double compliance) const {
     Joint joint;
-    joint.kind = kind_of<E>();
+    joint.kind = joint_kind<E>();
     joint.rows = rows_of(joint.kind);
     joint.effect = effect;
     joint.body = body;
@@ -129,7 +129,7 @@ struct Builder {
 };
 
 static_assert(AllJudged<Effect>::value);
-static_assert(states<Builder>(BodyEffects{}), "an effect of rigid bodies without its statement");
+static_assert(states<ModelBuilder>(BodyEffects{}), "an effect of rigid bodies without its statement");
 
 void add_rotors(const Scene& scene, RigidModel& model) {
   model.unknowns = model.nodes.unknowns;
@@ -183,7 +183,7 @@ RigidModel make_rigid_model(const Scene& scene) {
   RigidModel model;
   model.nodes = make_node_model(scene);
   add_rotors(scene, model);
-  Builder builder{scene, model};
+  ModelBuilder builder{scene, model};
   for (const Effect& effect : scene.effects) {
     std::visit(builder, effect);
     ++builder.effect;

@@ -1,6 +1,5 @@
 #include "rigid_motion.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +21,7 @@ Vector block_velocity(const Block& block, const State& state) {
 
 /// A^-1 c of a compliant block.
 RowVector pull(const Block& block) {
-  return block.compliance.ldlt().solve(block.value);
+  return solve_semidefinite(block.compliance, block.value);
 }
 
 /// A block's Jacobian by all unknowns.

@@ -68,8 +68,8 @@ double merit(const RigidSearch& s, const Scales& scales, const Point& at) {
 }
 
 /// Increments (dx, d) and the new gamma, zero of dropped rows; false where the system is singular.
-bool newton_step(const RigidSearch& s, const RigidSystem& system, const Scales& scales, Vector& increment,
-                 Vector& gamma) {
+bool body_step(const RigidSearch& s, const RigidSystem& system, const Scales& scales, Vector& increment,
+               Vector& gamma) {
   const RigidModel& model = s.step.model;
   const double h2 = s.step.h * s.step.h;
   const int n = model.unknowns, rows = model.rows();
@@ -115,7 +115,7 @@ double shortened(const RigidSearch& s, const Scales& scales, const Point& at, co
 }
 
 /// Newton from `at` until its corrections are at rounding.
-bool solve(RigidSearch& s, Point& at) {
+bool find_root(RigidSearch& s, Point& at) {
   constexpr double rounding = 1e-15, converged = 1e-9;
   double previous = infinity;
   for (int k = 0; k < 60 && s.iterations < s.settings.max_iterations; ++k, ++s.iterations) {
@@ -123,7 +123,7 @@ bool solve(RigidSearch& s, Point& at) {
     Scales scales = scales_of(s.step, system);
     s.rank = drop_dependent(s.step.model, system, s.threshold, scales);
     Vector increment, gamma;
-    if (!newton_step(s, system, scales, increment, gamma)) return false;
+    if (!body_step(s, system, scales, increment, gamma)) return false;
     const Vector change = velocity_change(s.step, at.velocity, increment);
     s.correction = increment.cwiseProduct(s.step.model.radius).cwiseAbs().maxCoeff() /
                    displacement_of(s.step, at.velocity);
@@ -147,7 +147,7 @@ bool solve_by_and_by(RigidSearch& s, Point& at) {
   while (reached < 1 && s.iterations < s.settings.max_iterations) {
     Point trial = at;
     s.step.h = std::min(1.0, reached + stride) * h;
-    if (solve(s, trial)) {
+    if (find_root(s, trial)) {
       at = trial;
       reached = s.step.h / h;
       stride *= 2;
@@ -168,7 +168,7 @@ double violation(const RigidStep& step, const Point& at) {
 
 /// Whether (K + K^T)/2 is positive definite where hard J is zero: Cholesky with weighted J^T J added, and
 /// compliant rows as the springs they are.
-bool certify(const RigidStep& step, const Point& at) {
+bool certify_bodies(const RigidStep& step, const Point& at) {
   const RigidSystem system = system_at(step, at.velocity, at.gamma);
   const Scales scales = scales_of(step, system);
   const SparseMatrix own = scaled(step.h * step.h * scales.unknown, system.tangent, scales.unknown);
@@ -227,7 +227,7 @@ Judgement rigid_newton(const Scene& scene, const State& state, double h, const N
   j.rank = search.rank;
   j.iterations = search.iterations;
   j.correction = search.correction;
-  j.certified = converged && certify(search.step, at);
+  j.certified = converged && certify_bodies(search.step, at);
   if (!j.certified) j.note += (j.note.empty() ? "" : "; ") + std::string("regularity not shown");
   j.seconds = search.clock.seconds();
   j.outcome = !converged ? Outcome::not_converged : j.infeasible > 1e-8 ? Outcome::infeasible : Outcome::ok;

@@ -6,10 +6,6 @@
 namespace pbd::reference {
 namespace {
 
-Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
-}
-
 const Eigen::Quaterniond& orientation(const Joint& joint, std::size_t k, const Placement& at) {
   static const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
   return joint.body[k] < 0 ? upright : at.orientation[joint.body[k]];

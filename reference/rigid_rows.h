@@ -14,6 +14,11 @@
 
 namespace pbd::reference {
 
+/// [a]x, with [a]x b = a x b.
+inline Eigen::Matrix3d cross_matrix(const Vec3& a) {
+  return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
+}
+
 /// Where all frames are.
 struct Placement {
   Points x;  // of nodes

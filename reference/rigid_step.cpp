@@ -6,10 +6,6 @@
 namespace pbd::reference {
 namespace {
 
-Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  return Eigen::Matrix3d{{0, -a.z(), a.y()}, {a.z(), 0, -a.x()}, {-a.y(), a.x(), 0}};
-}
-
 /// J_r(t)^-1 with exp(t + dt) = exp(t) exp(J_r(t) dt): 1 + [t]/2 + (1 - |t|/2 cot(|t|/2)) / |t|^2 [t]^2.
 Eigen::Matrix3d inverse_right_jacobian(const Vec3& t) {
   const double angle = t.norm();

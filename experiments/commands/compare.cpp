@@ -102,8 +102,8 @@ class Comparison {
   Table table_;
 };
 
-nlohmann::ordered_json settings_json(const CompareOptions& options, const SceneFile& file,
-                                     const std::string& reference) {
+nlohmann::ordered_json comparison_json(const CompareOptions& options, const SceneFile& file,
+                                       const std::string& reference) {
   return {{"scene", options.scene.string()}, {"set", options.settings},
           {"step_s", file.step_s},           {"at_step", options.at_step},
           {"nodes", file.scene.nodes()},     {"method", method_text(file.method)},
@@ -185,7 +185,7 @@ int compare(const CompareOptions& options) {
   }
   comparison.close();
   auto json = run_record(1, outcome, reason);
-  json["settings"] = settings_json(options, file, name);
+  json["settings"] = comparison_json(options, file, name);
   json["rows"] = comparison.rows();
   json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   record.write(json_text(json));

@@ -39,7 +39,7 @@ nlohmann::ordered_json solution_json(const ConeOptions& options, const ConeSolut
           {"impulse", list_of(solution.impulse)}};
 }
 
-void print(const ConeOptions& options, const ConeSolution& solution) {
+void print_solution(const ConeOptions& options, const ConeSolution& solution) {
   const auto& m = solution.measures;
   fmt::print("{}  law {}, relaxation {}, {} contacts\n", status_of(solution), options.law, options.relaxation,
              solution.impulse.size() / 3);
@@ -75,7 +75,7 @@ int cone(const ConeOptions& options) {
     fmt::print("{}", json_text(solution_json(options, solution)));
   } else {
     fmt::print("{}\n", file.form);
-    print(options, solution);
+    print_solution(options, solution);
   }
   if (solved) return exit_done;
   error_message(

@@ -97,7 +97,7 @@ nlohmann::ordered_json to_json(const std::vector<Item>& items) {
   return array;
 }
 
-void print(const std::vector<Item>& items, std::string_view indent) {
+void print_items(const std::vector<Item>& items, std::string_view indent) {
   for (const auto& item : items)
     fmt::print("{}{}{}{}\n", indent, item.name, item.text.empty() ? "" : "  ", item.text);
 }
@@ -120,7 +120,7 @@ int list(const ListOptions& options) {
       all[kind.name] = to_json(items);
     } else {
       if (options.kind.empty()) fmt::print("{}:\n", kind.name);
-      print(items, options.kind.empty() ? "  " : "");
+      print_items(items, options.kind.empty() ? "  " : "");
     }
   }
   if (options.json) fmt::print("{}\n", (options.kind.empty() ? all : all[options.kind]).dump(2));

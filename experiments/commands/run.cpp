@@ -31,7 +31,7 @@ std::vector<Experiment> chosen(const RunOptions& options, const std::vector<Expe
   return list;
 }
 
-nlohmann::ordered_json settings_json(const RunOptions& options) {
+nlohmann::ordered_json tier_json(const RunOptions& options) {
   return {{"tier", options.tier}};
 }
 
@@ -44,7 +44,7 @@ bool already_complete(const std::filesystem::path& directory, const RunOptions& 
   try {
     return record.is_object() && from_this_build(record) && record.value("status", "") == outcome_names[0] &&
            record.value("tier", "") == options.tier &&
-           record.value("settings", nlohmann::ordered_json()) == settings_json(options);
+           record.value("settings", nlohmann::ordered_json()) == tier_json(options);
   } catch (const nlohmann::ordered_json::type_error& error) {
     throw pbd::SetupError(file.string(), error.what(),
                           "a record as `run` writes it; without one the experiment is run again");
@@ -98,7 +98,7 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
     auto json = run_record(options.threads, outcome, reason);
     json["experiment"] = experiment.name;
     json["tier"] = options.tier;
-    json["settings"] = settings_json(options);
+    json["settings"] = tier_json(options);
     json["wall_s"] = seconds();
     json["rows"] = context.rows();
     json["verdicts"] = {{"holds", holding}, {"fails", failing}};

@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::VectorXd;
 using pbd::SetupError;
-using Sparse = Eigen::SparseMatrix<double>;
 
 /// An HDF5 object, closed at the end of its scope.
 class Handle {

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 using pbd::SetupError;
-using Sparse = Eigen::SparseMatrix<double>;
 
 /// False for NaN, too.
 bool usable(const VectorXd& numbers) {

@@ -26,12 +26,14 @@ void write_cone_file(const std::filesystem::path& path, const pbd::reference::Co
 
 // The parts, one source each.
 
+using Sparse = Eigen::SparseMatrix<double>;
+
 /// Of a number in W and q, so that products do not overflow.
 inline constexpr double largest_in_cone = 1e100;
 
 /// A problem as it is stored. `transposed` is W with each block read row by row where that is in doubt.
 struct StoredCone {
-  Eigen::SparseMatrix<double> delassus, transposed;
+  Sparse delassus, transposed;
   Eigen::VectorXd free_velocity, friction;
   std::string form;
 };

@@ -75,7 +75,7 @@ Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
   Rows rows;
   rows.inverse_mass.assign(count, 0);
   rows.contacts = true;
-  rows.blocks.emplace_back(std::move(block));
+  rows.blocks.add(std::move(block));
   return rows;
 }
 

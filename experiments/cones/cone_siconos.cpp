@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::VectorXd;
 using pbd::SetupError;
-using Sparse = Eigen::SparseMatrix<double>;
 
 class Text {
  public:

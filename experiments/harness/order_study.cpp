@@ -25,11 +25,11 @@ double largest_distance(const Points& a, const Points& b) {
   return (a - b).colwise().norm().maxCoeff<Eigen::PropagateNaN>();
 }
 
-Points places_of(const Motion& motion, const State& state) {
+Points order_places(const Motion& motion, const State& state) {
   return places(motion.scene, state.x, state.orientation);
 }
 
-struct Level {
+struct OrderLevel {
   int steps;
   double h;             // s
   double error = 0;     // of the worst node and sample over the motion's size
@@ -38,13 +38,13 @@ struct Level {
 };
 
 /// Positions at the samples.
-std::vector<Points> sampled(const Motion& motion, const Method& method, Level& level) {
+std::vector<Points> sampled(const Motion& motion, const Method& method, OrderLevel& level) {
   std::vector<Points> x;
   int done = 0;
-  const Points start = places_of(motion, motion.scene.initial);
+  const Points start = order_places(motion, motion.scene.initial);
   level.run =
       simulate_steps(motion.scene, method, level.h, level.steps, [&](const State&, const State& after) {
-        const Points now = places_of(motion, after);
+        const Points now = order_places(motion, after);
         if (++done % (level.steps / samples) == 0) x.push_back(now);
         const bool lost = !(largest_distance(now, start) < 100 * motion.size);
         return lost ? "a hundred times the motion away" : "";
@@ -52,9 +52,9 @@ std::vector<Points> sampled(const Motion& motion, const Method& method, Level& l
   return x;
 }
 
-Level level_of(const Motion& motion, Rule rule, int steps) {
-  Level level{.steps = steps, .h = motion.duration / steps};
-  Level looser = level;
+OrderLevel order_level(const Motion& motion, Rule rule, int steps) {
+  OrderLevel level{.steps = steps, .h = motion.duration / steps};
+  OrderLevel looser = level;
   const auto x = sampled(motion, rule.method, level);
   rule.method.tolerance *= 100;
   const auto other = sampled(motion, rule.method, looser);
@@ -64,7 +64,7 @@ Level level_of(const Motion& motion, Rule rule, int steps) {
   }
   Worst error, unsolved;
   for (std::size_t i = 0; i < samples; ++i) {
-    error.add(largest_distance(x[i], places_of(motion, motion.exact.samples[i])) / motion.size);
+    error.add(largest_distance(x[i], order_places(motion, motion.exact.samples[i])) / motion.size);
     unsolved.add(largest_distance(x[i], other[i]) / motion.size);
   }
   level.error = error.value();
@@ -76,24 +76,24 @@ Level level_of(const Motion& motion, Rule rule, int steps) {
   return level;
 }
 
-struct Course {
+struct OrderCourse {
   const Motion* motion;
   Rule rule;
-  std::vector<Level> levels{};
+  std::vector<OrderLevel> levels{};
 };
 
 double largest_error(const std::vector<double>& errors) {
   return *std::max_element(errors.begin(), errors.end());
 }
 
-void write_errors(Table& table, const Course& course) {
-  const double judged = largest_error(course.motion->exact.position_error) / course.motion->size;
+void write_errors(Table& table, const OrderCourse& course) {
+  const double judged_place = largest_error(course.motion->exact.position_error) / course.motion->size;
   double coarser = std::nan("");
-  for (const Level& level : course.levels) {
+  for (const OrderLevel& level : course.levels) {
     std::vector<Cell> row{course.motion->name};
     for (auto& cell : method_cells(course.rule)) row.push_back(std::move(cell));
     for (const double number :
-         {level.h, level.error, std::log2(coarser / level.error), level.unsolved, judged})
+         {level.h, level.error, std::log2(coarser / level.error), level.unsolved, judged_place})
       row.emplace_back(number);
     row.emplace_back(status_cell(level.run.status));
     row.emplace_back(level.run.reason);
@@ -104,18 +104,18 @@ void write_errors(Table& table, const Course& course) {
 
 /// Where a rule's order is decided: not of a damped newmark, whose errors of first and second order compete,
 /// nor where hard constraints are marginal.
-bool judged(const Course& course) {
+bool judged_place(const OrderCourse& course) {
   const bool damped = course.rule.method.integrator == "newmark" && course.rule.order == 1;
   return course.motion->judged && !damped && !(course.motion->hard && course.rule.marginal);
 }
 
-int expected_order(const Course& course) {
+int expected_order(const OrderCourse& course) {
   return std::min(course.rule.order, course.motion->highest_order);
 }
 
 /// A row of `orders`, and the verdicts.
-void conclude(Context& context, std::string_view experiment, Table& table, const Course& course,
-              Worst& resolved) {
+void conclude_order(Context& context, std::string_view experiment, Table& table, const OrderCourse& course,
+                    Worst& resolved) {
   std::vector<double> h, error;
   Simulation worst;
   const double exact = largest_error(course.motion->exact.position_error) / course.motion->size;
@@ -123,7 +123,7 @@ void conclude(Context& context, std::string_view experiment, Table& table, const
     h.push_back(level->h);
     error.push_back(level->error);
     if (level->run.status > worst.status) worst = level->run;
-    if (judged(course)) resolved.add((level->unsolved + exact) / level->error);
+    if (judged_place(course)) resolved.add((level->unsolved + exact) / level->error);
   }
   const double order = fitted_order(h, error);
   const int expected = expected_order(course);
@@ -133,7 +133,7 @@ void conclude(Context& context, std::string_view experiment, Table& table, const
              {order, static_cast<double>(expected), std::int64_t{fitted_levels}, h.back(), error.back(),
               std::string(behaviour_of(error)), status_cell(worst.status), worst.reason});
   table.row(row);
-  if (!judged(course)) return;
+  if (!judged_place(course)) return;
   const bool solved = worst.status == Status::ok && behaviour_of(error) == "converging";
   context.verdict(std::string(experiment) + "." + course.motion->name + "." + course.rule.name(),
                   "the errors fall at the integrator's order", "|order - " + std::to_string(expected) + "|",
@@ -159,20 +159,21 @@ void study_orders(Context& context, std::string_view experiment, std::vector<Mot
     if (motion.exact.outcome != reference::Outcome::ok)
       throw std::runtime_error("ode, " + motion.name + ": " + motion.exact.reason);
     for (const State& sample : motion.exact.samples)
-      motion.size = std::max(
-          motion.size, largest_distance(places_of(motion, sample), places_of(motion, motion.scene.initial)));
-    std::vector<Course> courses;
+      motion.size = std::max(motion.size, largest_distance(order_places(motion, sample),
+                                                           order_places(motion, motion.scene.initial)));
+    std::vector<OrderCourse> courses;
     for (const Rule& rule : integrator_rules(alphas))
       if (rule.method.integrator != motion.shown_elsewhere) courses.push_back({&motion, rule});
-    for (Course& course : courses) course.levels.resize(static_cast<std::size_t>(levels));
+    for (OrderCourse& course : courses) course.levels.resize(static_cast<std::size_t>(levels));
     context.parallel(std::ssize(courses) * levels, [&](std::int64_t index) {
-      Course& course = courses[static_cast<std::size_t>(index / levels)];
+      OrderCourse& course = courses[static_cast<std::size_t>(index / levels)];
       const auto k = static_cast<int>(index % levels);
-      course.levels[static_cast<std::size_t>(k)] = level_of(motion, course.rule, motion.coarsest_steps << k);
+      course.levels[static_cast<std::size_t>(k)] =
+          order_level(motion, course.rule, motion.coarsest_steps << k);
     });
-    for (const Course& course : courses) {
+    for (const OrderCourse& course : courses) {
       write_errors(errors, course);
-      conclude(context, experiment, orders, course, resolved);
+      conclude_order(context, experiment, orders, course, resolved);
     }
     context.advance(motion.name);
   }

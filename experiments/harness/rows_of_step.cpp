@@ -1,7 +1,6 @@
 #include "harness/rows_of_step.h"
 
-#include <Eigen/Dense>
-
+#include "dense.h"
 #include "effects/sources.h"
 
 namespace pbdcheck {
@@ -98,7 +97,8 @@ Points dense_solution(const LinearStep& step) {
     weights[k] = step.rows.inverse_mass[static_cast<std::size_t>(k / 3)];
   const Eigen::MatrixXd weighted = all.jacobian * weights.asDiagonal();
   const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
-  const Eigen::VectorXd impulses = n.ldlt().solve(-(all.bias + all.jacobian * step.v_free.reshaped()));
+  const Eigen::VectorXd missed = all.bias + all.jacobian * step.v_free.reshaped();
+  const Eigen::VectorXd impulses = reference::solve_semidefinite(n, -missed);
   return step.v_free + (weighted.transpose() * impulses).reshaped(3, nodes);
 }
 

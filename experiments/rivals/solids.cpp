@@ -1,9 +1,17 @@
 #include "rivals/solids.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 namespace pbd::rivals {
 namespace {
+
+template <class Small>
+Small positive_eigenvalues(const Small& S) {
+  const Eigen::SelfAdjointEigenSolver<Small> eigen(S);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
 
 /// By singular values: for any F.
 Polar polar_by_svd(const Mat3& F) {
@@ -17,6 +25,13 @@ Polar polar_by_svd(const Mat3& F) {
 }
 
 }  // namespace
+
+Eigen::Matrix2d positive_part(const Eigen::Matrix2d& S) {
+  return positive_eigenvalues(S);
+}
+Mat3 positive_part(const Mat3& S) {
+  return positive_eigenvalues(S);
+}
 
 /// By eigenvalues of F^T F, three times as fast, where squaring costs no more than two digits.
 Polar polar(const Mat3& F) {

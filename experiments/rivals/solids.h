@@ -42,12 +42,8 @@ struct Polar {
 Polar polar(const Mat3& F);
 
 /// S with its negative eigenvalues set to zero.
-template <int D>
-Eigen::Matrix<double, D, D> positive_part(const Eigen::Matrix<double, D, D>& S) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> eigen(S);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
+Eigen::Matrix2d positive_part(const Eigen::Matrix2d& S);
+Mat3 positive_part(const Mat3& S);
 
 template <int D>
 struct GreenElement : Simplex<D> {
@@ -66,7 +62,7 @@ struct GreenElement : Simplex<D> {
   auto stiffness(const Positions& x, bool projected) const {
     const Gradient F = x * shape.transpose();
     Small S = stress((F.transpose() * F - Small::Identity()) / 2);
-    if (projected) S = positive_part<D>(S);
+    if (projected) S = positive_part(S);
     const Positions f = F * shape;
     const Mat3 left = mu * F * F.transpose();
     const Pairs across = shape.transpose() * shape, geometric = shape.transpose() * S * shape;

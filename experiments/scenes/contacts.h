@@ -1,7 +1,7 @@
 // Scenes of rigid bodies that touch, shared by experiments and tests. SI units, z up.
 #pragma once
 
-#include "scene.h"
+#include "scenes/standard.h"
 
 namespace pbdcheck {
 
@@ -19,7 +19,7 @@ struct Placing {
 /// A scene under construction: bodies with one collider each, gravity and gyroscopic torques.
 class BodyScene {
  public:
-  explicit BodyScene(const pbd::ContactLaw& law, double gravity = 9.81);
+  explicit BodyScene(const pbd::ContactLaw& law, double gravity = pbdcheck::gravity);
 
   /// Each returns the body's index. A fixed body never moves.
   int fixed(const pbd::Shape& shape, const Placing& at, int material = 0);

@@ -10,7 +10,7 @@
 namespace pbdcheck {
 namespace {
 
-struct Motion {
+struct BodyMotion {
   pbd::Vec3 velocity, angular_velocity;  // in the world
 };
 
@@ -110,7 +110,7 @@ std::string read_body_name(Keys& keys, const Builder& builder) {
   return name;
 }
 
-Motion read_motion(Keys& keys, const std::string& hold) {
+BodyMotion read_motion(Keys& keys, const std::string& hold) {
   for (const auto* key : {"velocity_m_s", "angular_velocity_rad_s"})
     if (hold == "fixed" && keys.has(key))
       keys.refuse(key, "a velocity of a fixed body", "held = \"moving\", which keeps its velocities");
@@ -139,7 +139,7 @@ void read_rigid_body(Keys& keys, Builder& builder) {
                     : shaped ? read_shape_inertia(keys, shape, held)
                              : read_given_inertia(keys, held);
   read_body_contact(keys, builder, shaped);
-  const Motion motion = read_motion(keys, hold);
+  const BodyMotion motion = read_motion(keys, hold);
   if (const auto course = read_course(keys)) {
     if (hold != "moving")
       keys.refuse("over_time", fmt::format("a course of a body with held = \"{}\"", hold),

@@ -6,6 +6,8 @@
 
 namespace pbdcheck {
 
+inline constexpr double gravity = 9.81;  // m/s^2
+
 /// Bob of 1 kg on a massless hard link of 1 m, `angle` (rad) from straight down, turning at `rate` (rad/s).
 pbd::Scene pendulum(double angle, double rate);
 

@@ -8,14 +8,14 @@ namespace pbd {
 namespace {
 
 /// A direction along which a is apart from b (m; negative: they overlap by as much).
-struct Axis {
+struct PolyhedronAxis {
   double apart = -infinity;
   int i = -1, j = -1;  // a face of b (j), or edges of a and b
   Vec3 normal;         // unit, from b to a
 };
 
-Axis face_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b) {
-  Axis best;
+PolyhedronAxis face_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b) {
+  PolyhedronAxis best;
   for (int f = 0; f < b.face_count(); ++f) {
     const Vec3& normal = b.face_normal(f);
     double lowest = infinity;
@@ -36,7 +36,7 @@ void slopes(const RoundedPolyhedron& of_edges, const RoundedPolyhedron& of_faces
 
 /// Of pairs of edges whose planes of support meet: the arcs between the faces' normals, b's turned round,
 /// cross. An edge without faces has the whole circle across it.
-Axis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b, CollisionScratch& scratch) {
+PolyhedronAxis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b, CollisionScratch& scratch) {
   constexpr double parallel = 1e-12;  // squared sine: the product is known to 1e-10 of itself
   std::vector<double>&b_on_a = scratch.slopes_a, &a_on_b = scratch.slopes_b;
   slopes(a, b, b_on_a);
@@ -44,7 +44,7 @@ Axis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b, Collision
   const auto at = [](const std::vector<double>& table, int edge, const RoundedPolyhedron& faces, int face) {
     return table[edge * faces.normal.size() + face];
   };
-  Axis best;
+  PolyhedronAxis best;
   for (int i = 0; i < a.edge_count(); ++i)
     for (int j = 0; j < b.edge_count(); ++j) {
       const auto &of_a = a.edge(i).face, &of_b = b.edge(j).face;
@@ -67,7 +67,7 @@ Axis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b, Collision
   return best;
 }
 
-struct Pair {
+struct PolyhedronPair {
   const RoundedPolyhedron& a;
   const RoundedPolyhedron& b;
   const ContactWriter& writer;
@@ -159,7 +159,7 @@ struct Pair {
     }
   }
 
-  void write_axis(const Axis& edges) const {
+  void write_axis(const PolyhedronAxis& edges) const {
     const Segment of_a = segment(a, edges.i), of_b = segment(b, edges.j);
     const Nearest at = nearest(of_a, of_b);
     writer.write(
@@ -168,7 +168,7 @@ struct Pair {
   }
 
   /// The deepest node below the face, wherever its sides are.
-  void write_deepest(const Axis& flat, bool b_refers) const {
+  void write_deepest(const PolyhedronAxis& flat, bool b_refers) const {
     const RoundedPolyhedron &of_node = b_refers ? a : b, &of_face = b_refers ? b : a;
     const Vec3& normal = of_face.face_normal(flat.j);
     int deepest = 0;
@@ -181,18 +181,18 @@ struct Pair {
   }
 
   void write() const {
-    const Axis of_b = face_axis(a, b);
+    const PolyhedronAxis of_b = face_axis(a, b);
     if (of_b.apart > limit) return;
-    Axis of_a = face_axis(b, a);
+    PolyhedronAxis of_a = face_axis(b, a);
     of_a.normal = -of_a.normal;
     if (of_a.apart > limit) return;
     const bool b_refers = of_b.apart >= of_a.apart - tiny;
-    const Axis& flat = b_refers ? of_b : of_a;
-    Axis edges;
+    const PolyhedronAxis& flat = b_refers ? of_b : of_a;
+    PolyhedronAxis edges;
     if (flat.j >= 0 && flat.apart <= tiny) edges = edge_axis(a, b, scratch);
     if (edges.apart > limit) return;
     const bool across = edges.apart > flat.apart + tiny;
-    const Axis& axis = across ? edges : flat;
+    const PolyhedronAxis& axis = across ? edges : flat;
     if (across && edges.apart <= tiny) write_axis(edges);
     if (flat.j >= 0) {
       const double floor = axis.apart - radii - tiny;
@@ -216,7 +216,7 @@ struct Pair {
 
 void convex_convex(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const ContactWriter& writer,
                    CollisionScratch& scratch) {
-  Pair{a, b, writer, scratch}.write();
+  PolyhedronPair{a, b, writer, scratch}.write();
 }
 
 }  // namespace pbd

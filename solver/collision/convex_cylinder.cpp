@@ -6,10 +6,8 @@
 namespace pbd {
 namespace {
 
-using Index = std::size_t;
-
 /// A direction along which polyhedron a is apart from the cylinder (m; negative: they overlap by as much).
-struct Axis {
+struct CylinderAxis {
   enum class Of { face, cap, edge, node };
 
   double apart = -infinity;
@@ -22,7 +20,7 @@ struct Axis {
 /// those that come in and go out over a cap (60 degrees).
 constexpr double parallel = 1e-9, across_axis = 0.75;
 
-struct Pair {
+struct CylinderPair {
   const RoundedPolyhedron& a;
   const PlacedCylinder& b;
   const ContactWriter& writer;
@@ -34,28 +32,28 @@ struct Pair {
     return low;
   }
 
-  Axis cap_axis() const {
-    Axis best;
+  CylinderAxis cap_axis() const {
+    CylinderAxis best;
     for (const int end : {-1, 1}) {
       const double apart = lowest(end * b.axis) - b.half;
-      if (apart > best.apart) best = {apart, Axis::Of::cap, end, end * b.axis};
+      if (apart > best.apart) best = {apart, CylinderAxis::Of::cap, end, end * b.axis};
     }
     return best;
   }
 
-  Axis face_axis() const {
-    Axis best;
+  CylinderAxis face_axis() const {
+    CylinderAxis best;
     for (int f = 0; f < a.face_count(); ++f) {
       const Vec3& normal = a.face_normal(f);
       const double apart = normal.dot(b.centre) - a.offset[f] - b.support(normal);
-      if (apart > best.apart) best = {apart, Axis::Of::face, f, -normal};
+      if (apart > best.apart) best = {apart, CylinderAxis::Of::face, f, -normal};
     }
     return best;
   }
 
   /// Normals across the side whose farthest feature of a is the edge or the node they go through.
-  void side_axes(Axis& best) const {
-    const auto look = [&](Axis::Of of, int i, int node, Vec3 normal, double least) {
+  void side_axes(CylinderAxis& best) const {
+    const auto look = [&](CylinderAxis::Of of, int i, int node, Vec3 normal, double least) {
       if (!(normal.norm() > least)) return;
       normal.normalize();
       for (const int sign : {-1, 1}) {
@@ -65,10 +63,10 @@ struct Pair {
       }
     };
     for (int e = 0; e < a.edge_count(); ++e)
-      look(Axis::Of::edge, e, a.edge(e).node[0], a.along[e].cross(b.axis), rounding);
+      look(CylinderAxis::Of::edge, e, a.edge(e).node[0], a.along[e].cross(b.axis), rounding);
     for (int i = 0; i < a.node_count(); ++i) {
       const Vec3 from = a.node(i) - b.centre;
-      look(Axis::Of::node, i, i, from - from.dot(b.axis) * b.axis, tiny);
+      look(CylinderAxis::Of::node, i, i, from - from.dot(b.axis) * b.axis, tiny);
     }
   }
 
@@ -80,7 +78,7 @@ struct Pair {
   }
 
   bool faces_farther(int e, const Vec3& apart) const {
-    for (const Index side : {Index(0), Index(1)}) {
+    for (const std::size_t side : {std::size_t(0), std::size_t(1)}) {
       const int f = a.edge(e).face[side];
       if (f < 0) continue;
       const Vec3 inward = a.face_normal(f).cross(a.along[e]) * (side == 0 ? 1 : -1);
@@ -108,7 +106,7 @@ struct Pair {
   }
 
   /// Edges over the side and where they leave the cylinder's length and the caps' discs.
-  void edges(const Axis& best) const {
+  void edges(const CylinderAxis& best) const {
     for (int e = 0; e < a.edge_count(); ++e) {
       const Vec3& along = a.along[e];
       const double length = a.length[e], cosine = along.dot(b.axis);
@@ -132,7 +130,8 @@ struct Pair {
         const double s = middle + sign * reach, z = from.dot(b.axis) + s * cosine,
                      above = std::abs(z) - b.half;
         const int at_end = z < 0 ? -1 : 1;
-        const bool deepest = best.of == Axis::Of::cap && best.i == at_end && above >= best.apart - tiny;
+        const bool deepest =
+            best.of == CylinderAxis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
         const Vec3 y = point(e, s);
         writer.write(on_face(y, a.radius, b.cap(at_end), at_end * b.axis, 0),
@@ -152,23 +151,23 @@ struct Pair {
   }
 
   /// What the best direction says, wherever its features end.
-  void write_axis(const Axis& axis) const {
+  void write_axis(const CylinderAxis& axis) const {
     const double gap = axis.apart - a.radius;
-    if (axis.of == Axis::Of::face) {
+    if (axis.of == CylinderAxis::Of::face) {
       ContactPoint contact = on_face(b.cap(b.axis.dot(axis.normal) > 0 ? 1 : -1), 0,
                                      a.node(a.corner(axis.i, 0)), -axis.normal, a.radius);
       contact.direction_a = b.axis;
       contact.rim_a = b.radius;
       return writer.exchanged().rewrite(contact, writer.key(Feature::face, axis.i, Feature::rim, 0), gap);
     }
-    if (axis.of == Axis::Of::edge)
+    if (axis.of == CylinderAxis::Of::edge)
       return writer.rewrite(on_edges(a.node(a.edge(axis.i).node[0]), a.along[axis.i], a.radius, b.centre,
                                      b.axis, b.radius, axis.normal),
                             writer.key(Feature::edge, axis.i, Feature::axis, 0), gap);
     int deepest = 0;
     for (int i = 1; i < a.node_count(); ++i)
       if (axis.normal.dot(a.node(i)) < axis.normal.dot(a.node(deepest))) deepest = i;
-    if (axis.of == Axis::Of::cap)
+    if (axis.of == CylinderAxis::Of::cap)
       writer.rewrite(on_face(a.node(deepest), a.radius, b.cap(axis.i), axis.normal, 0),
                      writer.key(Feature::node, deepest, Feature::cap, axis.i + 1), gap);
     else
@@ -177,8 +176,8 @@ struct Pair {
   }
 
   void write() const {
-    const Axis cap = cap_axis(), face = face_axis();
-    Axis best = face.apart > cap.apart ? face : cap;
+    const CylinderAxis cap = cap_axis(), face = face_axis();
+    CylinderAxis best = face.apart > cap.apart ? face : cap;
     if (best.apart >= limit) return;
     if (best.apart <= 0) side_axes(best);
     if (best.apart >= limit) return;
@@ -213,7 +212,7 @@ struct Pair {
 
 void convex_cylinder(const RoundedPolyhedron& a, const Cylinder& cylinder, const ContactWriter& writer) {
   const PlacedCylinder b(cylinder, writer.frame_b);
-  Pair{a, b, writer}.write();
+  CylinderPair{a, b, writer}.write();
 }
 
 }  // namespace pbd

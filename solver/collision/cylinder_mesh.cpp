@@ -7,8 +7,6 @@
 namespace pbd {
 namespace {
 
-using Index = std::size_t;
-
 /// Of the mesh's edge j, the point nearest to the cylinder, if that is nearest to a rim. True if it is
 /// inside.
 bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
@@ -58,7 +56,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
       if (at.part != PlacedCylinder::Part::side && lowest_about(b, node, at.normal, flat_slope))
         write_point(y, 0, Feature::node, node, a, exchanged);
     }
-    for (Index k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k)
       if (write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged) && above - support > shallowest) {
         shallowest = above - support;
         cut = triangle;

@@ -70,7 +70,7 @@ struct Clip {
   }
 };
 
-bool within(double arc, double length, double slack) {
+bool in_span(double arc, double length, double slack) {
   return arc >= -slack && arc <= length + slack;
 }
 
@@ -104,7 +104,7 @@ struct Manifold {
       const double cosine = a.along[i].dot(b.along[j]), sine_squared = cross.squaredNorm();
       const double s = apart.dot(a.along[i] - cosine * b.along[j]) / sine_squared;
       const double t = apart.dot(cosine * a.along[i] - b.along[j]) / sine_squared;
-      if (within(s, a.length[i], slack) && within(t, b.length[j], slack)) {
+      if (in_span(s, a.length[i], slack) && in_span(t, b.length[j], slack)) {
         contact = on_edges(from_a + s * a.along[i], a.along[i], a.radius, from_b + t * b.along[j], b.along[j],
                            b.radius, normal);
         own_gap = (gap + radii) * std::abs(cross.dot(normal)) / cross.norm() - radii;

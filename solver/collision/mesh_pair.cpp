@@ -5,8 +5,6 @@
 namespace pbd {
 namespace {
 
-using Index = std::size_t;
-
 /// Faces of two meshes that are tilted by less touch with all their corners (rad, as that of a crossing).
 constexpr double tilted = crossing_sine;
 
@@ -134,7 +132,7 @@ void MeshPair::edges() const {
     box.min().array() -= limit;
     box.max().array() += limit;
     b.tree.find(box, [&](int triangle) {
-      for (Index k = 0; k < 3; ++k) crossing(i, b.solid.sides[3 * triangle + k]);
+      for (std::size_t k = 0; k < 3; ++k) crossing(i, b.solid.sides[3 * triangle + k]);
     });
   }
 }

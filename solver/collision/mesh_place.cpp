@@ -8,8 +8,6 @@
 namespace pbd {
 namespace {
 
-using Index = std::size_t;
-
 AxisBox cube_about(const Vec3& x, double reach) {
   return {x.array() - reach, x.array() + reach};
 }
@@ -42,7 +40,7 @@ MeshPlace nearest_of_triangle(const ClosedMesh& mesh, int triangle, const Vec3& 
   const auto& face = mesh.solid.faces[triangle];
   std::array<int, 3> node{};
   std::array<Vec3, 3> corner;
-  for (Index k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     node[k] = mesh.solid.corners[face.first + k];
     corner[k] = mesh.surface.x.col(node[k]);
   }

@@ -26,7 +26,7 @@ SurfaceTouching node_triangle(const SurfaceContact& contact, const Points& x) {
 }
 
 /// Edges whose cross product is rounding: they have no normal of their own.
-bool parallel(const Vec3& e, const Vec3& f) {
+bool along_normal(const Vec3& e, const Vec3& f) {
   constexpr double least_sine = 1e-10;
   return !(e.cross(f).squaredNorm() > least_sine * least_sine * e.squaredNorm() * f.squaredNorm());
 }
@@ -37,7 +37,7 @@ SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
   const Vec3 across = e.cross(f);
   const double squared = across.squaredNorm();
   SurfaceTouching found;
-  const bool crossing = !parallel(e, f);
+  const bool crossing = !along_normal(e, f);
   found.normal = contact.side * (crossing ? Vec3(across.normalized()) : e.unitOrthogonal());
   const double s = crossing ? apart.cross(f).dot(across) / squared : 0.5;
   const double t = crossing ? apart.cross(e).dot(across) / squared : 0.5;
@@ -119,7 +119,7 @@ void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach
       const auto& [a, b] = edges_[i];
       const auto& [c, d] = edges_[j];
       const bool apart = a != c && a != d && b != c && b != d;
-      if (static_cast<std::size_t>(j) > i && apart && !parallel(x.col(b) - x.col(a), x.col(d) - x.col(c)))
+      if (static_cast<std::size_t>(j) > i && apart && !along_normal(x.col(b) - x.col(a), x.col(d) - x.col(c)))
         add({{a, b, c, d}, true, 1, thickness}, x, reach, out);
     });
 }

@@ -4,26 +4,26 @@
 
 namespace pbd {
 
-using C = Constraint<Anchor>;
-
-C::Nodes C::node(const Anchor& effect, std::size_t i) {
+auto Constraint<Anchor>::node(const Anchor& effect, std::size_t i) -> Nodes {
   return {effect.node[i]};
 }
 
-C::Square C::compliance(const Anchor& effect, std::size_t i) {
+auto Constraint<Anchor>::compliance(const Anchor& effect, std::size_t i) -> Square {
   return effect.compliance[i] * Square::Identity();
 }
 
-C::Square C::retardation(const Anchor& effect, std::size_t i) {
+auto Constraint<Anchor>::retardation(const Anchor& effect, std::size_t i) -> Square {
   return effect.damping[i] * Square::Identity();
 }
 
-void C::evaluate(const Anchor& effect, std::size_t i, const Positions& x, Value& value, Jacobian& jacobian) {
+void Constraint<Anchor>::evaluate(const Anchor& effect, std::size_t i, const Positions& x, Value& value,
+                                  Jacobian& jacobian) {
   value = x - effect.target[i];
   jacobian.setIdentity();
 }
 
-C::NodeBounds C::geometric_bound(const Anchor&, std::size_t, const Positions&, const Value&) {
+auto Constraint<Anchor>::geometric_bound(const Anchor&, std::size_t, const Positions&, const Value&)
+    -> NodeBounds {
   return NodeBounds::Zero();
 }
 

@@ -25,10 +25,8 @@ struct Twist {
 };
 }  // namespace
 
-using C = Constraint<AngleJoint>;
-
-void C::evaluate(const AngleJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<AngleJoint>::evaluate(const AngleJoint& effect, std::size_t i, const Positions& at,
+                                      Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Twist twist(effect, i, a, b);
   value[0] =
@@ -39,8 +37,8 @@ void C::evaluate(const AngleJoint& effect, std::size_t i, const Positions& at, V
 }
 
 /// With g = across and t = gradient the angle's second derivative by `to` is -(g t^T + t g^T) / |g|^2.
-C::NodeBounds C::geometric_bound(const AngleJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<AngleJoint>::geometric_bound(const AngleJoint& effect, std::size_t i, const Positions& at,
+                                             const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Twist twist(effect, i, a, b);
   if (!(twist.squared > 0)) return NodeBounds::Zero();

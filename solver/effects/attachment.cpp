@@ -4,18 +4,16 @@
 
 namespace pbd {
 
-using C = Constraint<Attachment>;
-
-void C::evaluate(const Attachment& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<Attachment>::evaluate(const Attachment& effect, std::size_t i, const Positions& at,
+                                      Value& value, Jacobian& jacobian) {
   const Pose& body = *at.body[0];
   const Vec3 lever = body.rotation * effect.point[i];
   value = at.node - body.x - lever;
   jacobian << -Square::Identity(), cross_matrix(lever) * body.turn_per_arc, Square::Identity();
 }
 
-C::NodeBounds C::geometric_bound(const Attachment& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<Attachment>::geometric_bound(const Attachment& effect, std::size_t i, const Positions& at,
+                                             const Value& impulse) -> NodeBounds {
   const Pose& body = *at.body[0];
   return {0, largest_of(lever_form(-impulse, body.rotation * effect.point[i]), body), 0};
 }

@@ -4,10 +4,8 @@
 
 namespace pbd {
 
-using C = Constraint<AxisJoint>;
-
-void C::evaluate(const AxisJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<AxisJoint>::evaluate(const AxisJoint& effect, std::size_t i, const Positions& at,
+                                     Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Eigen::Matrix<double, 3, 2> normals = a.rotation * normals_of(effect.axis[i][0]);
   const Vec3 axis = b.rotation * effect.axis[i][1];
@@ -19,8 +17,8 @@ void C::evaluate(const AxisJoint& effect, std::size_t i, const Positions& at, Va
   }
 }
 
-C::NodeBounds C::geometric_bound(const AxisJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<AxisJoint>::geometric_bound(const AxisJoint& effect, std::size_t i, const Positions& at,
+                                            const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   return product_of_directions(a.rotation * normals_of(effect.axis[i][0]) * impulse,
                                b.rotation * effect.axis[i][1], a, b);

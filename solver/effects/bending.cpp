@@ -17,21 +17,20 @@ Vec3 wing_gradient(const Vec3& normal, double length) {
 
 }  // namespace
 
-using C = Constraint<Bending>;
-
-C::Nodes C::node(const Bending& effect, std::size_t i) {
+auto Constraint<Bending>::node(const Bending& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-C::Square C::compliance(const Bending& effect, std::size_t i) {
+auto Constraint<Bending>::compliance(const Bending& effect, std::size_t i) -> Square {
   return Square(effect.compliance[i]);
 }
 
-C::Square C::retardation(const Bending& effect, std::size_t i) {
+auto Constraint<Bending>::retardation(const Bending& effect, std::size_t i) -> Square {
   return Square(effect.damping[i]);
 }
 
-void C::evaluate(const Bending& effect, std::size_t i, const Positions& x, Value& value, Jacobian& jacobian) {
+void Constraint<Bending>::evaluate(const Bending& effect, std::size_t i, const Positions& x, Value& value,
+                                   Jacobian& jacobian) {
   const Vec3 edge = x.col(1) - x.col(0);
   const Vec3 wing_a = x.col(2) - x.col(0);
   const Vec3 wing_b = x.col(3) - x.col(0);
@@ -52,7 +51,8 @@ void C::evaluate(const Bending& effect, std::size_t i, const Positions& x, Value
       (-t_a * gradient_a - t_b * gradient_b).transpose(), gradient_a.transpose(), gradient_b.transpose();
 }
 
-C::NodeBounds C::geometric_bound(const Bending&, std::size_t, const Positions& x, const Value& impulse) {
+auto Constraint<Bending>::geometric_bound(const Bending&, std::size_t, const Positions& x,
+                                          const Value& impulse) -> NodeBounds {
   const Vec3 edge = x.col(1) - x.col(0);
   const double length = edge.norm();
   if (!(length > 0)) return NodeBounds::Zero();

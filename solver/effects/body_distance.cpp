@@ -18,10 +18,8 @@ struct Link {
 };
 }  // namespace
 
-using C = Constraint<BodyDistance>;
-
-void C::evaluate(const BodyDistance& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<BodyDistance>::evaluate(const BodyDistance& effect, std::size_t i, const Positions& at,
+                                        Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Link link(effect, i, a, b);
   value[0] = link.length - effect.rest_length[i];
@@ -30,8 +28,8 @@ void C::evaluate(const BodyDistance& effect, std::size_t i, const Positions& at,
 }
 
 /// |dy_b - dy_a|^2 <= 4 (|dx_a|^2 + |s_a|^2 |phi_a|^2 + ...), over the length, and the levers' own.
-C::NodeBounds C::geometric_bound(const BodyDistance& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<BodyDistance>::geometric_bound(const BodyDistance& effect, std::size_t i, const Positions& at,
+                                               const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Link link(effect, i, a, b);
   const double tension = link.length > 0 ? std::max(0.0, -impulse[0]) * 4 / link.length : 0.0;

@@ -88,12 +88,17 @@ ContactRows::ContactRows(const Scene& scene, const Contact& effect, Friction law
       law_(law),
       search_(scene, effect) {}
 
-std::vector<AnyBlock> ContactRows::allocate(bool) {
-  if (effect_.collider.empty() && effect_.triangle.empty()) return {};
+void ContactRows::allocate(bool, BlockList& blocks) {
+  if (effect_.collider.empty() && effect_.triangle.empty()) return;
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
   of_bodies.law = of_nodes.law = law_;
-  return {of_bodies, RowBlock<1, 4>{}, of_nodes, RowBlock<1, 3>{}, of_bodies, RowBlock<1, 4>{}};
+  blocks.add(RowBlock<3, 4>(of_bodies));
+  blocks.add(RowBlock<1, 4>{});
+  blocks.add(std::move(of_nodes));
+  blocks.add(RowBlock<1, 3>{});
+  blocks.add(std::move(of_bodies));
+  blocks.add(RowBlock<1, 4>{});
 }
 
 bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {

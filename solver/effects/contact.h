@@ -32,7 +32,7 @@ class ContactRows final : public Source {
  public:
   ContactRows(const Scene& scene, const Contact& effect, Friction law);
 
-  std::vector<AnyBlock> allocate(bool hard_alone) override;
+  void allocate(bool hard_alone, BlockList& blocks) override;
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Points& x, BlockSpan blocks) override;
   void note_impulses(ConstBlockSpan blocks) override;

@@ -4,22 +4,20 @@
 
 namespace pbd {
 
-using C = Constraint<Distance>;
-
-C::Nodes C::node(const Distance& effect, std::size_t i) {
+auto Constraint<Distance>::node(const Distance& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-C::Square C::compliance(const Distance& effect, std::size_t i) {
+auto Constraint<Distance>::compliance(const Distance& effect, std::size_t i) -> Square {
   return Square(effect.compliance[i]);
 }
 
-C::Square C::retardation(const Distance& effect, std::size_t i) {
+auto Constraint<Distance>::retardation(const Distance& effect, std::size_t i) -> Square {
   return Square(effect.damping[i]);
 }
 
-void C::evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<Distance>::evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
+                                    Jacobian& jacobian) {
   const Vec3 link = x.col(1) - x.col(0);
   const double length = link.norm();
   const Vec3 direction = length > 0 ? Vec3(link / length) : Vec3::UnitX();
@@ -27,7 +25,8 @@ void C::evaluate(const Distance& effect, std::size_t i, const Positions& x, Valu
   jacobian << -direction.transpose(), direction.transpose();
 }
 
-C::NodeBounds C::geometric_bound(const Distance&, std::size_t, const Positions& x, const Value& impulse) {
+auto Constraint<Distance>::geometric_bound(const Distance&, std::size_t, const Positions& x,
+                                           const Value& impulse) -> NodeBounds {
   const double length = (x.col(1) - x.col(0)).norm();
   return NodeBounds::Constant(length > 0 ? std::max(0.0, -impulse[0]) * 2 / length : 0.0);
 }

@@ -4,10 +4,8 @@
 
 namespace pbd {
 
-using C = Constraint<LineJoint>;
-
-void C::evaluate(const LineJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<LineJoint>::evaluate(const LineJoint& effect, std::size_t i, const Positions& at,
+                                     Value& value, Jacobian& jacobian) {
   const Eigen::Matrix<double, 3, 2> normals = normals_of(effect.axis[i]);
   for (int k = 0; k < 2; ++k) {
     const Slide slide(*at.body[0], *at.body[1], normals.col(k), effect.point[i][1]);
@@ -16,8 +14,8 @@ void C::evaluate(const LineJoint& effect, std::size_t i, const Positions& at, Va
   }
 }
 
-C::NodeBounds C::geometric_bound(const LineJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<LineJoint>::geometric_bound(const LineJoint& effect, std::size_t i, const Positions& at,
+                                            const Value& impulse) -> NodeBounds {
   const Vec3 push = normals_of(effect.axis[i]) * impulse;
   const double size = push.norm();
   const Slide slide(*at.body[0], *at.body[1], size > 0 ? Vec3(push / size) : Vec3(effect.axis[i]),

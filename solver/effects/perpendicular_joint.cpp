@@ -4,10 +4,8 @@
 
 namespace pbd {
 
-using C = Constraint<PerpendicularJoint>;
-
-void C::evaluate(const PerpendicularJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<PerpendicularJoint>::evaluate(const PerpendicularJoint& effect, std::size_t i,
+                                              const Positions& at, Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Vec3 axis_a = a.rotation * effect.axis[i][0], axis_b = b.rotation * effect.axis[i][1];
   const Vec3 turn = axis_a.cross(axis_b);
@@ -16,8 +14,9 @@ void C::evaluate(const PerpendicularJoint& effect, std::size_t i, const Position
       -turn.transpose() * b.turn_per_arc;
 }
 
-C::NodeBounds C::geometric_bound(const PerpendicularJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<PerpendicularJoint>::geometric_bound(const PerpendicularJoint& effect, std::size_t i,
+                                                     const Positions& at, const Value& impulse)
+    -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   return product_of_directions(impulse[0] * (a.rotation * effect.axis[i][0]), b.rotation * effect.axis[i][1],
                                a, b);

@@ -4,10 +4,8 @@
 
 namespace pbd {
 
-using C = Constraint<PointJoint>;
-
-void C::evaluate(const PointJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<PointJoint>::evaluate(const PointJoint& effect, std::size_t i, const Positions& at,
+                                      Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Vec3 lever_a = a.rotation * effect.point[i][0], lever_b = b.rotation * effect.point[i][1];
   value = b.x + lever_b - a.x - lever_a;
@@ -15,8 +13,8 @@ void C::evaluate(const PointJoint& effect, std::size_t i, const Positions& at, V
       -cross_matrix(lever_b) * b.turn_per_arc;
 }
 
-C::NodeBounds C::geometric_bound(const PointJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<PointJoint>::geometric_bound(const PointJoint& effect, std::size_t i, const Positions& at,
+                                             const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   return {0, largest_of(lever_form(-impulse, a.rotation * effect.point[i][0]), a), 0,
           largest_of(lever_form(impulse, b.rotation * effect.point[i][1]), b)};

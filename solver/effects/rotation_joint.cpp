@@ -19,10 +19,8 @@ struct Turned {
 };
 }  // namespace
 
-using C = Constraint<RotationJoint>;
-
-void C::evaluate(const RotationJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<RotationJoint>::evaluate(const RotationJoint& effect, std::size_t i, const Positions& at,
+                                         Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Turned turned(effect, i, a, b);
   value = 2 * turned.error.vec();
@@ -30,8 +28,8 @@ void C::evaluate(const RotationJoint& effect, std::size_t i, const Positions& at
 }
 
 /// Of b's rotation alone 2 vec(q) has the second derivative -vec(q) |phi|^2 / 2.
-C::NodeBounds C::geometric_bound(const RotationJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<RotationJoint>::geometric_bound(const RotationJoint& effect, std::size_t i,
+                                                const Positions& at, const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Turned turned(effect, i, a, b);
   return rotation_bound(impulse.dot(turned.error.vec()) / 2 * Square::Identity(),

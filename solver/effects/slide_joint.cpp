@@ -4,18 +4,16 @@
 
 namespace pbd {
 
-using C = Constraint<SlideJoint>;
-
-void C::evaluate(const SlideJoint& effect, std::size_t i, const Positions& at, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<SlideJoint>::evaluate(const SlideJoint& effect, std::size_t i, const Positions& at,
+                                      Value& value, Jacobian& jacobian) {
   const Slide slide(*at.body[0], *at.body[1], effect.axis[i], effect.point[i][1]);
   value[0] = slide.value() - effect.axis[i].dot(effect.point[i][0]) - effect.rest_position[i] -
              effect.rate[i] * at.time;
   jacobian = slide.jacobian(*at.body[0], *at.body[1]);
 }
 
-C::NodeBounds C::geometric_bound(const SlideJoint& effect, std::size_t i, const Positions& at,
-                                 const Value& impulse) {
+auto Constraint<SlideJoint>::geometric_bound(const SlideJoint& effect, std::size_t i, const Positions& at,
+                                             const Value& impulse) -> NodeBounds {
   const Slide slide(*at.body[0], *at.body[1], effect.axis[i], effect.point[i][1]);
   return slide.bound(impulse[0], *at.body[0], *at.body[1]);
 }

@@ -26,11 +26,10 @@ std::vector<Slot> allocate_rows(const Scene& scene, Friction law, bool hard_alon
     slot.source = make_source(scene, scene.effects[index], law);
     slot.effect = index;
     if (!slot.source) continue;
-    auto blocks = slot.source->allocate(hard_alone);
     slot.first = rows.blocks.size();
-    slot.count = blocks.size();
+    slot.source->allocate(hard_alone, rows.blocks);
+    slot.count = rows.blocks.size() - slot.first;
     rows.contacts |= slot.source->kind().contacts && slot.count > 0;
-    std::move(blocks.begin(), blocks.end(), std::back_inserter(rows.blocks));
     slot.cost.effect = std::visit([](const auto& effect) { return effect.name; }, scene.effects[index]);
     slots.push_back(std::move(slot));
   }

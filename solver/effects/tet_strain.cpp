@@ -13,17 +13,15 @@
 namespace pbd {
 namespace {
 
-using C = Constraint<TetStrain>;
-
 /// Y C^-1 at Poisson's ratio nu
-C::Square inverse_elasticity(double nu) {
-  C::Square inverse = C::Square::Zero();
+Constraint<TetStrain>::Square inverse_elasticity(double nu) {
+  Constraint<TetStrain>::Square inverse = Constraint<TetStrain>::Square::Zero();
   inverse.topLeftCorner<3, 3>().setConstant(-nu);
   inverse.diagonal() << 1, 1, 1, 2 * (1 + nu), 2 * (1 + nu), 2 * (1 + nu);
   return inverse;
 }
 
-Eigen::Matrix3d stress_of(const C::Value& p) {
+Eigen::Matrix3d stress_of(const Constraint<TetStrain>::Value& p) {
   Eigen::Matrix3d matrix;
   matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
   return matrix;
@@ -34,7 +32,7 @@ Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
   return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
 }
 
-Eigen::Matrix<double, 4, 3> gradients(const Eigen::Matrix3d& inverse) {
+Eigen::Matrix<double, 4, 3> tet_gradients(const Eigen::Matrix3d& inverse) {
   Eigen::Matrix<double, 4, 3> y;
   y << -inverse.colwise().sum(), inverse;
   return y;
@@ -54,31 +52,32 @@ Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
 
 }  // namespace
 
-C::Nodes C::node(const TetStrain& effect, std::size_t i) {
+auto Constraint<TetStrain>::node(const TetStrain& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-const C::Positions& C::rest(const TetStrain& effect, std::size_t i) {
+auto Constraint<TetStrain>::rest(const TetStrain& effect, std::size_t i) -> const Positions& {
   return effect.rest[i];
 }
 
-C::Square C::compliance(const TetStrain& effect, std::size_t i) {
+auto Constraint<TetStrain>::compliance(const TetStrain& effect, std::size_t i) -> Square {
   return inverse_elasticity(effect.material.poisson) / (effect.material.young * tet_volume(effect.rest[i]));
 }
 
-C::Square C::retardation(const TetStrain& effect, std::size_t) {
+auto Constraint<TetStrain>::retardation(const TetStrain& effect, std::size_t) -> Square {
   return inverse_elasticity(effect.material.poisson) *
          inverse_of(inverse_elasticity(effect.damping->poisson)) *
          (effect.damping->young / effect.material.young);
 }
 
-C::Deformation C::deformation(const TetStrain& effect, std::size_t i, const Positions& x) {
+auto Constraint<TetStrain>::deformation(const TetStrain& effect, std::size_t i, const Positions& x)
+    -> Deformation {
   const Eigen::Matrix3d inverse = inverse_rest(effect, i);
   const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
   return {inverse, f, directions(effect.strain, f)};
 }
 
-C::Value C::strain(const TetStrain& effect, const Deformation& at) {
+auto Constraint<TetStrain>::strain(const TetStrain& effect, const Deformation& at) -> Value {
   const Eigen::Matrix3d stretch = at.t.transpose() * at.f;
   const Eigen::Matrix3d twice = stretch + stretch.transpose();
   Value value;
@@ -88,7 +87,7 @@ C::Value C::strain(const TetStrain& effect, const Deformation& at) {
   return value;
 }
 
-C::Positions C::push(const Deformation& at, const Value& impulse) {
+auto Constraint<TetStrain>::push(const Deformation& at, const Value& impulse) -> Positions {
   const Eigen::Matrix3d stress = stress_of(impulse);
   Positions pushed;
   pushed.rightCols<3>().noalias() = at.t * stress * at.inverse.transpose();
@@ -96,16 +95,17 @@ C::Positions C::push(const Deformation& at, const Value& impulse) {
   return pushed;
 }
 
-Eigen::Matrix3d C::weighted_deformation(const TetStrain& effect, std::size_t i, const Positions& x) {
+Eigen::Matrix3d Constraint<TetStrain>::weighted_deformation(const TetStrain& effect, std::size_t i,
+                                                            const Positions& x) {
   const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse_rest(effect, i);
   return tet_volume(effect.rest[i]) * (effect.strain == Strain::linear ? Eigen::Matrix3d::Identity() : f);
 }
 
-void C::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<TetStrain>::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
+                                     Jacobian& jacobian) {
   const auto [inverse, f, t] = deformation(effect, i, x);
   value = strain(effect, {inverse, f, t});
-  const Eigen::Matrix<double, 4, 3> y = gradients(inverse);
+  const Eigen::Matrix<double, 4, 3> y = tet_gradients(inverse);
   for (int node_index = 0; node_index < 4; ++node_index)
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3;
@@ -115,12 +115,12 @@ void C::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Val
     }
 }
 
-C::NodeBounds C::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
-                                 const Value& impulse) {
+auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
+                                            const Value& impulse) -> NodeBounds {
   if (effect.strain == Strain::linear) return NodeBounds::Zero();
   const Eigen::Matrix3d stress = stress_of(impulse);
   const Eigen::Matrix3d inverse = inverse_rest(effect, i);
-  if (effect.strain == Strain::green) return stress_bound(gradients(inverse), Eigen::Matrix3d(-stress));
+  if (effect.strain == Strain::green) return stress_bound(tet_gradients(inverse), Eigen::Matrix3d(-stress));
   const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;
   const Eigen::Matrix3d stretch = polar_rotation(f).transpose() * f;
   const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
@@ -132,7 +132,7 @@ C::NodeBounds C::geometric_bound(const TetStrain& effect, std::size_t i, const P
     const double one = tension[a], other = tension[(a + 1) % 3];
     largest = std::max(largest, (one + other + std::sqrt(2 * (one * one + other * other))) / 2);
   }
-  return stress_bound(gradients(inverse),
+  return stress_bound(tet_gradients(inverse),
                       Eigen::Matrix3d(largest / std::max(pair, least_pair) * Eigen::Matrix3d::Identity()));
 }
 

@@ -11,13 +11,13 @@ namespace pbd {
 namespace {
 
 /// Y C^-1 at Poisson's ratio nu
-Eigen::Matrix3d inverse_elasticity(double nu) {
+Eigen::Matrix3d plane_inverse_elasticity(double nu) {
   Eigen::Matrix3d inverse;
   inverse << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
   return inverse;
 }
 
-Eigen::Matrix<double, 3, 2> gradients(const Eigen::Matrix2d& inverse) {
+Eigen::Matrix<double, 3, 2> triangle_gradients(const Eigen::Matrix2d& inverse) {
   Eigen::Matrix<double, 3, 2> y;
   y << -inverse.colwise().sum(), inverse;
   return y;
@@ -34,44 +34,42 @@ Eigen::Matrix2d rest_edges(const Eigen::Matrix3d& rest) {
 
 }  // namespace
 
-using C = Constraint<TriangleStrain>;
-
-C::Nodes C::node(const TriangleStrain& effect, std::size_t i) {
+auto Constraint<TriangleStrain>::node(const TriangleStrain& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-const C::Positions& C::rest(const TriangleStrain& effect, std::size_t i) {
+auto Constraint<TriangleStrain>::rest(const TriangleStrain& effect, std::size_t i) -> const Positions& {
   return effect.rest[i];
 }
 
-C::Square C::compliance(const TriangleStrain& effect, std::size_t i) {
-  return inverse_elasticity(effect.material.poisson) /
+auto Constraint<TriangleStrain>::compliance(const TriangleStrain& effect, std::size_t i) -> Square {
+  return plane_inverse_elasticity(effect.material.poisson) /
          (effect.thickness * effect.material.young * triangle_area(effect.rest[i]));
 }
 
-C::Square C::retardation(const TriangleStrain& effect, std::size_t) {
-  return inverse_elasticity(effect.material.poisson) *
-         inverse_of(inverse_elasticity(effect.damping->poisson)) *
+auto Constraint<TriangleStrain>::retardation(const TriangleStrain& effect, std::size_t) -> Square {
+  return plane_inverse_elasticity(effect.material.poisson) *
+         inverse_of(plane_inverse_elasticity(effect.damping->poisson)) *
          (effect.damping->young / effect.material.young);
 }
 
-void C::evaluate(const TriangleStrain& effect, std::size_t i, const Positions& x, Value& value,
-                 Jacobian& jacobian) {
+void Constraint<TriangleStrain>::evaluate(const TriangleStrain& effect, std::size_t i, const Positions& x,
+                                          Value& value, Jacobian& jacobian) {
   const Eigen::Matrix2d inverse = rest_edges(effect.rest[i]).inverse();
   const Eigen::Matrix<double, 3, 2> f = (x.rightCols<2>().colwise() - x.col(0)) * inverse;
   value << (f.col(0).squaredNorm() - 1) / 2, (f.col(1).squaredNorm() - 1) / 2, f.col(0).dot(f.col(1));
 
-  const Eigen::Matrix<double, 3, 2> y = gradients(inverse);
+  const Eigen::Matrix<double, 3, 2> y = triangle_gradients(inverse);
   for (int a = 0; a < 3; ++a)
     jacobian.middleCols<3>(3 * a) << y(a, 0) * f.col(0).transpose(), y(a, 1) * f.col(1).transpose(),
         y(a, 1) * f.col(0).transpose() + y(a, 0) * f.col(1).transpose();
 }
 
-C::NodeBounds C::geometric_bound(const TriangleStrain& effect, std::size_t i, const Positions&,
-                                 const Value& impulse) {
+auto Constraint<TriangleStrain>::geometric_bound(const TriangleStrain& effect, std::size_t i,
+                                                 const Positions&, const Value& impulse) -> NodeBounds {
   Eigen::Matrix2d stress;
   stress << impulse[0], impulse[2], impulse[2], impulse[1];
-  return stress_bound(gradients(rest_edges(effect.rest[i]).inverse()), Eigen::Matrix2d(-stress));
+  return stress_bound(triangle_gradients(rest_edges(effect.rest[i]).inverse()), Eigen::Matrix2d(-stress));
 }
 
 std::unique_ptr<Source> make_source(const Scene& scene, const TriangleStrain& effect) {

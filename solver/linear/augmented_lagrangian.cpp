@@ -36,7 +36,7 @@ typename Block::Square softness(const Block& block, std::size_t i) {
 bool AugmentedLagrangian::applies(const Rows& rows) {
   bool all = true;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    all &= !is_local<Block> && !(block.frictional() && block.law == Friction::box);
+    all &= !is_local<Block> && (!block.frictional() || solves(block.law));
   });
   return all;
 }

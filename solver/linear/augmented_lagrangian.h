@@ -16,8 +16,10 @@ namespace pbd {
 
 class AugmentedLagrangian {
  public:
-  /// True unless impulses obey the law `box` (a pyramid; P is a cone's here) or rows are local and know no
-  /// masses.
+  /// Not `box`, a pyramid: P is a cone's here.
+  static bool solves(Friction law) { return law != Friction::box; }
+
+  /// True unless impulses obey a law it does not solve, or rows are local and know no masses.
   static bool applies(const Rows& rows);
 
   static constexpr std::string_view name = "augmented_lagrangian";

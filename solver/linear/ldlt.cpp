@@ -1,10 +1,10 @@
 #include "linear/ldlt.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "rows/dense.h"
 #include "rows/laws.h"
 
 namespace pbd {
@@ -24,11 +24,6 @@ double trace_of_delassus(const Block& block, const std::vector<double>& inverse_
   for (int a = 0; a < Block::nodes; ++a)
     trace += inverse_mass[block.node[i][a]] * block.jacobian[i].template middleCols<3>(3 * a).squaredNorm();
   return trace;
-}
-
-template <class Block>
-Eigen::LLT<typename Block::Square> compliance_factor(const Block& block, std::size_t i) {
-  return Eigen::LLT<typename Block::Square>(block.compliance[i]);
 }
 
 }  // namespace
@@ -52,8 +47,10 @@ void Ldlt::assemble(const Rows& rows, Put&& put) const {
                 column[3 * a + axis] = first < 0 ? -1 : first + static_cast<int>(axis);
               }
             if (impulse < 0) {
+              typename Block::Jacobian solved = jacobian;
+              solve_definite_in_place(block.compliance[i], solved);
               const Eigen::Matrix<double, 3 * Block::nodes, 3 * Block::nodes> stiffness =
-                  jacobian.transpose() * compliance_factor(block, i).solve(jacobian);
+                  jacobian.transpose() * solved;
               for (std::size_t r = 0; r < column.size(); ++r)
                 for (std::size_t c = 0; c < column.size(); ++c)
                   if (column[c] >= 0 && column[r] >= column[c])
@@ -155,7 +152,7 @@ double Ldlt::right_hand_side(const Rows& rows, const Points& v) {
               right_.template segment<Block::rows>(impulse_column_[b][i]) = r;
               continue;
             }
-            system_.push(block, i, compliance_factor(block, i).solve(r), right_);
+            system_.push(block, i, solve_definite(block.compliance[i], r), right_);
           }
         },
         rows.blocks[b]);
@@ -171,8 +168,9 @@ void Ldlt::correct(Rows& rows, const Points& v) {
             if (impulse_column_[b][i] >= 0) {
               change = -solution_.template segment<Block::rows>(impulse_column_[b][i]);
             } else {
-              change = compliance_factor(block, i).solve(-block.residual(v, i, block.impulse[i]) -
-                                                         system_.along(block, i, solution_));
+              const typename Block::Value missed =
+                  -block.residual(v, i, block.impulse[i]) - system_.along(block, i, solution_);
+              change = solve_definite(block.compliance[i], missed);
             }
             block.impulse[i] += change;
             block.apply(rows.inverse_mass, i, change, changed_);

@@ -44,13 +44,15 @@ std::string_view part(const LinearSolver& any) {
       any);
 }
 
-void require_solvable(const LinearSolver& any, const Rows& rows) {
+void require_solvable(const LinearSolver& any, const Rows& rows, Friction law) {
   std::visit(
       [&](const auto& solver) {
-        if constexpr (requires { solver.applies(rows); })
-          if (!solver.applies(rows))
-            throw SetupError("relaxation", std::string(solver.name) + " with contact of this law",
-                             "direct, or another one of the list");
+        bool solves = true;
+        if constexpr (requires { solver.applies(rows); }) solves = solver.applies(rows);
+        if constexpr (requires { solver.solves(law); }) solves &= !rows.contacts || solver.solves(law);
+        if (!solves)
+          throw SetupError("relaxation", std::string(solver.name) + " with contact of this law",
+                           "direct, or another one of the list");
       },
       any);
 }

@@ -43,7 +43,7 @@ std::string_view part(const LinearSolver& solver);
 /// A fresh one by name (SetupError if unknown).
 LinearSolver make_linear_solver(std::string_view name);
 
-/// Throws SetupError if the solver cannot solve such rows at all, with the law of their contacts.
-void require_solvable(const LinearSolver& solver, const Rows& rows);
+/// Throws SetupError if the solver cannot solve such rows at all, or not with this law of their contacts.
+void require_solvable(const LinearSolver& solver, const Rows& rows, Friction law);
 
 }  // namespace pbd

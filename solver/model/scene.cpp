@@ -2,16 +2,16 @@
 
 namespace pbd {
 
+EffectList::EffectList() = default;
+EffectList::EffectList(std::initializer_list<Effect> effects) : vector(effects) {}
+EffectList::EffectList(const EffectList&) = default;
+EffectList::EffectList(EffectList&&) noexcept = default;
+EffectList& EffectList::operator=(const EffectList&) = default;
+EffectList& EffectList::operator=(EffectList&&) noexcept = default;
+EffectList::~EffectList() = default;
+
 bool damped(const Effect& effect) {
-  return std::visit(
-      []<class E>(const E& stated) {
-        if constexpr (requires { stated.damping.has_value(); })
-          return stated.damping.has_value();
-        else if constexpr (requires { stated.damping.empty(); })
-          return !stated.damping.empty();
-        return false;
-      },
-      effect);
+  return std::visit([](const auto& stated) { return damped(stated); }, effect);
 }
 
 int add_node(Scene& scene, const Vec3& position, double mass, const Vec3& velocity) {

@@ -25,18 +25,37 @@ using Effect =
                  Gyroscopic, PointJoint, AxisJoint, PerpendicularJoint, RotationJoint, LineJoint,
                  BodyDistance, AngleJoint, SlideJoint, Attachment, Contact>;
 
+/// Copied and destroyed in scene.cpp, not in each file that has a scene.
+struct EffectList : std::vector<Effect> {
+  EffectList();
+  EffectList(std::initializer_list<Effect> effects);
+  EffectList(const EffectList&);
+  EffectList(EffectList&&) noexcept;
+  EffectList& operator=(const EffectList&);
+  EffectList& operator=(EffectList&&) noexcept;
+  ~EffectList();
+};
+
 /// `mass` in kg, one per node; infinite mass keeps the node's velocity as it is.
 /// The order of `effects` is the order of Gauss-Seidel.
 struct Scene {
   std::vector<double> mass;
   State initial;
-  std::vector<Effect> effects;
+  EffectList effects;
   std::vector<RigidBody> bodies{};
 
   int nodes() const { return static_cast<int>(mass.size()); }
 };
 
 /// True if the effect lists damping.
+template <class E>
+bool damped(const E& effect) {
+  if constexpr (requires { effect.damping.has_value(); })
+    return effect.damping.has_value();
+  else if constexpr (requires { effect.damping.empty(); })
+    return !effect.damping.empty();
+  return false;
+}
 bool damped(const Effect& effect);
 
 /// Adds a rigid body and its node, and returns the body's index. Position of the centre of mass in m, angular

@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
+#include "rows/mass_norm.h"
+
 namespace pbd {
-namespace {
-
-double dot(const Points& a, const Points& b) {
-  return (a.array() * b.array()).sum();
-}
-
-}  // namespace
-
 void Lbfgs::learn(const Points& step, const Points& change) {
   const double curvature = dot(step, change);
   constexpr double least = 1e-12;  // of the product of lengths: no curvature is known below

@@ -6,10 +6,6 @@
 namespace pbd {
 namespace {
 
-double dot(const Points& a, const Points& b) {
-  return (a.array() * b.array()).sum();
-}
-
 /// (M + J^T Sigma^-1 J) along
 void apply_stiffness(const Rows& rows, const Points& along, Points& pushed) {
   pushed.setZero(3, along.cols());

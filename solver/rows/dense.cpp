@@ -21,6 +21,11 @@ Eigen::Matrix<double, 6, 1> solve_definite(const Matrix6d& a, const Eigen::Matri
   return a.llt().solve(c);
 }
 
+void solve_definite_in_place(const Eigen::Ref<const Eigen::MatrixXd>& a, Eigen::Ref<Eigen::MatrixXd> b) {
+  const Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> factor(a);
+  factor.solveInPlace(b);
+}
+
 Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& a) {
   return a.inverse();
 }

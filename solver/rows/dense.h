@@ -14,6 +14,9 @@ Eigen::Vector3d solve_definite(const Eigen::Matrix3d& a, const Eigen::Vector3d& 
 Eigen::Matrix<double, 6, 1> solve_definite(const Matrix6d& a, const Eigen::Matrix<double, 6, 1>& c);
 Matrix1d solve_definite(const Matrix1d& a, const Matrix1d& c);
 
+/// b <- A^-1 b, A positive definite with at most 6 rows.
+void solve_definite_in_place(const Eigen::Ref<const Eigen::MatrixXd>& a, Eigen::Ref<Eigen::MatrixXd> b);
+
 /// A^-1 of a regular matrix.
 Eigen::Matrix2d inverse_of(const Eigen::Matrix2d& a);
 Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& a);

@@ -34,19 +34,17 @@ class EffectRows final : public Source {
  public:
   EffectRows(const Scene& scene, const E& effect) : Source(kind_of(effect)), scene_(scene), effect_(effect) {}
 
-  std::vector<AnyBlock> allocate(bool hard_alone) override {
+  void allocate(bool hard_alone, BlockList& blocks) override {
     std::vector<std::size_t> entries;
     for (std::size_t i = 0; i < constraint_count(effect_); ++i)
       if (!hard_alone || !gives_way(effect_, i)) entries.push_back(i);
-    if (entries.empty()) return {};
+    if (entries.empty()) return;
     Block block;
     block.resize(entries.size());
     for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = columns_of(scene_, effect_, entries[i]);
     if (entries.size() < constraint_count(effect_)) block.entries = entries;
     if (kind().limited) block.bounds.resize(block.size());
-    std::vector<AnyBlock> blocks;
-    blocks.emplace_back(std::move(block));
-    return blocks;
+    blocks.add(std::move(block));
   }
 
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {

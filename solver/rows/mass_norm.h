@@ -1,4 +1,5 @@
-// Products of velocities in the metric of the masses, over the nodes that can move: |v|_M^2 = sum m |v|^2, J.
+// Products of columns as they are, and in the metric of the masses over the nodes that can move: |v|_M^2 =
+// sum m |v|^2, J.
 #pragma once
 
 #include <cmath>
@@ -7,6 +8,11 @@
 #include "geometry.h"
 
 namespace pbd {
+
+/// The sum of a . b over all columns.
+inline double dot(const Points& a, const Points& b) {
+  return (a.array() * b.array()).sum();
+}
 
 /// `sum` + a . M b
 inline double mass_product(const std::vector<double>& inverse_mass, const Points& a, const Points& b,

@@ -4,6 +4,27 @@
 
 namespace pbd {
 
+BlockList::BlockList() = default;
+BlockList::BlockList(const BlockList&) = default;
+BlockList::BlockList(BlockList&&) noexcept = default;
+BlockList& BlockList::operator=(const BlockList&) = default;
+BlockList& BlockList::operator=(BlockList&&) noexcept = default;
+BlockList::~BlockList() = default;
+
+template <class Block>
+void BlockList::add(Block&& block) {
+  push_back(AnyBlock(std::move(block)));
+}
+template void BlockList::add(RowBlock<3, 1>&&);
+template void BlockList::add(RowBlock<1, 2>&&);
+template void BlockList::add(RowBlock<1, 4>&&);
+template void BlockList::add(RowBlock<3, 3>&&);
+template void BlockList::add(RowBlock<6, 4>&&);
+template void BlockList::add(RowBlock<2, 4>&&);
+template void BlockList::add(RowBlock<3, 4>&&);
+template void BlockList::add(RowBlock<1, 3>&&);
+template void BlockList::add(LocalContacts&&);
+
 double irregular(std::size_t k) {
   return std::sin(12.9898 * static_cast<double>(k));  // no part of a turn
 }

@@ -144,9 +144,22 @@ inline constexpr bool is_local = std::is_same_v<Block, LocalContacts>;
 using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
                               RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>, LocalContacts>;
 
+/// Filled, copied and destroyed in rows.cpp, not in each file that has rows.
+struct BlockList : std::vector<AnyBlock> {
+  BlockList();
+  BlockList(const BlockList&);
+  BlockList(BlockList&&) noexcept;
+  BlockList& operator=(const BlockList&);
+  BlockList& operator=(BlockList&&) noexcept;
+  ~BlockList();
+
+  template <class Block>
+  void add(Block&& block);
+};
+
 struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass
-  std::vector<AnyBlock> blocks;      // in the scene's order, without empty ones
+  BlockList blocks;                  // in the scene's order, without empty ones
   bool contacts = false;             // some blocks are those of contacts
   int generation = 0;                // raised with each other set of contacts
 };

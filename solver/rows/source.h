@@ -97,8 +97,9 @@ class Source {
 
   const Kind& kind() const { return kind_; }
 
-  /// Blocks with impulses zero, none where there are no rows: of all constraints, or of the hard ones alone.
-  virtual std::vector<AnyBlock> allocate(bool hard_alone) = 0;
+  /// Adds blocks with impulses zero, none where there are no rows: of all constraints, or of the hard ones
+  /// alone.
+  virtual void allocate(bool hard_alone, BlockList& blocks) = 0;
 
   /// Gets ready for a step; true if the rows are others than before.
   virtual bool begin_step(const StepBegin& begin, BlockSpan blocks) = 0;

@@ -68,7 +68,8 @@ bool same_stiffness(const Effect& a, const Effect& b) {
 
 /// True if the sources' rows are of the same columns.
 bool same_rows(Source& source, bool hard_alone, ConstBlockSpan blocks) {
-  const std::vector<AnyBlock> stated = source.allocate(hard_alone);
+  BlockList stated;
+  source.allocate(hard_alone, stated);
   return std::equal(
       stated.begin(), stated.end(), blocks.begin(), blocks.end(), [](const AnyBlock& a, const AnyBlock& b) {
         return std::visit(
@@ -90,7 +91,7 @@ WorkspaceData::WorkspaceData(Scene stated_scene, Method stated_method)
       outer(make_outer(method.outer, system)),
       contraction(system) {
   if (system.rows.contacts) require_contact(history.integrator(), method);
-  require_solvable(system.solver, system.rows);
+  require_solvable(system.solver, system.rows, friction_by_name(method.friction));
 }
 
 Workspace::Workspace(Scene scene, Method method) {

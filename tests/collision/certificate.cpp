@@ -9,7 +9,7 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double accuracy = 1e-10;  // m, of shapes of 1 m
+constexpr double proof_accuracy = 1e-10;  // m, of shapes of 1 m
 
 struct Worst {
   double proof = 0, a = 0, b = 0, normal = 0;  // m
@@ -51,9 +51,9 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
     worst.b = std::max(worst.b, outside(b, at_b, swapped ? nearest.point_a : nearest.point_b));
   } else {
     ++worst.overlapping;
-    if (std::abs(nearest.gap - proved) > accuracy) ++worst.unproved;
-    if (seen > nearest.gap + accuracy) ++worst.shallow;
-    if (seen > accuracy) ++worst.ghosts;
+    if (std::abs(nearest.gap - proved) > proof_accuracy) ++worst.unproved;
+    if (seen > nearest.gap + proof_accuracy) ++worst.shallow;
+    if (seen > proof_accuracy) ++worst.ghosts;
   }
 }
 
@@ -81,9 +81,9 @@ TEST_CASE("contacts of cylinders are nearest points, with a proof") {
             << worst.a << " " << worst.b << " missed " << worst.missed);
   CHECK(worst.apart > 1000);
   CHECK(worst.missed == 0);
-  CHECK(worst.proof < accuracy);
-  CHECK(worst.a < accuracy);
-  CHECK(worst.b < accuracy);
+  CHECK(worst.proof < proof_accuracy);
+  CHECK(worst.a < proof_accuracy);
+  CHECK(worst.b < proof_accuracy);
   CHECK(worst.normal < 1e-12);
   CHECK(worst.ghosts == 0);
   if (kind != "mesh") CHECK(worst.unproved == 0);

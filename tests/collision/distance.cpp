@@ -7,7 +7,7 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double accuracy = 1e-10;  // m, of shapes of 1 m
+constexpr double distance_accuracy = 1e-10;  // m, of shapes of 1 m
 
 /// All over the other, apart or overlapping; every fourth pose has axes along the other's.
 Frame random_pose(Random& random, int number) {
@@ -44,7 +44,7 @@ TEST_CASE("the least gap of convex pairs is their signed distance") {
       const Convex point_b{{contact.swapped ? t.point_a : t.point_b}, {}, 0};
       worst_a = std::max(worst_a, signed_distance(point_a, of_a));
       worst_b = std::max(worst_b, signed_distance(point_b, of_b));
-      if (t.gap > expected + accuracy) continue;
+      if (t.gap > expected + distance_accuracy) continue;
       worst_a = std::max(worst_a, std::abs(signed_distance(point_a, of_a)));
       worst_b = std::max(worst_b, std::abs(signed_distance(point_b, of_b)));
     }
@@ -58,14 +58,14 @@ TEST_CASE("the least gap of convex pairs is their signed distance") {
       ++missed;
     else
       worst = std::max(worst, std::abs(least - expected));
-    if (std::abs(least - expected) > accuracy && missed + ghosts < 1)
+    if (std::abs(least - expected) > distance_accuracy && missed + ghosts < 1)
       UNSCOPED_INFO("pose " << number << " least " << least << " expected " << expected);
   }
   INFO(kind << " " << other << " overlapping " << overlapping << " apart " << apart << " beyond " << beyond
             << " off by " << worst << " points " << worst_a << " " << worst_b << " normal " << worst_normal);
   CHECK(missed == 0);
   CHECK(ghosts == 0);
-  CHECK(worst < accuracy);
+  CHECK(worst < distance_accuracy);
   CHECK(worst_normal < 1e-14);
   CHECK(worst_a < 1e-8);
   CHECK(worst_b < 1e-8);

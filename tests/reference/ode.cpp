@@ -62,7 +62,7 @@ Scene sheet() {
   return scene;
 }
 
-Trajectory solved(const Scene& scene, const std::vector<double>& times) {
+Trajectory solved_ode(const Scene& scene, const std::vector<double>& times) {
   const Trajectory trajectory = ode(scene, times, {tolerance});
   INFO(trajectory.reason);
   REQUIRE(trajectory.outcome == Outcome::ok);
@@ -104,7 +104,7 @@ TEST_CASE("a column of springs let go vibrates in its modes") {
   }
   scene.effects = {Gravity{}, springs};
   const std::vector<double> times = times_to(5, 23);
-  const Trajectory found = solved(scene, times);
+  const Trajectory found = solved_ode(scene, times);
   // Mode j is sin((2j-1) pi i/(2n+1)); released from the unstretched state, each moves by (1 - cos w t) of
   // its part of the static stretch g/w^2.
   for (std::size_t s = 0; s < times.size(); ++s)
@@ -133,7 +133,7 @@ TEST_CASE("a node on a compliant anchor swings about its rest along every axis")
   scene.initial.time = 7;
   const double w = std::sqrt(50.0);
   const std::vector<double> times = times_to(3, 7);
-  const Trajectory found = solved(scene, times);
+  const Trajectory found = solved_ode(scene, times);
   const Vec3 rest = target + (acceleration + force / 2) / (w * w);
   for (std::size_t s = 0; s < times.size(); ++s) {
     const double t = times[s];
@@ -152,7 +152,7 @@ TEST_CASE("a spring pendulum moves as its equations in polar coordinates say") {
         -(2 * radial * rate + g * std::sin(q)) / r;
   };
   const std::vector<double> times = times_to(5, 13);
-  const Trajectory found = solved(spring_pendulum(compliance, angle), times);
+  const Trajectory found = solved_ode(spring_pendulum(compliance, angle), times);
   const OdeSolution polar = solve_ode(slope, Eigen::Vector4d(1, angle, 0, 0), times);
   for (std::size_t s = 0; s < times.size(); ++s) {
     const Vector& y = polar.states[s];
@@ -170,7 +170,7 @@ TEST_CASE("energy is conserved with every effect") {
   const std::vector<double> times = times_to(0.2, 20);
   for (const Scene& scene : {clamped_bar(Strain::green), clamped_bar(Strain::corotational),
                              clamped_bar(Strain::linear), sheet(), spring_pendulum(1e-4, 1)}) {
-    const Trajectory found = solved(scene, times);
+    const Trajectory found = solved_ode(scene, times);
     const Model model = make_model(scene);
     // dE = (dU/dx - f) dx + M v dv for errors dx, dv of each step; 2 for motion between the samples.
     double sensitivity = 0, kinetic = 0;
@@ -194,7 +194,7 @@ TEST_CASE("a scene whose supports move steadily moves with them") {
   for (const Scene& at_rest : {spring_pendulum(1e-2, 1), clamped_bar(Strain::green)}) {
     Scene carried = at_rest;
     carried.initial.v.colwise() += velocity;
-    const Trajectory a = solved(at_rest, times), b = solved(carried, times);
+    const Trajectory a = solved_ode(at_rest, times), b = solved_ode(carried, times);
     CHECK(a.energy_drift);
     CHECK_FALSE(b.energy_drift);
     for (std::size_t s = 0; s < times.size(); ++s) {

@@ -17,7 +17,7 @@ using namespace pbd::reference;
 
 namespace {
 
-constexpr double g = 9.81, pi = std::numbers::pi;
+constexpr double chain_gravity = 9.81, pi = std::numbers::pi;
 
 struct Bob {
   double mass, length, angle, rate = 0;  // angle from straight down, towards x
@@ -58,7 +58,7 @@ Scene irregular_chain() {
   for (auto& [a, b] : links.node) a = order[a], b = order[b];
   std::swap(links.node[0], links.node[3]), std::swap(links.rest_length[0], links.rest_length[3]);
   std::swap(links.node[2][0], links.node[2][1]);
-  scene.effects[0] = Gravity{turn * Vec3(0, 0, -g)};
+  scene.effects[0] = Gravity{turn * Vec3(0, 0, -chain_gravity)};
   scene.effects.emplace_back(ExternalForce{{2}, {turn * Vec3(0.5, 0, 0.3)}});
   return scene;
 }
@@ -107,11 +107,11 @@ TEST_CASE("one hard link swings by the pendulum's elliptic functions") {
     const Trajectory found = ode(hung({{2, 0.6, amplitude}}), times);
     REQUIRE(found.outcome == Outcome::ok);
     for (std::size_t s = 0; s < times.size(); ++s) {
-      const Angle exact = pendulum_motion(0.6, g, amplitude, times[s]);
+      const Angle exact = pendulum_motion(0.6, chain_gravity, amplitude, times[s]);
       const Vec3 x = 0.6 * Vec3(std::sin(exact.angle), 0, -std::cos(exact.angle));
       // The sum of the steps' errors; a period that depends on the amplitude makes them grow with time, near
       // the upright by its unstable rate for as long as the bob lingers there, 1/cos(amplitude/2) in all.
-      const double w = std::sqrt(g / 0.6), largest = 2 * w;
+      const double w = std::sqrt(chain_gravity / 0.6), largest = 2 * w;
       const double growth = (1 + w * times[s]) / std::pow(std::cos(amplitude / 2), 2);
       const double bound = static_cast<double>(found.evaluations) / 13 * 1.1e-13 * (1 + largest) * growth;
       CHECK((found.samples[s].x.col(1) - x).norm() <= bound);
@@ -122,8 +122,8 @@ TEST_CASE("one hard link swings by the pendulum's elliptic functions") {
 TEST_CASE("small double pendulums swing in their modes, up to the cube of the amplitude") {
   for (const DoublePendulum& p : {DoublePendulum{1, 1, 1, 1}, {1, 2, 1, 0.5}, {0.3, 0.1, 0.4, 0.9}})
     for (const int mode : {1, 2}) {
-      const double w = 2 * pi * double_pendulum_frequency(p, g, mode), end = 3 / w;
-      const double lower = (p.upper_mass + p.lower_mass) * (g - w * w * p.upper_length) /
+      const double w = 2 * pi * double_pendulum_frequency(p, chain_gravity, mode), end = 3 / w;
+      const double lower = (p.upper_mass + p.lower_mass) * (chain_gravity - w * w * p.upper_length) /
                            (w * w * p.lower_mass * p.lower_length);
       std::vector<double> deviations;
       for (const double amplitude : {0.02, 0.01}) {

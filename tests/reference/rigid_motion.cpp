@@ -21,7 +21,7 @@ using pbdcheck::four_bars;
 
 namespace {
 
-Trajectory solved(const Scene& scene, const std::vector<double>& times) {
+Trajectory solved_motion(const Scene& scene, const std::vector<double>& times) {
   const Trajectory trajectory = ode(scene, times);
   INFO(trajectory.reason);
   REQUIRE(trajectory.outcome == Outcome::ok);
@@ -79,7 +79,7 @@ TEST_CASE("a free body spins as the formula says and keeps its angular momentum 
     const Eigen::Quaterniond turn(0.5, 0.5, -0.5, 0.5);
     add_body(scene, Vec3(1, 2, 3), 2, inertia, turn, Vec3(0, 1, 0), spin);
     scene.effects = {Gyroscopic{}};
-    const Trajectory found = solved(scene, times);
+    const Trajectory found = solved_motion(scene, times);
     const Vec3 momentum = turn * inertia.cwiseProduct(spin);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const State& state = found.samples[i];
@@ -100,7 +100,7 @@ TEST_CASE("a free body spins as the formula says and keeps its angular momentum 
 
 TEST_CASE("a bob on a rod swings as the elliptic functions say, a rod as the bob of two thirds") {
   const std::vector<double> times{1, 2, 5, 9.99};
-  const Trajectory found = solved(bob(), times);
+  const Trajectory found = solved_motion(bob(), times);
   REQUIRE(found.position_drift);
   CHECK(*found.position_drift <= 1e-10);
   CHECK(*found.energy_drift <= 1e-10);
@@ -108,7 +108,7 @@ TEST_CASE("a bob on a rod swings as the elliptic functions say, a rod as the bob
   const int rod = m.body(-0.5, 0, std::numbers::pi, 1, 1.0 / 12);
   m.hinge(m.world, rod, 0, 0);
   m.scene.effects = {Gravity{Vec3(0, -9.81, 0)}};
-  const Trajectory swung = solved(m.finished(), times);
+  const Trajectory swung = solved_motion(m.finished(), times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Angle exact = pendulum_motion(1, 9.81, std::numbers::pi / 2, times[i]);
     const Vec3 x(-std::sin(exact.angle), 0, -std::cos(exact.angle));
@@ -135,7 +135,7 @@ TEST_CASE("a heavy top precesses steadily at both rates") {
     PointJoint ball;
     join(ball, world, disc, Vec3::Zero(), Vec3(0, 0, -0.1));
     scene.effects = {Gravity{}, Gyroscopic{}, ball};
-    for (const Trajectory found = solved(scene, {0.05, 0.2}); const State& state : found.samples) {
+    for (const Trajectory found = solved_motion(scene, {0.05, 0.2}); const State& state : found.samples) {
       const Eigen::AngleAxisd turned(rate * state.time, Vec3::UnitZ());
       CHECK((state.orientation[1] * Vec3::UnitZ() - turned * axis).norm() <= 1e-8);
     }
@@ -147,7 +147,7 @@ TEST_CASE("a linkage with redundant hinges moves as its single angle") {
   for (const int loops : {1, 2}) {
     const double inertia = (loops + 1) / 3.0 + loops, weight = ((loops + 1) / 2.0 + loops) * 9.81;
     const std::vector<double> times{0.1, 0.3};
-    const Trajectory found = solved(four_bars(loops), times);
+    const Trajectory found = solved_motion(four_bars(loops), times);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const Direction crank = circling_pendulum(inertia / weight * 9.81, 9.81, 1, times[i]);
       const Vec3 end = found.samples[i].x.col(1) * 2;
@@ -170,7 +170,7 @@ TEST_CASE("Andrews' squeezer starts and moves as stated") {
                                  {-0.0038905524, 0.0058192441, 0},
                                  {-0.0022744209, 0.0066201971, 0},
                                  {-0.0069630394, -0.0007183884, 0}};
-  const Trajectory found = solved(scene, {0.005, 0.01, 0.02, 0.03});
+  const Trajectory found = solved_motion(scene, {0.005, 0.01, 0.02, 0.03});
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const State& state = found.samples[i];
     const Vec3 end = state.x.col(1) + state.orientation[1] * Vec3(0.007 - 0.00092, 0, 0);
@@ -188,20 +188,20 @@ TEST_CASE("energy is told where nothing without a potential does work") {
   m.scene.effects = {Gravity{Vec3(0, -9.81, 0)},
                      BodyDistance{{{m.world, rod}}, {{Vec3(1, 1, 0), Vec3(0.5, 0, 0)}}, {0.5}, {1e-2}}};
   const Scene held = m.finished();
-  const Trajectory found = solved(held, {0.3, 1});
+  const Trajectory found = solved_motion(held, {0.3, 1});
   REQUIRE(found.energy_drift);
   CHECK(*found.energy_drift <= 1e-11);
   CHECK((found.samples[0].x - held.initial.x).norm() > 0.1);
   Scene driven = held;
   driven.effects.emplace_back(ExternalTorque{{rod}, {Vec3(0, 0, 1)}});
-  CHECK_FALSE(solved(driven, {0.1}).energy_drift);
+  CHECK_FALSE(solved_motion(driven, {0.1}).energy_drift);
   driven = held;
   driven.effects.emplace_back(
       AngleJoint{{{m.world, rod}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0.3}, {1e-3}});
-  CHECK_FALSE(solved(driven, {0.1}).energy_drift);
+  CHECK_FALSE(solved_motion(driven, {0.1}).energy_drift);
   driven = held;
   driven.initial.spin(2, 0) = 1;
-  CHECK_FALSE(solved(driven, {0.1}).energy_drift);  // the spring's support turns
+  CHECK_FALSE(solved_motion(driven, {0.1}).energy_drift);  // the spring's support turns
 }
 
 TEST_CASE("a hard motor's motion is that of its angle") {
@@ -215,7 +215,7 @@ TEST_CASE("a hard motor's motion is that of its angle") {
   scene.effects = {
       Gravity{}, Gyroscopic{}, ball, AxisJoint{{{world, arm}}, {{Vec3::UnitZ(), Vec3::UnitZ()}}, {0}},
       AngleJoint{{{world, arm}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {rate}, {0}}};
-  const State end = solved(scene, {time}).samples[0];
+  const State end = solved_motion(scene, {time}).samples[0];
   CHECK((end.x.col(1) - 0.5 * Vec3(std::cos(rate * time), std::sin(rate * time), 0)).norm() <= 1e-11);
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("an acceleration follows when rows come and go") {
     rows.inverse_mass = {1};
     RowBlock<1, 2> block;
     block.resize(constraints);
-    rows.blocks.emplace_back(block);
+    rows.blocks.add(std::move(block));
     Points v = Points::Ones(3, 1);
     anderson.forget();
     for (int k = 0; k < 3; ++k) {

@@ -11,7 +11,7 @@ namespace {
 
 const Vec3 inertia(1, 2, 3);
 
-Method method_of(std::string_view integrator) {
+Method body_method(std::string_view integrator) {
   Method method;
   method.integrator = integrator;
   method.relaxation = "direct";
@@ -57,7 +57,7 @@ Scene hung_pair(bool doubled = false) {
   return scene;
 }
 
-State run(const Scene& scene, const Method& method, double h, int steps) {
+State run_bodies(const Scene& scene, const Method& method, double h, int steps) {
   Workspace workspace(scene, method);
   State state = scene.initial;
   for (int k = 0; k < steps; ++k) {
@@ -76,7 +76,7 @@ TEST_CASE("a torque-free body loses and gains the energy that its scheme says") 
   const double h = 0.05;
   const auto gain = [&](std::string_view integrator, bool implicit, Vec3& change) {
     const Scene scene = top(spin, implicit);
-    const State end = run(scene, method_of(integrator), h, 1);
+    const State end = run_bodies(scene, body_method(integrator), h, 1);
     change = end.spin.col(0) - spin;
     return rotation_energy(end.spin.col(0)) - rotation_energy(spin);
   };
@@ -93,7 +93,7 @@ TEST_CASE("a torque-free body loses and gains the energy that its scheme says") 
 
 TEST_CASE("the middle's gyroscopic torque keeps the length of the angular momentum") {
   const Scene scene = top(Vec3(0.1, 2, 0.05), true);
-  const State end = run(scene, method_of("midpoint"), 0.02, 500);
+  const State end = run_bodies(scene, body_method("midpoint"), 0.02, 500);
   const double before = inertia.cwiseProduct(scene.initial.spin.col(0)).norm();
   CHECK(inertia.cwiseProduct(end.spin.col(0)).norm() == Approx(before).epsilon(1e-12));
 }
@@ -101,7 +101,7 @@ TEST_CASE("the middle's gyroscopic torque keeps the length of the angular moment
 // Where a body turns by radians in a step the equation may have far solutions or be missed; never in silence.
 TEST_CASE("a step that says ok has found its gyroscopic torque") {
   constexpr double h = 0.05;
-  const Method method = method_of("midpoint");
+  const Method method = body_method("midpoint");
   int solved = 0;
   for (int k = 0; k < 200; ++k) {
     const double speed = 0.1 * std::pow(1.05, k) / h;  // h |w| up to 1600
@@ -134,17 +134,17 @@ TEST_CASE("a slender rod swings under every outer iteration") {
       .body = {{world, rod}}, .point = {{Vec3::Zero(), Vec3(0, 0, -length / 2)}}, .compliance = {0}});
   for (const std::string outer : {"plain", "proximal", "auto"}) {
     INFO(outer);
-    Method method = method_of("implicit_euler");
+    Method method = body_method("implicit_euler");
     method.tolerance = 1e-10;
     method.outer = outer;
-    run(scene, method, h, 30);
+    run_bodies(scene, method, h, 30);
   }
 }
 
 TEST_CASE("without the gyroscopic torque a body's angular velocity stays as it is in its frame") {
   Scene scene = top(Vec3(1, 2, 3), true);
   scene.effects.clear();
-  const State end = run(scene, method_of("implicit_euler"), 0.1, 10);
+  const State end = run_bodies(scene, body_method("implicit_euler"), 0.1, 10);
   CHECK(end.spin.col(0) == scene.initial.spin.col(0));
   const double angle = Vec3(1, 2, 3).norm();
   const Eigen::Quaterniond expected =
@@ -158,24 +158,24 @@ TEST_CASE("a torque changes the angular velocity by h I^-1 of it in the body's a
   add_body(scene, Vec3::Zero(), 3, inertia, turn);
   scene.effects.emplace_back(ExternalTorque{{0}, {Vec3(0.3, -0.2, 0.5)}});
   const double h = 0.01;
-  const State end = run(scene, method_of("implicit_euler"), h, 1);
+  const State end = run_bodies(scene, body_method("implicit_euler"), h, 1);
   const Vec3 expected = h * (turn.conjugate() * Vec3(0.3, -0.2, 0.5)).cwiseQuotient(inertia);
   CHECK((end.spin.col(0) - expected).norm() < 1e-15);
 }
 
 TEST_CASE("joints hold under every relaxation and outer iteration, and all agree") {
   const Scene scene = hung_pair();
-  const State expected = run(scene, method_of("implicit_euler"), 0.01, 20);
+  const State expected = run_bodies(scene, body_method("implicit_euler"), 0.01, 20);
   for (const std::string outer : {"auto", "plain", "proximal", "quasi_newton"})
     for (const std::string relaxation :
          {"gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct"}) {
       INFO(outer << " " << relaxation);
-      Method method = method_of("implicit_euler");
+      Method method = body_method("implicit_euler");
       method.outer = outer;
       method.relaxation = relaxation;
       method.tolerance = 1e-11;
       method.max_sweeps = 20000;
-      const State end = run(scene, method, 0.01, 20);
+      const State end = run_bodies(scene, method, 0.01, 20);
       CHECK((end.x - expected.x).cwiseAbs().maxCoeff() < 1e-9);
       CHECK((end.spin - expected.spin).cwiseAbs().maxCoeff() < 1e-8);
     }
@@ -192,16 +192,16 @@ TEST_CASE("rotating and translating a whole scene of bodies changes nothing") {
   }
   for (auto& orientation : moved.initial.orientation) orientation = turn * orientation;
   std::get<Gravity>(moved.effects[0]).acceleration = turn * Vec3(0, 0, -9.81);
-  const State end = run(scene, method_of("implicit_euler"), 0.01, 50);
-  const State other = run(moved, method_of("implicit_euler"), 0.01, 50);
+  const State end = run_bodies(scene, body_method("implicit_euler"), 0.01, 50);
+  const State other = run_bodies(moved, body_method("implicit_euler"), 0.01, 50);
   for (int node = 0; node < scene.nodes(); ++node)
     CHECK((turn * end.x.col(node) + shift - other.x.col(node)).norm() < 1e-11);
   CHECK((end.spin - other.spin).cwiseAbs().maxCoeff() < 1e-10);
 }
 
 TEST_CASE("a doubled joint changes no motion") {
-  const State once = run(hung_pair(), method_of("implicit_euler"), 0.01, 50);
-  const State twice = run(hung_pair(true), method_of("implicit_euler"), 0.01, 50);
+  const State once = run_bodies(hung_pair(), body_method("implicit_euler"), 0.01, 50);
+  const State twice = run_bodies(hung_pair(true), body_method("implicit_euler"), 0.01, 50);
   CHECK((once.x - twice.x).cwiseAbs().maxCoeff() < 1e-9);
 }
 
@@ -211,7 +211,8 @@ TEST_CASE("a body hung from a compliant joint sinks by m g A") {
   add_body(scene, Vec3(0, 0, -1), 2, Vec3(0.1, 0.1, 0.1));
   scene.effects.emplace_back(Gravity{});
   scene.effects.emplace_back(PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(0, 0, 1)}}, {1e-4}});
-  const State end = run(scene, method_of("implicit_euler"), 0.1, 200);  // implicit Euler comes to rest
+  const State end =
+      run_bodies(scene, body_method("implicit_euler"), 0.1, 200);  // implicit Euler comes to rest
   CHECK(end.x(2, 1) == Approx(-1 - 2 * 9.81 * 1e-4).epsilon(1e-9));
 }
 
@@ -223,7 +224,7 @@ TEST_CASE("a motor turns a hinge at its rate") {
   scene.effects.emplace_back(AxisJoint{{{0, 1}}, {{Vec3::UnitZ(), Vec3::UnitZ()}}, {0}});
   scene.effects.emplace_back(
       AngleJoint{{{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {3.0}, {0}});
-  const State end = run(scene, method_of("implicit_euler"), 0.01, 150);  // 4.5 rad
+  const State end = run_bodies(scene, body_method("implicit_euler"), 0.01, 150);  // 4.5 rad
   const Vec3 expected(0.5 * std::cos(4.5), 0.5 * std::sin(4.5), 0);
   CHECK((end.x.col(1) - expected).norm() < 1e-10);
 }
@@ -239,7 +240,7 @@ TEST_CASE("a rope of nodes hangs from a body by an attachment") {
   scene.effects.emplace_back(PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(0, 0, 1)}}, {0}});
   scene.effects.emplace_back(Attachment{{1}, {2}, {Vec3(0.5, 0, 0)}, {0}});
   scene.effects.emplace_back(Distance{{{2, 3}}, {0.5}, {0}});
-  const State end = run(scene, method_of("implicit_euler"), 0.01, 100);
+  const State end = run_bodies(scene, body_method("implicit_euler"), 0.01, 100);
   const Vec3 held = end.x.col(1) + end.orientation[1] * Vec3(0.5, 0, 0);
   CHECK((end.x.col(2) - held).norm() < 1e-11);
   CHECK((end.x.col(2) - Vec3(0.5, 0, -1)).norm() > 0.05);  // it has moved
@@ -253,7 +254,7 @@ TEST_CASE("a motor of limited torque turns a free rotor no faster than the torqu
   scene.effects.emplace_back(AxisJoint{{{0, 1}}, {{Vec3::UnitZ(), Vec3::UnitZ()}}, {0}});
   scene.effects.emplace_back(AngleJoint{
       {{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {1.0}, {0}, {}, {{-0.05, 0.05}}});
-  const State end = run(scene, method_of("implicit_euler"), 0.01, 50);
+  const State end = run_bodies(scene, body_method("implicit_euler"), 0.01, 50);
   CHECK(end.spin(2, 1) == Approx(0.5 * 0.05 / 0.1).epsilon(1e-10));  // t torque / I, below the rate
 }
 
@@ -265,7 +266,7 @@ TEST_CASE("a body that hangs still is held by its weight, whatever the integrato
     add_body(scene, Vec3(0, 0, -1), 2, Vec3(0.1, 0.1, 0.1));
     scene.effects.emplace_back(Gravity{});
     scene.effects.emplace_back(PointJoint{{{0, 1}}, {{Vec3::Zero(), Vec3(0, 0, 1)}}, {0}});
-    const Method method = method_of(integrator.name);
+    const Method method = body_method(integrator.name);
     Workspace workspace(scene, method);
     State state = scene.initial;
     for (int k = 0; k < 4; ++k) CHECK(step(workspace, 0.01, state).status == Status::ok);
@@ -282,7 +283,7 @@ TEST_CASE("forces that act as given ones are not known as multipliers") {
   add_node(scene, Vec3::UnitX(), 3);
   scene.effects.emplace_back(Gravity{});
   scene.effects.emplace_back(Anchor{{0, 1}, {Vec3::Zero(), Vec3::UnitX()}, {1e-3, 0}});
-  const Method method = method_of("symplectic_euler");
+  const Method method = body_method("symplectic_euler");
   Workspace workspace(scene, method);
   State state = scene.initial;
   step(workspace, 0.001, state);

@@ -33,7 +33,7 @@ TEST_CASE("a sliding box follows implicit Euler's recurrence with every relaxati
   const double exact = sliding_distance(speed, friction * gravity, h, steps);
   for (const auto relaxation : general_solver_names())
     for (const auto law : {"coulomb", "disc", "box"}) {
-      const State end = run(sliding_box(0, friction, speed), method_of(relaxation, law), h, steps);
+      const State end = run(sliding_box(0, friction, speed), contact_method(relaxation, law), h, steps);
       INFO(relaxation << " " << law);
       CHECK(std::abs(end.x(0, 1) - exact) <= 1e-9);
       CHECK(std::abs(end.x(2, 1) - 0.05) <= 1e-10);
@@ -47,13 +47,13 @@ TEST_CASE("friction is the same at every heading, but for the box's sqrt(2)") {
     const Scene scene = sliding_box(0, friction, speed, heading);
     const double exact = sliding_distance(speed, friction * gravity, h, 20);
     for (const auto law : {"coulomb", "disc"}) {
-      const State end = run(scene, method_of("conjugate_gradients", law), h, 20);
+      const State end = run(scene, contact_method("conjugate_gradients", law), h, 20);
       CHECK(std::abs(end.x.col(1).head<2>().norm() - exact) <= 1e-9);
       CHECK(std::abs(std::atan2(end.x(1, 1), end.x(0, 1)) - heading) <= 1e-9);
     }
   }
   const State box = run(sliding_box(0, friction, speed, std::numbers::pi / 4),
-                        method_of("conjugate_gradients", "box"), h, 20);
+                        contact_method("conjugate_gradients", "box"), h, 20);
   CHECK(std::abs(box.x.col(1).head<2>().norm() -
                  sliding_distance(speed, std::numbers::sqrt2 * friction * gravity, h, 20)) <= 1e-9);
 }
@@ -61,9 +61,9 @@ TEST_CASE("friction is the same at every heading, but for the box's sqrt(2)") {
 TEST_CASE("the convex law lets a steadily sliding box hover by h mu v, Coulomb's does not") {
   constexpr double angle = 0.4, friction = 0.2, h = 0.005;
   for (const auto relaxation : {"gauss_seidel", "nesterov_jacobi", "direct"}) {
-    Workspace workspace(sliding_box(angle, friction, 1), method_of(relaxation, "cone"));
+    Workspace workspace(sliding_box(angle, friction, 1), contact_method(relaxation, "cone"));
     const Scene scene = sliding_box(angle, friction, 1);
-    const State end = run(scene, method_of(relaxation, "cone"), h, 200, workspace);
+    const State end = run(scene, contact_method(relaxation, "cone"), h, 200, workspace);
     const Vec3 normal(std::sin(angle), 0, std::cos(angle));
     const double gap = normal.dot(end.x.col(1)) - 0.05, speed = end.v.col(1).norm();
     INFO(relaxation << " gap " << gap << " h mu v " << h * friction * speed);
@@ -74,9 +74,9 @@ TEST_CASE("the convex law lets a steadily sliding box hover by h mu v, Coulomb's
 TEST_CASE("a box sticks just below and slides just above the angle of friction") {
   constexpr double angle = 0.5, h = 0.01;
   const double tangent = std::tan(angle);
-  const State sticks = run(sliding_box(angle, tangent * (1 + 1e-6), 0), method_of("direct"), h, 100);
+  const State sticks = run(sliding_box(angle, tangent * (1 + 1e-6), 0), contact_method("direct"), h, 100);
   CHECK(sticks.v.col(1).norm() <= 1e-9);
-  const State slides = run(sliding_box(angle, tangent * (1 - 1e-6), 0), method_of("direct"), h, 100);
+  const State slides = run(sliding_box(angle, tangent * (1 - 1e-6), 0), contact_method("direct"), h, 100);
   const double exact = gravity * std::sin(angle) * 1e-6 * 100 * h;
   CHECK(std::abs(slides.v.col(1).norm() / exact - 1) <= 1e-3);
 }
@@ -84,7 +84,7 @@ TEST_CASE("a box sticks just below and slides just above the angle of friction")
 TEST_CASE("columns stand, however heavy their tops, and the ground carries their weight") {
   for (const auto& scene : {column(5), column(2, 1e4), column(6, 4), pyramid(4)})
     for (const auto relaxation : {"conjugate_gradients", "direct"}) {
-      const Method method = method_of(relaxation);
+      const Method method = contact_method(relaxation);
       Workspace workspace(scene, method);
       const State end = run(scene, method, 0.01, 20, workspace);
       const Vec3 carried = ground_force(workspace);
@@ -97,7 +97,7 @@ TEST_CASE("columns stand, however heavy their tops, and the ground carries their
 TEST_CASE("a cube carries another of ten thousand times its mass under every relaxation") {
   const Scene scene = column(2, 1e4);
   for (const auto relaxation : general_solver_names()) {
-    Method method = method_of(relaxation);
+    Method method = contact_method(relaxation);
     method.max_outer = 1000;
     Workspace workspace(scene, method);
     run(scene, method, 0.01, 5, workspace);
@@ -114,7 +114,7 @@ TEST_CASE("soft ground carries a box's weight, sunk in by its share of it, under
   for (const auto& [integrator, alpha] :
        {std::pair{"implicit_euler", 1.0}, std::pair{"symplectic_euler", 1.0}, std::pair{"newmark", 0.55},
         std::pair{"newmark", 0.75}}) {
-    Method method = method_of("direct");
+    Method method = contact_method("direct");
     method.integrator = integrator;
     method.alpha = alpha;
     Workspace workspace(scene, method);
@@ -129,7 +129,7 @@ TEST_CASE("a ball rolls when it has slid for 2/7 of its speed") {
   BodyScene build({.friction = 0.2});
   build.ground();
   build.ball(0.1, 1, {Vec3(0, 0, 0.1), Eigen::Quaterniond::Identity(), Vec3(1, 0, 0)});
-  const State end = run(build.finish(), method_of("direct"), 0.001, 300);
+  const State end = run(build.finish(), contact_method("direct"), 0.001, 300);
   CHECK(std::abs(end.v(0, 1) - 5.0 / 7) <= 1e-12);
   CHECK(std::abs(end.spin(1, 1) - 5.0 / 0.7) <= 1e-11);
 }
@@ -140,7 +140,7 @@ TEST_CASE("restitution returns the approaching speed, and with the trapezoidal r
     build.ground();
     build.ball(0.1, 2, {Vec3(0, 0, 0.6)});
     const Scene scene = build.finish();
-    Method method = method_of("direct");
+    Method method = contact_method("direct");
     method.integrator = "newmark";
     method.alpha = 0.5;
     Workspace workspace(scene, method);
@@ -169,7 +169,7 @@ TEST_CASE("a box and a ball that tumble on soft ground are solved at every step"
   const Scene scene = build.finish();
   for (const auto relaxation : general_solver_names())
     for (const auto law : friction_names) {
-      Method method = method_of(relaxation, law);
+      Method method = contact_method(relaxation, law);
       method.tolerance = 1e-8;
       const State end = run(scene, method, 0.005, 100);
       CHECK(end.x.row(2).rightCols(2).minCoeff() > 0);  // neither has fallen through
@@ -182,7 +182,7 @@ TEST_CASE("an overlap parts no faster than it is told") {
   build.box(Vec3::Constant(0.2), 1, {Vec3(0, 0, 0.1 - 1e-3)});
   build.contact().recovery = 0.01;
   const Scene scene = build.finish();
-  const Method method = method_of("direct");
+  const Method method = contact_method("direct");
   const State end = run(scene, method, 0.01, 5);
   CHECK(std::abs(end.x(2, 1) - (0.1 - 1e-3 + 5 * 0.01 * 0.01)) <= 1e-12);
 }
@@ -195,7 +195,7 @@ TEST_CASE("a fast body pushes those it has not touched yet within a step") {
   build.ball(0.1, 1, {Vec3(0.4 + 2 * gap, 0, 0)});
   for (const auto relaxation : general_solver_names()) {
     INFO(relaxation);
-    const State end = run(build.finish(), method_of(relaxation), 0.01, 1);
+    const State end = run(build.finish(), contact_method(relaxation), 0.01, 1);
     CHECK(end.x(0, 1) - end.x(0, 0) >= 0.2 - 1e-10);
     CHECK(end.x(0, 2) - end.x(0, 1) >= 0.2 - 1e-10);
     CHECK(end.v(0, 2) > 0);
@@ -214,7 +214,7 @@ TEST_CASE("nodes rest on bodies and push them") {
   contact.radius = {0.01};
   contact.node_material = {0};
   for (const auto relaxation : general_solver_names()) {
-    const Method method = method_of(relaxation);
+    const Method method = contact_method(relaxation);
     Workspace workspace(scene, method);
     const State end = run(scene, method, 0.01, 30, workspace);
     INFO(relaxation);
@@ -251,7 +251,7 @@ TEST_CASE("deformable surfaces rest on each other") {
     contact.law[0].friction = 0.3;
     contact.collider.push_back({Sphere{1}, add_body(scene, Vec3(9, 0, 0), 1, Vec3::Ones())});
     scene.effects = {Gravity{}, links, contact};
-    const Method method = method_of("direct");
+    const Method method = contact_method("direct");
     Workspace workspace(scene, method);
     constexpr double h = 0.01;
     State end = run(scene, method, h, 2, workspace);

@@ -59,7 +59,7 @@ TEST_CASE("cloth that falls freely feels nothing of itself, flat or bent, howeve
     Sheets sheets;
     sheets.add(mesh);
     const Scene scene = sheets.finish();
-    const Method method = method_of("direct");
+    const Method method = contact_method("direct");
     constexpr double h = 0.01;
     constexpr int steps = 10;
     const State end = run(scene, method, h, steps);
@@ -81,7 +81,7 @@ TEST_CASE("a sheet on another is carried, a thickness above it") {
   sheets.add(table, true);
   const int first = sheets.add(cloth);
   const Scene scene = sheets.finish();
-  const Method method = method_of("direct");
+  const Method method = contact_method("direct");
   Workspace workspace(scene, method);
   const State end = run(scene, method, 0.005, 20, workspace);
   const Points x = end.x.middleCols(first, cloth.x.cols());

@@ -38,7 +38,7 @@ TEST_CASE("a closed mesh of a cube rests as the box does") {
       return build.finish();
     };
     const Scene box = scene_of(false), mesh = scene_of(true);
-    const Method method = method_of("direct");
+    const Method method = contact_method("direct");
     Workspace of_box(box, method), of_mesh(mesh, method);
     const State end = run(box, method, 0.01, 30, of_box), mesh_end = run(mesh, method, 0.01, 30, of_mesh);
     INFO((on_mesh ? "on a mesh" : "on a half space"));
@@ -56,7 +56,7 @@ TEST_CASE("a ball of triangles on a plate of triangles gets the impulse that sto
   build.ball(radius, mass, {Vec3(0.013, 0.027, 0.12), Eigen::Quaterniond(0.9, 0.3, 0.1, 0.2).normalized()});
   build.contact().collider.back().shape = ClosedMesh(ball_surface(radius, 2));
   const Scene scene = build.finish();
-  const Method method = method_of("direct");
+  const Method method = contact_method("direct");
   Workspace workspace(scene, method);
   State state = scene.initial;
   int touching = 0;
@@ -89,8 +89,8 @@ TEST_CASE("of a cloud of balls no pair overlaps after a step") {
     build.ball(radius, 1, {centre, Eigen::Quaterniond::Identity(), -3 * centre});
   }
   const Scene scene = build.finish();
-  Workspace workspace(scene, method_of("direct"));
-  const State end = run(scene, method_of("direct"), 0.02, 3, workspace);
+  Workspace workspace(scene, contact_method("direct"));
+  const State end = run(scene, contact_method("direct"), 0.02, 3, workspace);
   double nearest = infinity;
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < i; ++j) nearest = std::min(nearest, (end.x.col(i) - end.x.col(j)).norm());

@@ -11,8 +11,6 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double gravity = 9.81;
-
 /// Energy (J, zero where it is released) of a pendulum released horizontally after each step of h seconds.
 std::vector<double> energies(const Method& method, double h, int steps) {
   const Scene scene = pbdcheck::pendulum(std::numbers::pi / 2, 0);

@@ -13,8 +13,7 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double gravity = 9.81;
+using std::numbers::pi;
 
 /// The scene after steps of the given lengths, which are to meet the tolerance.
 State after(const Scene& scene, const Method& method, const std::vector<double>& lengths) {

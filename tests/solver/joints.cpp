@@ -9,40 +9,40 @@ using namespace pbd;
 
 namespace {
 
-constexpr double difference_step = 1e-6;
+constexpr double joint_difference = 1e-6;
 const Vec3 point_a(0.3, -0.2, 0.5), point_b(-0.1, 0.4, 0.2);
 const Vec3 axis_a = Vec3(1, 2, -1).normalized(), axis_b = Vec3(0.9, 2.1, -0.8).normalized();
 
 template <class E>
-E sample();
+E joint_sample();
 
 template <>
-PointJoint sample<PointJoint>() {
+PointJoint joint_sample<PointJoint>() {
   return {.body = {{0, 1}}, .point = {{point_a, point_b}}, .compliance = {1e-3}};
 }
 template <>
-AxisJoint sample<AxisJoint>() {
+AxisJoint joint_sample<AxisJoint>() {
   return {.body = {{0, 1}}, .axis = {{axis_a, axis_b}}, .compliance = {1e-3}};
 }
 template <>
-PerpendicularJoint sample<PerpendicularJoint>() {
+PerpendicularJoint joint_sample<PerpendicularJoint>() {
   return {.body = {{0, 1}}, .axis = {{axis_a, axis_b}}, .compliance = {1e-3}};
 }
 template <>
-RotationJoint sample<RotationJoint>() {
+RotationJoint joint_sample<RotationJoint>() {
   return {
       .body = {{0, 1}}, .rest = {Eigen::Quaterniond(0.9, 0.3, -0.2, 0.1).normalized()}, .compliance = {1e-3}};
 }
 template <>
-LineJoint sample<LineJoint>() {
+LineJoint joint_sample<LineJoint>() {
   return {.body = {{0, 1}}, .point = {{point_a, point_b}}, .axis = {axis_a}, .compliance = {1e-3}};
 }
 template <>
-BodyDistance sample<BodyDistance>() {
+BodyDistance joint_sample<BodyDistance>() {
   return {.body = {{0, 1}}, .point = {{point_a, point_b}}, .rest_length = {0.7}, .compliance = {1e-3}};
 }
 template <>
-AngleJoint sample<AngleJoint>() {
+AngleJoint joint_sample<AngleJoint>() {
   return {.body = {{0, 1}},
           .axis = {axis_a},
           .reference = {{axis_a.unitOrthogonal(), axis_b.unitOrthogonal()}},
@@ -51,7 +51,7 @@ AngleJoint sample<AngleJoint>() {
           .compliance = {1e-3}};
 }
 template <>
-SlideJoint sample<SlideJoint>() {
+SlideJoint joint_sample<SlideJoint>() {
   return {.body = {{0, 1}},
           .point = {{point_a, point_b}},
           .axis = {axis_a},
@@ -60,7 +60,7 @@ SlideJoint sample<SlideJoint>() {
           .compliance = {1e-3}};
 }
 template <>
-Attachment sample<Attachment>() {
+Attachment joint_sample<Attachment>() {
   return {.body = {0}, .node = {2}, .point = {point_a}, .compliance = {1e-3}};
 }
 
@@ -117,7 +117,7 @@ void evaluate(const E& effect, const Placed& placed, typename Constraint<E>::Val
 }
 
 template <class E>
-void check_jacobian(const E& effect) {
+void check_joint_jacobian(const E& effect) {
   using C = Constraint<E>;
   for (int seed = 0; seed < 20; ++seed) {
     const Placed placed(seed);
@@ -125,10 +125,10 @@ void check_jacobian(const E& effect) {
     typename C::Jacobian jacobian, unused;
     evaluate(effect, placed, value, jacobian);
     for (int k = 0; k < jacobian.cols(); ++k) {
-      evaluate(effect, placed.moved<C>(k, difference_step), above, unused);
-      evaluate(effect, placed.moved<C>(k, -difference_step), below, unused);
+      evaluate(effect, placed.moved<C>(k, joint_difference), above, unused);
+      evaluate(effect, placed.moved<C>(k, -joint_difference), below, unused);
       INFO(effect.name << ", seed " << seed << ", column " << k);
-      CHECK((jacobian.col(k) - (above - below) / (2 * difference_step)).norm() < 1e-7);
+      CHECK((jacobian.col(k) - (above - below) / (2 * joint_difference)).norm() < 1e-7);
     }
   }
 }
@@ -183,11 +183,11 @@ void check_bound(const E& effect) {
 }
 
 template <class... E>
-void check_all(const std::variant<E...>*) {
+void check_joints(const std::variant<E...>*) {
   const auto check = []<class Each>(const Each* none) {
     if constexpr (RowEffect<Each> && BodyEffect<Each>) {
-      check_jacobian(sample<Each>());
-      check_bound(sample<Each>());
+      check_joint_jacobian(joint_sample<Each>());
+      check_bound(joint_sample<Each>());
     } else {
       static_cast<void>(none);
     }
@@ -198,5 +198,5 @@ void check_all(const std::variant<E...>*) {
 }  // namespace
 
 TEST_CASE("Jacobians and geometric bounds of all joints, large rotations included") {
-  check_all(static_cast<Effect*>(nullptr));
+  check_joints(static_cast<Effect*>(nullptr));
 }

@@ -1,8 +1,9 @@
 #include "outer/metric.h"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <random>
+
+#include "dense.h"
 
 using namespace pbd;
 
@@ -53,7 +54,7 @@ Points forces() {
 
 Points exact(const Ring& ring, Points force) {
   force.col(3).setZero();
-  return (ring.dense.ldlt().solve(Eigen::VectorXd(force.reshaped()))).reshaped(3, Ring::nodes);
+  return reference::solve_semidefinite(ring.dense, force.reshaped()).reshaped(3, Ring::nodes);
 }
 
 Metric factored(const Ring& ring, double most_products) {
@@ -72,8 +73,8 @@ TEST_CASE("the metric's factor solves by full blocks and by one number a pair of
   Metric metric = factored(ring, one_number ? 0 : 1e9);
   Points found;
   metric.solve(forces(), found);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(ring.dense);
-  const double condition = eigen.eigenvalues().maxCoeff() / eigen.eigenvalues().minCoeff();
+  const Eigen::VectorXd eigenvalues = reference::symmetric_eigen(ring.dense).values;
+  const double condition = eigenvalues.maxCoeff() / eigenvalues.minCoeff();
   const double roundoff = one_number ? 1.2e-16 : 6e-8;  // of L's precision
   const Points wanted = exact(ring, forces());
   CHECK((found - wanted).norm() <= 3 * Ring::nodes * roundoff * condition * wanted.norm());

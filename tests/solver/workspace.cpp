@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "scenes.h"
+#include "scenes/contacts.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -95,4 +96,21 @@ TEST_CASE("an effect is replaced by one of the same constraints only, and nothin
   State state = scene.initial;
   CHECK(step(workspace, h, state).status == Status::ok);
   CHECK((state.x.col(1) - state.x.col(0)).norm() == Approx(longer.rest_length[0]).epsilon(1e-6));
+}
+
+TEST_CASE("a linear solver that does not know the law of friction is refused before the first contact") {
+  pbdcheck::BodyScene build({.friction = 0.5});
+  build.ground();
+  build.ball(0.1, 1, {Vec3(0, 0, 5)});
+  const Scene scene = build.finish();
+  Method method;
+  method.relaxation = "augmented_lagrangian";
+  for (const std::string_view law : friction_names) {
+    INFO(law);
+    method.friction = law;
+    if (law == "box")
+      CHECK_THROWS_AS(Workspace(scene, method), SetupError);
+    else
+      CHECK_NOTHROW(Workspace(scene, method));
+  }
 }

@@ -4,13 +4,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "scenes/standard.h"
 #include "step/step.h"
 
 namespace pbd::test {
 
-inline constexpr double gravity = 9.81;
+using pbdcheck::gravity;
 
-inline Method method_of(std::string_view relaxation, std::string_view friction = "coulomb") {
+inline Method contact_method(std::string_view relaxation, std::string_view friction = "coulomb") {
   Method method;
   method.relaxation = relaxation;
   method.friction = friction;

@@ -13,6 +13,8 @@
 
 namespace pbdcheck::test {
 
+inline const std::filesystem::path scenes = PBDCHECK_SCENES;
+
 inline std::string read_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;

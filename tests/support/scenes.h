@@ -12,6 +12,7 @@ namespace pbd::test {
 
 using pbdcheck::cantilever;
 using pbdcheck::chain;
+using pbdcheck::gravity;
 
 inline Method direct_method(double tolerance = 1e-13) {
   Method method;

@@ -18,7 +18,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double step_s = 1.0 / 60;
+constexpr double dual_step_s = 1.0 / 60;
 
 struct Problem : Case {
   std::string mesh;
@@ -44,7 +44,7 @@ std::vector<Problem> problems(bool full) {
           if (full || small || sample)
             all.push_back({{fmt::format("cantilever {} {} E={:g} nu={:g}", name,
                                         strain_names[static_cast<std::size_t>(strain)], young, poisson),
-                            clamped_solid(mesh, material, strain), step_s, step_s, 10},
+                            clamped_solid(mesh, material, strain), dual_step_s, dual_step_s, 10},
                            name,
                            std::ssize(mesh.tets),
                            material,

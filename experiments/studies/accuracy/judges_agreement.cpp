@@ -32,7 +32,7 @@ std::vector<Case> all_cases(bool full) {
 }
 
 /// The solver's step as a judge states it.
-reference::Judgement solved(const Case& each, State state) {
+reference::Judgement judged(const Case& each, State state) {
   Method method;
   method.relaxation = "direct";
   method.tolerance = 1e-13;
@@ -86,7 +86,7 @@ void judges(Context& context) {
     const auto ipopt = reference::find_judge("ipopt")(each.scene, start, each.h);
     between_judges.add(compare(table, each, start, newton, ipopt, "ipopt"));
     if (!each.scene.bodies.empty()) {
-      const double difference = compare(table, each, start, newton, solved(each, start), "solver");
+      const double difference = compare(table, each, start, newton, judged(each, start), "solver");
       if (newton.certified) of_solver.add(difference), ++certified;
     }
     context.advance(each.name);

@@ -16,9 +16,10 @@ namespace {
 using namespace pbd;
 
 const Vec3 size(1, 0.1, 0.1);
-const Material material{1e7, 0.3};
-constexpr double density = 1000;
-const reference::Beam section{size.x(), size.y(), size.z(), material.young, material.poisson, density};
+const Material beam_material{1e7, 0.3};
+constexpr double beam_density = 1000;
+const reference::Beam section{size.x(),    size.y(), size.z(), beam_material.young, beam_material.poisson,
+                              beam_density};
 
 bool on_end(const Vec3& x) {
   return x.x() > size.x() * (1 - 1e-9);
@@ -57,7 +58,7 @@ Statics static_compliance(Scene scene, const Points& loads) {
 
 Scene solid(const TetMesh& mesh) {
   Scene scene;
-  add_solid(scene, mesh, density, material, Strain::linear);
+  add_solid(scene, mesh, beam_density, beam_material, Strain::linear);
   clamp_smallest_x(scene);
   return scene;
 }
@@ -70,19 +71,19 @@ Scene springs(const TetMesh& mesh, double kappa) {
     const double length = (mesh.x.col(edge[0]) - mesh.x.col(edge[1])).norm();
     links.node.push_back(edge);
     links.rest_length.push_back(length);
-    links.compliance.push_back(1 / (kappa * material.young * length));
+    links.compliance.push_back(1 / (kappa * beam_material.young * length));
   }
   scene.effects = {std::move(links)};
   return scene;
 }
 
-struct Level {
+struct MeshLevel {
   int n;
   TetMesh mesh;
   Points shear, axial;  // nodal loads of 1 N in all
 };
 
-Level level(int n) {
+MeshLevel level(int n) {
   TetMesh mesh = kuhn_grid({10 * n, n, n}, size);
   const Points shear = reference::face_loads(mesh, on_end, traction(Vec3::UnitZ()));
   const Points axial = reference::face_loads(mesh, on_end, traction(Vec3::UnitX()));
@@ -99,7 +100,7 @@ struct Network {
   Report report;
 };
 
-Network fitted_network(const Level& each, double axial_theory, double shear_theory) {
+Network fitted_network(const MeshLevel& each, double axial_theory, double shear_theory) {
   const Scene unit = springs(each.mesh, 1);
   const Statics axial = static_compliance(unit, small_load * each.axial);
   const Statics shear = static_compliance(unit, small_load * each.shear);
@@ -109,7 +110,7 @@ Network fitted_network(const Level& each, double axial_theory, double shear_theo
   return {a / kappa, s / kappa, shear.report.status == Status::ok ? axial.report : shear.report};
 }
 
-void beam_rows(Table& table, const std::string& model, const Level& each, const std::string& quantity,
+void beam_rows(Table& table, const std::string& model, const MeshLevel& each, const std::string& quantity,
                double value, double mesh_exact, double beam, const Report& report) {
   table.row({model, std::int64_t{each.n}, std::ssize(each.mesh.tets), size.y() / each.n, quantity, value,
              mesh_exact, beam, std::abs(value / mesh_exact - 1), std::abs(value / beam - 1),
@@ -130,11 +131,12 @@ constexpr MeshExact stated_values[]{{1, 8.843468e-4, 3.02611455},
 void beam(Context& context, Table& table) {
   const double beam_compliance = reference::tip_deflection(section, 1, reference::BeamTheory::timoshenko);
   const double beam_frequency = reference::timoshenko_cantilever_frequency(section, 1);
-  const double rod_compliance = size.x() / (material.young * size.y() * size.z());
+  const double rod_compliance = size.x() / (beam_material.young * size.y() * size.z());
   for (const auto& stated : stated_values) {
     if (stated.n == 8 && !context.full()) continue;
-    const Level each = level(stated.n);
-    const auto body = reference::clamped_beam({10 * stated.n, stated.n, stated.n}, size, material, density);
+    const MeshLevel each = level(stated.n);
+    const auto body =
+        reference::clamped_beam({10 * stated.n, stated.n, stated.n}, size, beam_material, beam_density);
     const Points u = reference::linear_static(body, each.shear);
     const double exact = each.shear.cwiseProduct(u).sum();
     const double frequency = reference::linear_modes(body, 1, reference::MassMatrix::consistent).at(0);

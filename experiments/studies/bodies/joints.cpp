@@ -53,7 +53,7 @@ double rounding_of(const Mechanism& mechanism, double h) {
   return std::numeric_limits<double>::epsilon() * mechanism.farthest / (g * h * h);
 }
 
-bool solved(const Mechanism& mechanism, const Level& level) {
+bool all_solved(const Mechanism& mechanism, const Level& level) {
   return level.run.status != Status::diverged && level.run.missed_residual <= rounding_of(mechanism, level.h);
 }
 
@@ -91,12 +91,14 @@ void conclude(Context& context, const Mechanism& mechanism, const std::vector<Le
   const bool exact = mechanism.values == slider_place;  // a motor's place does not depend on the step
   if (context.full() || exact)
     context.verdict(id, "generalised_alpha reaches the known answer by refining the step",
-                    "relative error at the finest step", error_of(finest.values, solved(mechanism, finest)),
-                    1e-6);
+                    "relative error at the finest step",
+                    error_of(finest.values, all_solved(mechanism, finest)), 1e-6);
   if (!exact)
-    context.verdict(
-        id + ".extrapolated", "the two finest steps extrapolate to the known answer", "relative error",
-        error_of(extrapolated(coarse, finest), solved(mechanism, coarse) && solved(mechanism, finest)), 1e-6);
+    context.verdict(id + ".extrapolated", "the two finest steps extrapolate to the known answer",
+                    "relative error",
+                    error_of(extrapolated(coarse, finest),
+                             all_solved(mechanism, coarse) && all_solved(mechanism, finest)),
+                    1e-6);
 }
 
 void carry(Context& context, const Mechanism& mechanism, Table& accuracy, Worst& error_m, Worst& error_rad) {

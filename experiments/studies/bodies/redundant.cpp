@@ -16,7 +16,7 @@ using namespace pbd;
 constexpr int loops = 2;
 constexpr std::size_t points = 2;  // the PointJoint's place among the effects
 
-struct Run {
+struct RedundantRun {
   std::vector<Points> x;
   std::vector<Vec3> net;  // N s in the plane, of each place and step: what leg and coupler exchange
   double split = 0;       // largest difference of two impulses of one place, of their sum
@@ -28,10 +28,10 @@ struct Run {
   bool solved(int all) const { return steps == all && missed == 0; }
 };
 
-Run run(int extra, const Method& method, double h, int steps) {
+RedundantRun run(int extra, const Method& method, double h, int steps) {
   const Scene scene = four_bars(loops, extra);
   const auto& joints = std::get<PointJoint>(scene.effects[points]);
-  Run found;
+  RedundantRun found;
   Workspace workspace(scene, method);
   State state = scene.initial;
   while (found.steps < steps) {
@@ -83,11 +83,11 @@ void redundant(Context& context) {
     method.relaxation = relaxation;
     method.tolerance = 1e-12;
     method.max_sweeps = 500;
-    const Run plain = run(0, method, h, steps);
+    const RedundantRun plain = run(0, method, h, steps);
     double size = 0;
     for (const Vec3& net : plain.net) size = std::max(size, net.norm());
     for (int extra = 0; extra <= 3; ++extra) {
-      const Run other = extra == 0 ? plain : run(extra, method, h, steps);
+      const RedundantRun other = extra == 0 ? plain : run(extra, method, h, steps);
       Worst moved, pushed;
       for (std::size_t k = 0; k < std::min(plain.x.size(), other.x.size()); ++k)
         moved.add((plain.x[k] - other.x[k]).cwiseAbs().maxCoeff());

@@ -20,7 +20,7 @@ using namespace pbd;
 
 const Vec3 moments(1, 2, 3);  // kg m^2
 
-std::vector<Motion> motions() {
+std::vector<Motion> rotations() {
   // Steady precession would hide the tilt's errors: the top starts a tenth too fast about its foot.
   const double tilt = std::numbers::pi / 6;
   const double slow = reference::steady_precession({0.0125, 0.005, 9.81 * 0.1}, tilt, 100).slow;
@@ -163,7 +163,7 @@ void tumble(Context& context) {
 }  // namespace
 
 void rotation(Context& context) {
-  auto scenes = motions();
+  auto scenes = rotations();
   context.begin(std::ssize(scenes) + 2);
   study_orders(context, "rotation", std::move(scenes), {0.5, 0.55});
   watch(context);

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "dense.h"
 #include "harness/measure.h"
 #include "linear/linear_names.h"
 #include "planted_cones.h"
@@ -20,25 +20,24 @@ namespace {
 using namespace pbd::reference;
 using Eigen::VectorXd;
 
-constexpr double tolerance = 1e-8, loose = 1e-4;  // a relaxation is timed to both
-constexpr double certain = 1e-10;                 // what the interior point is asked for
-constexpr double agreement = 1e-6;                // m/s; planted velocities are of 1 m/s
+constexpr double tightest = 1e-8, loose = 1e-4;  // a relaxation is timed to both
+constexpr double certain = 1e-10;                // what the interior point is asked for
+constexpr double agreement = 1e-6;               // m/s; planted velocities are of 1 m/s
 
-double largest(const VectorXd& v) {
+double largest_entry(const VectorXd& v) {
   return v.allFinite() ? v.cwiseAbs().maxCoeff() : std::nan("");
 }
 
 /// Largest over smallest eigenvalue of W that is not zero, its contacts equilibrated.
 double condition_of(const ConeProblem& problem) {
   const Eigen::MatrixXd w = equilibrate(problem).problem.delassus;
-  const VectorXd all =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(w, Eigen::EigenvaluesOnly).eigenvalues();
+  const VectorXd all = symmetric_eigen(w).values;
   const double zero = std::numeric_limits<double>::epsilon() * static_cast<double>(w.rows()) * all.maxCoeff();
   const auto smallest = std::find_if(all.begin(), all.end(), [&](double value) { return value > zero; });
   return all.maxCoeff() / *smallest;
 }
 
-struct Problem {
+struct NamedCone {
   std::string family;
   int number;
   PlantedCone planted;
@@ -49,8 +48,8 @@ struct Problem {
 };
 
 /// The 200 small ones. Relaxations are to solve those whose W is well-conditioned.
-std::vector<Problem> small_problems(FrictionLaw law) {
-  std::vector<Problem> all;
+std::vector<NamedCone> small_problems(FrictionLaw law) {
+  std::vector<NamedCone> all;
   for (const auto& family : planted_families())
     for (int i = 1; i <= planted_seeds; ++i) {
       const PlantedCone planted = family.draw(law, static_cast<std::uint64_t>(i));
@@ -61,8 +60,8 @@ std::vector<Problem> small_problems(FrictionLaw law) {
   return all;
 }
 
-std::vector<Problem> large_problems(FrictionLaw law, bool full) {
-  std::vector<Problem> all;
+std::vector<NamedCone> large_problems(FrictionLaw law, bool full) {
+  std::vector<NamedCone> all;
   const int each = full ? 3 : 1;
   for (const int contacts : full ? std::vector{150, 450, 900, 3000} : std::vector{150, 450, 900})
     for (int i = 1; i <= each; ++i) {
@@ -73,7 +72,7 @@ std::vector<Problem> large_problems(FrictionLaw law, bool full) {
   return all;
 }
 
-std::vector<std::string> columns() {
+std::vector<std::string> cone_columns() {
   return {"family",    "number",           "contacts", "condition",   "law",           "relaxation",
           "tolerance", "natural_residual", "gap",      "feasibility", "error_m_per_s", "difference_m_per_s",
           "sweeps",    "wall_s",           "status",   "reason"};
@@ -87,7 +86,7 @@ struct Found {
 
 /// Under Coulomb's law Ipopt is slow, as it solves a sequence of problems: it takes the first of each family,
 /// or five. Of large problems the judge takes the convex ones.
-bool taken(const ConeSolver& solver, FrictionLaw law, const Problem& p, bool full) {
+bool taken(const ConeSolver& solver, FrictionLaw law, const NamedCone& p, bool full) {
   const bool convex = law == FrictionLaw::cone, ipopt = solver.name == "cone_ipopt";
   if (!solver.judge) return true;
   if (p.large()) return convex && !ipopt;
@@ -98,9 +97,9 @@ bool taken(const ConeSolver& solver, FrictionLaw law, const Problem& p, bool ful
 class Solves {
  public:
   Solves(Context& context, std::string_view table)
-      : context_(context), table_(context.table(table, columns())) {}
+      : context_(context), table_(context.table(table, cone_columns())) {}
 
-  void solve(const Problem& p, FrictionLaw law) {
+  void solve(const NamedCone& p, FrictionLaw law) {
     const int sweeps = p.demanded ? most_sweeps : context_.full() && !p.large() ? 20000 : 2000;
     judged_.resize(0);
     for (const ConeSolver& solver : cone_solvers()) {
@@ -108,14 +107,14 @@ class Solves {
       if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, sweeps});
       const bool first = solver.name == "cone_interior_point";
       const ConeSolution last =
-          add(p, law, solver, {p.planted.problem, law, first ? certain : tolerance, sweeps});
+          add(p, law, solver, {p.planted.problem, law, first ? certain : tightest, sweeps});
       if (!solver.judge && p.demanded) found.relaxed[solver.name].add(last.measures.natural_residual);
       if (first) {
         found.residual.add(last.measures.natural_residual);
-        found.error.add(largest(last.velocity - p.planted.velocity));
+        found.error.add(largest_entry(last.velocity - p.planted.velocity));
       } else if (solver.name == "cone_ipopt") {
         ++found.compared;
-        found.apart += !(largest(last.velocity - judged_) <= agreement);
+        found.apart += !(largest_entry(last.velocity - judged_) <= agreement);
       }
     }
     context_.advance(fmt::format("{} {}", p.family, friction_law_names[static_cast<std::size_t>(law)]));
@@ -126,14 +125,14 @@ class Solves {
 
  private:
   /// A row: the error is to the planted velocity.
-  ConeSolution add(const Problem& p, FrictionLaw law, const ConeSolver& solver, const ConeTask& task) {
+  ConeSolution add(const NamedCone& p, FrictionLaw law, const ConeSolver& solver, const ConeTask& task) {
     ConeSolution now = solver.solve(task);
     if (solver.name == "cone_interior_point") judged_ = now.velocity;
     const auto& m = now.measures;
     table_.row({p.family, std::int64_t{p.number}, std::int64_t{p.planted.problem.contacts()}, p.condition,
                 std::string(friction_law_names[static_cast<std::size_t>(law)]), solver.name, task.tolerance,
-                m.natural_residual, m.gap, m.feasibility(), largest(now.velocity - p.planted.velocity),
-                judged_.size() > 0 ? largest(now.velocity - judged_) : std::nan(""),
+                m.natural_residual, m.gap, m.feasibility(), largest_entry(now.velocity - p.planted.velocity),
+                judged_.size() > 0 ? largest_entry(now.velocity - judged_) : std::nan(""),
                 std::int64_t{now.iterations}, now.seconds,
                 std::string(outcome_names[static_cast<std::size_t>(now.outcome)]), now.reason});
     return now;
@@ -153,8 +152,8 @@ void cone_problems(Context& context) {
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
     const bool convex = law == FrictionLaw::cone;
     small.found = large.found = {};
-    for (const Problem& p : small_problems(law)) small.solve(p, law);
-    for (const Problem& p : large_problems(law, context.full())) large.solve(p, law);
+    for (const NamedCone& p : small_problems(law)) small.solve(p, law);
+    for (const NamedCone& p : large_problems(law, context.full())) large.solve(p, law);
     const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
     const char* of = convex ? "of the convex law" : "of Coulomb's law";
     context.verdict("cone_problems." + name,
@@ -163,11 +162,11 @@ void cone_problems(Context& context) {
     for (const auto relaxation : pbd::general_solver_names())
       context.verdict(fmt::format("cone_problems.{}.{}", name, relaxation),
                       fmt::format("{} solves every well-conditioned problem {}", relaxation, of), residual,
-                      small.found.relaxed[std::string(relaxation)].value(), tolerance);
+                      small.found.relaxed[std::string(relaxation)].value(), tightest);
     for (const auto relaxation : pbd::general_solver_names())
       context.verdict(fmt::format("cone_problems.large.{}.{}", name, relaxation),
                       fmt::format("{} solves every large regular problem {}", relaxation, of), residual,
-                      large.found.relaxed[std::string(relaxation)].value(), tolerance);
+                      large.found.relaxed[std::string(relaxation)].value(), tightest);
     if (!convex) continue;
     context.verdict("cone_problems.velocity", "cone_interior_point finds the planted velocity (convex law)",
                     "largest error, m/s", small.found.error.value(), 1e-9);

@@ -14,6 +14,8 @@
 
 namespace pbdcheck {
 
+inline constexpr double contact_h = 0.01;  // s, the step where a study has but one
+
 struct ContactRun : Simulation {
   std::int64_t sweeps = 0;
 };

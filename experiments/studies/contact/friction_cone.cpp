@@ -9,11 +9,11 @@
 //   |du|^2 <= w dr.du <= w |e| (|dr| + |du|),  w the largest eigenvalue of W
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "cone_interior_point.h"
 #include "cones/cone_solvers.h"
+#include "dense.h"
 #include "harness/measure.h"
 #include "harness/rows_of_step.h"
 #include "linear/linear_names.h"
@@ -28,7 +28,7 @@ using namespace reference;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double tolerance = 1e-8, h = 0.01;
+constexpr double cone_tolerance = 1e-8, h = 0.01;
 
 struct Errors {
   double complementarity, dissipation, allowed;  // J
@@ -42,7 +42,7 @@ Errors errors_of(FrictionLaw law, double mu, const Vector3d& r, const Vector3d& 
           (1 + std::sqrt(1 + mu * mu)) * map * (r.norm() + shifted.norm() + map)};
 }
 
-struct Judged {
+struct JudgedCone {
   const ConeProblem& problem;
   FrictionLaw law;
   std::string law_name;
@@ -51,8 +51,8 @@ struct Judged {
 };
 
 /// |du|^2 over what is allowed, du to the judge's velocity.
-double velocity_share(const Judged& by, const ConeSolution& found) {
-  const double map = 2 * tolerance * by.problem.free_velocity.norm();
+double velocity_share(const JudgedCone& by, const ConeSolution& found) {
+  const double map = 2 * cone_tolerance * by.problem.free_velocity.norm();
   const double dr = (found.impulse - by.truth.impulse).norm(),
                du = (found.velocity - by.truth.velocity).norm();
   return du == 0 ? 0.0 : du * du / (by.stiffest * map * (dr + du));
@@ -69,8 +69,8 @@ class Tables {
                        "dissipation_share", "velocity_share", "sweeps", "wall_s", "status", "reason"})) {}
 
   /// Adds a solution; returns the largest share of the allowed errors that its contacts have.
-  double add(const Judged& by, const std::string& name, const ConeSolution& found) {
-    const double map = tolerance * by.problem.free_velocity.norm();
+  double add(const JudgedCone& by, const std::string& name, const ConeSolution& found) {
+    const double map = cone_tolerance * by.problem.free_velocity.norm();
     Worst complementarity, dissipation;
     for (int i = 0; i < by.problem.contacts(); ++i) {
       const Vector3d r = found.impulse.segment<3>(3 * i), u = found.velocity.segment<3>(3 * i);
@@ -109,13 +109,10 @@ void friction_cone(Context& context) {
     const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
     const LinearStep step = linear_step(scene, scene.initial, h, friction_by_name(name));
     const ConeProblem problem = cone_problem(step.rows, step.v_free);
-    const double stiffest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(problem.delassus),
-                                                                           Eigen::EigenvaluesOnly)
-                                .eigenvalues()
-                                .maxCoeff();
-    const Judged by{problem, law, name, cone_interior_point(problem, law, tolerance), stiffest};
+    const double stiffest = symmetric_eigen(problem.delassus).values.maxCoeff();
+    const JudgedCone by{problem, law, name, cone_interior_point(problem, law, cone_tolerance), stiffest};
     for (const ConeSolver& solver : cone_solvers()) {
-      const ConeTask task{problem, law, tolerance, most_sweeps};
+      const ConeTask task{problem, law, cone_tolerance, most_sweeps};
       const ConeSolution found =
           solver.judge ? solver.solve(task) : relax_cone(solver.name, step.rows, step.v_free, task);
       const double share = tables.add(by, solver.name, found);

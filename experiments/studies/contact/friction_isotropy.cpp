@@ -14,12 +14,12 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, h = 0.01, friction = 0.3, speed = 2;
-constexpr int steps = 5;
+constexpr double friction = 0.3, speed = 2;
+constexpr int isotropy_steps = 5;
 
 /// By the box law each axis is slowed on its own until it stops.
 Eigen::Vector2d expected_velocity(std::string_view law, const Eigen::Vector2d& start) {
-  const double lost = steps * h * friction * gravity;
+  const double lost = isotropy_steps * contact_h * friction * gravity;
   if (law != "box") return (1 - lost / start.norm()) * start;
   return start.unaryExpr([&](double v) { return std::copysign(std::max(0.0, std::abs(v) - lost), v); });
 }
@@ -40,21 +40,22 @@ void friction_isotropy(Context& context) {
         const Eigen::Vector2d along(std::cos(heading), std::sin(heading));
         Scene scene = sliding_box(0, friction, speed, heading);
         if (law == "cone") {  // it hovers at h mu v already
-          scene.initial.x(2, 1) += h * friction * speed;
-          scene.initial.v(2, 1) = -h * friction * friction * gravity;
+          scene.initial.x(2, 1) += contact_h * friction * speed;
+          scene.initial.v(2, 1) = -contact_h * friction * friction * gravity;
         }
-        const ContactRun run = simulate_contacts(scene, contact_method(relaxation, law), h, steps);
+        const ContactRun run =
+            simulate_contacts(scene, contact_method(relaxation, law), contact_h, isotropy_steps);
         const bool usable = run.status != Status::diverged;
         const Eigen::Vector2d end = run.end.v.col(1).head<2>(), exact = expected_velocity(law, speed * along);
         const auto turned = [&](const Eigen::Vector2d& v) {
           return std::atan2(along.x() * v.y() - along.y() * v.x(), along.dot(v));
         };
         const auto slowed = [&](const Eigen::Vector2d& v) {
-          return (speed - along.dot(v)) / (steps * h * friction * gravity);
+          return (speed - along.dot(v)) / (isotropy_steps * contact_h * friction * gravity);
         };
         const double share_error = usable ? std::abs(slowed(end) - slowed(exact)) : std::nan("");
         const double heading_error = usable ? std::abs(turned(end) - turned(exact)) : std::nan("");
-        table.row({relaxation, std::string(law), h, heading * 180 / std::numbers::pi, slowed(end),
+        table.row({relaxation, std::string(law), contact_h, heading * 180 / std::numbers::pi, slowed(end),
                    slowed(exact), share_error, turned(end), heading_error, status_cell(run.status),
                    run.reason});
         (law == "box" ? square : round).add(share_error);

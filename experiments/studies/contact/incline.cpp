@@ -17,7 +17,6 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, h = 0.01;
 constexpr double margin = 1e-6;  // of the friction about the tangent
 
 double radians(double degrees) {
@@ -35,9 +34,9 @@ double recurrence(double acceleration, double friction, bool convex, std::int64_
   double v = 0, x = 0, growth = 0;
   const double square = convex ? friction * friction : 0;
   for (std::int64_t k = 0; k < steps; ++k) {
-    growth = (h * acceleration + square * growth) / (1 + square);
+    growth = (contact_h * acceleration + square * growth) / (1 + square);
     v += growth;
-    x += h * v;
+    x += contact_h * v;
   }
   return x;
 }
@@ -45,29 +44,29 @@ double recurrence(double acceleration, double friction, bool convex, std::int64_
 void stick(KnownAnswers& answers, const Method& method, double degrees) {
   const double angle = radians(degrees), tangent = std::tan(angle);
   const std::string name = fmt::format("{:g} degrees", degrees);
-  const auto steps = std::lround(10 / h);
+  const auto steps = std::lround(10 / contact_h);
   const Scene rough = sliding_box(angle, tangent * (1 + margin), 0);
-  const ContactRun held = simulate_contacts(rough, method, h, steps);
-  const double creep = (held.end.x - rough.initial.x).norm() / (static_cast<double>(steps) * h);
-  answers.add("creep", name, method, h, creep, 0, creep, held);
+  const ContactRun held = simulate_contacts(rough, method, contact_h, steps);
+  const double creep = (held.end.x - rough.initial.x).norm() / (static_cast<double>(steps) * contact_h);
+  answers.add("creep", name, method, contact_h, creep, 0, creep, held);
   const Scene smooth = sliding_box(angle, tangent * (1 - margin), 0);
-  const auto few = std::lround(1 / h);
-  const ContactRun slid = simulate_contacts(smooth, method, h, few);
+  const auto few = std::lround(1 / contact_h);
+  const ContactRun slid = simulate_contacts(smooth, method, contact_h, few);
   const double exact =
       recurrence(gravity * std::sin(angle) * margin, tangent, method.friction == "cone", few);
   const double moved = way(smooth, slid.end, angle);
-  answers.add("threshold", name, method, h, moved, exact, relative_difference(moved, exact), slid);
+  answers.add("threshold", name, method, contact_h, moved, exact, relative_difference(moved, exact), slid);
 }
 
 void accelerate(KnownAnswers& answers, const Method& method, double degrees, double friction) {
   const double angle = radians(degrees);
   const double a = gravity * (std::sin(angle) - friction * std::cos(angle));
   const Scene scene = sliding_box(angle, friction, 0);
-  const ContactRun run = simulate_contacts(scene, method, h, 100);
+  const ContactRun run = simulate_contacts(scene, method, contact_h, 100);
   const double exact = recurrence(a, friction, method.friction == "cone", 100);
   const double moved = way(scene, run.end, angle);
-  answers.add("acceleration", fmt::format("{:g} degrees, friction {:g}", degrees, friction), method, h, moved,
-              exact, relative_difference(moved, exact), run);
+  answers.add("acceleration", fmt::format("{:g} degrees, friction {:g}", degrees, friction), method,
+              contact_h, moved, exact, relative_difference(moved, exact), run);
 }
 
 void weigh(KnownAnswers& answers, const Method& method, double factor) {
@@ -75,11 +74,11 @@ void weigh(KnownAnswers& answers, const Method& method, double factor) {
   Scene scene = sliding_box(angle, friction, 0);
   scene.mass[1] *= factor;
   scene.bodies[1].inertia *= factor;
-  const ContactRun run = simulate_contacts(scene, method, h, 100);
+  const ContactRun run = simulate_contacts(scene, method, contact_h, 100);
   const double a = gravity * (std::sin(angle) - friction * std::cos(angle));
   const double exact = recurrence(a, friction, method.friction == "cone", 100);
   const double moved = way(scene, run.end, angle);
-  answers.add("mass", fmt::format("{:g} kg", scene.mass[1]), method, h, moved, exact,
+  answers.add("mass", fmt::format("{:g} kg", scene.mass[1]), method, contact_h, moved, exact,
               relative_difference(moved, exact), run);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, radius = 0.1;
+constexpr double radius = 0.1;
 
 /// The trapezoidal rule keeps the energy of free flight.
 Method method_of(std::string_view relaxation) {

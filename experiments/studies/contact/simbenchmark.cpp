@@ -22,15 +22,15 @@ namespace {
 
 using namespace pbd;
 
-struct Outcome {
+struct BenchmarkOutcome {
   double error = 0, wall = 0;
   std::int64_t sweeps = 0, missed = 0, outer = 0, row_updates = 0;
   Status status = Status::ok;
   std::string reason;
 };
 
-Outcome simulate(const Benchmark& each, const Method& method, double h) {
-  Outcome outcome;
+BenchmarkOutcome run_benchmark(const Benchmark& each, const Method& method, double h) {
+  BenchmarkOutcome outcome;
   Workspace workspace(each.scene, method);
   State state = each.scene.initial;
   const auto steps = static_cast<std::int64_t>(std::lround(each.duration / h));
@@ -90,7 +90,7 @@ void simbenchmark(Context& context) {
       method.integrator = benchmark.integrator;
       method.alpha = 0.5;
       method.tolerance = 1e-10;
-      const Outcome found = simulate(benchmark, method, h);
+      const BenchmarkOutcome found = run_benchmark(benchmark, method, h);
       table.row({benchmark.name, std::string("pbdcheck"), h, method.integrator, method.alpha, method.outer,
                  method.relaxation, method.friction, found.error, benchmark.duration, found.outer,
                  found.sweeps, found.row_updates, found.missed, found.wall, not_given,

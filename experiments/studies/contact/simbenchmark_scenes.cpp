@@ -10,8 +10,6 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81;
-
 constexpr double box_mass = 10, ball_mass = 1, ball_radius = 0.5, push = 150;
 constexpr int balls = 25;
 

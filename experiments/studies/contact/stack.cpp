@@ -16,8 +16,6 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, h = 0.01;
-
 /// N, what the colliders below `first` push those from there on with.
 Vec3 force_across(const Workspace& workspace, int first) {
   Vec3 sum = Vec3::Zero();
@@ -43,7 +41,7 @@ void rest(KnownAnswers& answers, const Method& method, const std::string& name, 
   const Vec3 up(0, 0, weight_from(scene, 1));
   Worst carried, between, overlap;
   const ContactRun run =
-      simulate_contacts(scene, method, h, 20, [&](const State&, const Workspace& workspace) {
+      simulate_contacts(scene, method, contact_h, 20, [&](const State&, const Workspace& workspace) {
         carried.add((force_across(workspace, 1) - up).norm() / up.norm());
         overlap.add(0);
         for (const ContactForce& contact : workspace.contacts()) overlap.add(-contact.gap / size);
@@ -52,13 +50,13 @@ void rest(KnownAnswers& answers, const Method& method, const std::string& name, 
           between.add((force_across(workspace, k) - Vec3(0, 0, above)).norm() / above);
         }
       });
-  answers.add("weight", name, method, h, carried.value(), 0, carried.value(), run);
-  if (column) answers.add("joints", name, method, h, between.value(), 0, between.value(), run);
-  answers.add("penetration", name, method, h, overlap.value(), 0, overlap.value(), run);
+  answers.add("weight", name, method, contact_h, carried.value(), 0, carried.value(), run);
+  if (column) answers.add("joints", name, method, contact_h, between.value(), 0, between.value(), run);
+  answers.add("penetration", name, method, contact_h, overlap.value(), 0, overlap.value(), run);
 }
 
 /// A slab that slides to rest on side x side fixed balls.
-void slab(KnownAnswers& answers, const Method& method, int side) {
+void slab_on_posts(KnownAnswers& answers, const Method& method, int side) {
   constexpr double friction = 0.5, speed = 0.3, radius = 0.02, pitch = 0.06, mass = 10;
   BodyScene build({.friction = friction});
   const double middle = (side - 1) / 2.0;
@@ -70,13 +68,13 @@ void slab(KnownAnswers& answers, const Method& method, int side) {
   const int body = side * side;
   Worst force;
   const ContactRun run =
-      simulate_contacts(scene, method, h, 10, [&](const State&, const Workspace& workspace) {
+      simulate_contacts(scene, method, contact_h, 10, [&](const State&, const Workspace& workspace) {
         force.add(std::abs(force_across(workspace, body).z() / (mass * gravity) - 1));
       });
-  const double exact = slide(speed, friction * gravity, h, 10).x, moved = run.end.x(0, body);
+  const double exact = slide(speed, friction * gravity, contact_h, 10).x, moved = run.end.x(0, body);
   const std::string name = fmt::format("slab on {} balls", side * side);
-  answers.add("redundant_force", name, method, h, force.value(), 0, force.value(), run);
-  answers.add("redundant_motion", name, method, h, moved, exact,
+  answers.add("redundant_force", name, method, contact_h, force.value(), 0, force.value(), run);
+  answers.add("redundant_motion", name, method, contact_h, moved, exact,
               (run.end.x.col(body) - Vec3(exact, 0, 0.01)).norm(), run);
 }
 
@@ -96,12 +94,12 @@ Scene overhang(int count, double share) {
 /// Stands: no body moves by more than 1e-4 of the size. Falls: one moves by a tenth of it.
 void judge(Table& table, Worst& wrong, const Method& method, const std::string& structure, int count,
            double share, const Scene& scene, double duration, double size) {
-  const ContactRun run = simulate_contacts(scene, method, h, std::lround(duration / h));
+  const ContactRun run = simulate_contacts(scene, method, contact_h, std::lround(duration / contact_h));
   const double moved = (run.end.x - scene.initial.x).colwise().norm().maxCoeff() / size;
   const bool usable = run.status != Status::diverged, stands = (share < 1) == (structure == "overhang");
   const bool right = usable && (stands ? moved <= 1e-4 : moved >= 0.1);
-  table.row({structure, std::int64_t{count}, share, method.outer, method.relaxation, method.friction, h,
-             duration, usable ? moved : std::nan(""), std::string(stands ? "stands" : "falls"),
+  table.row({structure, std::int64_t{count}, share, method.outer, method.relaxation, method.friction,
+             contact_h, duration, usable ? moved : std::nan(""), std::string(stands ? "stands" : "falls"),
              std::int64_t{right}, run.sweeps, std::int64_t{run.steps - run.steps_ok}, status_cell(run.status),
              run.reason});
   wrong.add(usable ? (right ? 0.0 : 1.0) : std::nan(""));
@@ -128,7 +126,7 @@ void stack(Context& context) {
       rest(answers, method, fmt::format("two cubes, masses 1:{:g}", ratio), column(2, ratio), true);
     for (const int base : context.full() ? std::vector{4, 10} : std::vector{4})
       rest(answers, method, fmt::format("pyramid of base {}", base), pyramid(base), false);
-    for (const int side : {2, 4, 10}) slab(answers, method, side);
+    for (const int side : {2, 4, 10}) slab_on_posts(answers, method, side);
     context.advance(relaxation);
   }
   answers.close();

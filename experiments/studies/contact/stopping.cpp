@@ -17,8 +17,6 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81;
-
 void stop(KnownAnswers& answers, const Method& method, double h) {
   constexpr double friction = 0.5, speed = 5;
   const double a = friction * gravity;

@@ -15,7 +15,7 @@ namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 /// Everything at once: a solid, a sheet with links, strain and bending held by anchors, and a loaded chain.
 Scene mixed() {
@@ -47,37 +47,37 @@ Method fixed_work(std::string_view relaxation = "gauss_seidel") {
   return method;
 }
 
-struct Simulated {
+struct RunScene {
   State state;
   double seconds;
   std::vector<EffectCost> costs;
 };
 
-Simulated simulate(const Scene& scene) {
+RunScene run_scene(const Scene& scene) {
   const Method method = fixed_work();
   Workspace workspace(scene, method);
   State state = scene.initial;
-  const auto start = Clock::now();
+  const auto start = SteadyClock::now();
   for (int k = 0; k < frames; ++k) step(workspace, 1.0 / 240, state);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
   return {state, seconds, workspace.costs()};
 }
 
 /// Smallest times of two scenes run in turns, after a discarded pair.
 std::pair<double, double> in_turns(const Scene& a, const Scene& b) {
-  simulate(a);
-  simulate(b);
+  run_scene(a);
+  run_scene(b);
   double first = infinity, second = infinity;
   for (int repeat = 0; repeat < 15; ++repeat) {
-    first = std::min(first, simulate(a).seconds);
-    second = std::min(second, simulate(b).seconds);
+    first = std::min(first, run_scene(a).seconds);
+    second = std::min(second, run_scene(b).seconds);
   }
   return {first, second};
 }
 
 void costs_per_effect(Context& context, Table& table) {
   const Scene scene = mixed();
-  const Simulated run = simulate(scene);
+  const RunScene run = run_scene(scene);
   double attributed = 0;
   for (const auto& cost : run.costs) {
     attributed += cost.seconds;
@@ -96,7 +96,7 @@ void absent_is_free(Context& context) {
   padded.effects.emplace_back(TriangleStrain{});
   padded.effects.emplace_back(ExternalForce{});
   padded.effects.emplace_back(Contact{});
-  const State a = simulate(scene).state, b = simulate(padded).state;
+  const State a = run_scene(scene).state, b = run_scene(padded).state;
   context.verdict(
       "effects.empty.bitwise", "effects that are present and empty change no bit of the result",
       "entries that differ",
@@ -110,7 +110,7 @@ void absent_is_free(Context& context) {
                 [](const Effect& effect) { return std::holds_alternative<TetStrain>(effect); });
   const auto [light, heavy] = in_turns(removed, mixed());
   // Its nodes stay, and caches and clocks blur what a share of a run is: at least half of it must go.
-  const auto costs = simulate(mixed()).costs;
+  const auto costs = run_scene(mixed()).costs;
   const auto strain = std::find_if(costs.begin(), costs.end(),
                                    [](const EffectCost& cost) { return cost.effect == TetStrain::name; });
   context.verdict("effects.removed.cheaper", "removing the solid's strain takes its cost away",
@@ -119,7 +119,7 @@ void absent_is_free(Context& context) {
 }
 
 /// Layers of balls that touch each other and the ground.
-Scene balls(double friction) {
+Scene touching_balls(double friction) {
   BodyScene build({.friction = friction});
   build.ground();
   constexpr double radius = 0.1;
@@ -130,11 +130,11 @@ Scene balls(double friction) {
 }
 
 void frictionless_is_cheap(Context& context, Table& table) {
-  const std::vector<Scene> scenes{balls(0), balls(0.5)};
+  const std::vector<Scene> scenes{touching_balls(0), touching_balls(0.5)};
   std::vector<double> rows;
   for (const Scene& scene : scenes) {
     const std::string name = rows.empty() ? "balls, no friction" : "balls, friction 0.5";
-    const auto costs = simulate(scene).costs;
+    const auto costs = run_scene(scene).costs;
     const auto contact = std::find_if(costs.begin(), costs.end(),
                                       [](const EffectCost& cost) { return cost.effect == Contact::name; });
     table.row({name, std::string(contact->effect), contact->rows, contact->bytes, contact->seconds,
@@ -158,9 +158,9 @@ double sweep_seconds(LinearStep step, std::string_view relaxation) {
       [&](auto& kind) {
         kind.begin(step.rows, step.v_free, true);
         for (int k = 0; k < sweeps; ++k) {
-          const auto start = Clock::now();
+          const auto start = SteadyClock::now();
           kind.sweep(step.rows, step.v_free, nullptr);
-          best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+          best = std::min(best, std::chrono::duration<double>(SteadyClock::now() - start).count());
         }
       },
       any);

@@ -20,56 +20,56 @@ namespace {
 
 using namespace pbd;
 
-constexpr double step_s = 1.0 / 60;
-constexpr int lead_steps = 10;      // from rest
-constexpr int largest = 44;         // cells along the beam
-constexpr int largest_judged = 24;  // a judge takes minutes beyond
+constexpr double rival_step_s = 1.0 / 60;
+constexpr int rival_lead_steps = 10;  // from rest
+constexpr int most_cells = 44;        // cells along the beam
+constexpr int largest_judged = 24;    // a judge takes minutes beyond
 constexpr double targets[]{1e-3, 1e-6, 1e-10};
 
-struct Problem {
+struct RivalProblem {
   int cells;
   Material material;
   Scene scene;
 };
 
-std::vector<Problem> problems(bool full) {
-  std::vector<Problem> all;
-  for (const int n : {8, 16, 24, largest})
+std::vector<RivalProblem> rival_problems(bool full) {
+  std::vector<RivalProblem> all;
+  for (const int n : {8, 16, 24, most_cells})
     for (const double young : {1e5, 1e6, 1e7})
       for (const double poisson : {0.3, 0.49})
-        if (full || (n < largest && young == 1e6))
+        if (full || (n < most_cells && young == 1e6))
           all.push_back({n, {young, poisson}, cantilever(n, {young, poisson}, Strain::green)});
   return all;
 }
 
-using Watch = std::function<void(int iteration, const Points& x)>;
+using RivalWatch = std::function<void(int iteration, const Points& x)>;
 
 /// A step by a method that is ready for its scene.
-using Step = std::function<Report(State& state, const Watch& watch)>;
+using Step = std::function<Report(State& state, const RivalWatch& watch)>;
 
 struct Contestant {
   std::string_view name;
   Step (*ready)(const Scene& scene);
 };
 
-constexpr double tolerance = 1e-12;
+constexpr double rival_tolerance = 1e-12;
 
 Step ready_quasi_newton(const Scene& scene) {
   Method method;
   method.outer = "quasi_newton";
-  method.tolerance = tolerance;
+  method.tolerance = rival_tolerance;
   method.max_outer = 2000;
   const auto workspace = std::make_shared<Workspace>(scene, method);
-  return [&scene, method, workspace](State& state, const Watch& watch) {
-    return step(*workspace, step_s, state,
+  return [&scene, method, workspace](State& state, const RivalWatch& watch) {
+    return step(*workspace, rival_step_s, state,
                 [&](const Iterate& iterate) { watch(iterate.outer_iteration, iterate.x); });
   };
 }
 
 Step ready_rival(const Scene& scene) {
-  const std::shared_ptr<rivals::Rival> rival = rivals::rivals()[0].make(scene, step_s);
-  return [rival](State& state, const Watch& watch) {
-    return report_of(rival->step(state, {.tolerance = tolerance}, [&](const rivals::Iterate& iterate) {
+  const std::shared_ptr<rivals::Rival> rival = rivals::rivals()[0].make(scene, rival_step_s);
+  return [rival](State& state, const RivalWatch& watch) {
+    return report_of(rival->step(state, {.tolerance = rival_tolerance}, [&](const rivals::Iterate& iterate) {
       watch(iterate.iteration, iterate.x);
     }));
   };
@@ -104,7 +104,8 @@ struct Measured {
   double setup_s;  // by which making the method and its first step take longer than a later step
 };
 
-Measured measured(const Contestant& contestant, const Scene& scene, const State& start, const Points& exact) {
+Measured measure_rival(const Contestant& contestant, const Scene& scene, const State& start,
+                       const Points& exact) {
   const double begun = now();
   const Step step = contestant.ready(scene);
   const double making = now() - begun;
@@ -119,19 +120,19 @@ struct Reference {
   Points x;
 };
 
-Reference reference_of(const Problem& problem, bool full) {
-  const auto rival = rivals::rivals()[0].make(problem.scene, step_s);
+Reference reference_of(const RivalProblem& problem, bool full) {
+  const auto rival = rivals::rivals()[0].make(problem.scene, rival_step_s);
   const auto solve = [&](State& state, double accuracy) {
     const auto report = rival->step(state, {.tolerance = accuracy});
     if (report.status != rivals::Status::ok)
       throw std::runtime_error("newton found no step to compare with: " + std::string(report.reason));
   };
   Reference found{problem.scene.initial, {}};
-  for (int k = 0; k < lead_steps; ++k) solve(found.start, 1e-10);
+  for (int k = 0; k < rival_lead_steps; ++k) solve(found.start, 1e-10);
   const bool judged = problem.cells < largest_judged || (full && problem.cells == largest_judged);
   State end = found.start;
   if (!judged) solve(end, 1e-13);
-  found.x = judged ? truth(problem.scene, found.start, step_s).x : end.x;
+  found.x = judged ? truth(problem.scene, found.start, rival_step_s).x : end.x;
   return found;
 }
 
@@ -144,7 +145,7 @@ class Duel {
         traces_(context.table("traces", {"scene", "elements", "young_pa", "poisson", "method", "iteration",
                                          "wall_s", "error", "status", "reason"})) {}
 
-  void add(const Problem& problem, const Contestant& contestant, const Measured& measured) {
+  void add(const RivalProblem& problem, const Contestant& contestant, const Measured& measured) {
     const auto& report = measured.trace.report;
     const std::string status(status_names[static_cast<std::size_t>(report.status)]), reason(report.reason);
     for (const auto& point : measured.trace.points)
@@ -176,7 +177,7 @@ class Duel {
   double worst_ratio(double target) const {
     Worst worst;
     for (const auto& [key, seconds] : seconds_)
-      if (key.second == target && key.first->cells == largest && key.first->material.poisson < 0.4)
+      if (key.second == target && key.first->cells == most_cells && key.first->material.poisson < 0.4)
         worst.add(seconds.at(0) / seconds.at(1));
     return worst.value();
   }
@@ -187,7 +188,7 @@ class Duel {
   }
 
  private:
-  static void row(Table& table, const Problem& problem, const Contestant& contestant,
+  static void row(Table& table, const RivalProblem& problem, const Contestant& contestant,
                   const std::vector<Cell>& cells) {
     const auto& tetrahedra = std::get<TetStrain>(problem.scene.effects.back()).node;
     std::vector<Cell> all{"cantilever", std::ssize(tetrahedra), problem.material.young,
@@ -197,20 +198,21 @@ class Duel {
   }
 
   Table times_, traces_;
-  std::map<std::pair<const Problem*, double>, std::vector<double>> seconds_;  // of the contestants in order
+  std::map<std::pair<const RivalProblem*, double>, std::vector<double>>
+      seconds_;  // of the contestants in order
   Worst ends_;
 };
 
 }  // namespace
 
 void rival_newton(Context& context) {
-  const auto all = problems(context.full());
+  const auto all = rival_problems(context.full());
   context.begin(std::ssize(all));
   Duel duel(context);
   for (const auto& problem : all) {
     const auto [start, exact] = reference_of(problem, context.full());
     for (const auto& contestant : contestants)
-      duel.add(problem, contestant, measured(contestant, problem.scene, start, exact));
+      duel.add(problem, contestant, measure_rival(contestant, problem.scene, start, exact));
     context.advance(fmt::format("{} cells E={:g} nu={:g}", problem.cells, problem.material.young,
                                 problem.material.poisson));
   }

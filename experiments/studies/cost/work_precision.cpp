@@ -21,7 +21,7 @@ namespace {
 
 using namespace pbd;
 
-std::vector<std::string> columns() {
+std::vector<std::string> precision_columns() {
   return {"scene",    "step_s",    "integrator",       "outer",  "relaxation",
           "friction", "tolerance", "outer_iterations", "sweeps", "row_updates",
           "wall_s",   "error",     "status",           "reason"};
@@ -208,7 +208,7 @@ void work_precision(Context& context) {
   const auto points = work_precision_cases(context.full()), contacts = contact_cases_of_work(context.full());
   const int budget = context.full() ? 1000 : 50;  // outer iterations
   context.begin(std::ssize(points) + std::ssize(contacts));
-  Table table = context.table("points", columns());
+  Table table = context.table("points", precision_columns());
   for (const auto& each : points) {
     const State start = start_of(each);
     const Points exact = truth(each.scene, start, each.h).x;
@@ -220,7 +220,7 @@ void work_precision(Context& context) {
     context.advance(each.name);
   }
   table.close();
-  Table touching = context.table("contacts", columns());
+  Table touching = context.table("contacts", precision_columns());
   for (const auto& each : contacts) {
     contact_points(context, each, budget, touching);
     context.advance(each.name);

@@ -23,7 +23,7 @@ std::vector<double> rates_of(const Context& context, const std::vector<const Sol
   return rates;
 }
 
-Trace solve(const SolvedStep& each, std::string_view outer, std::string_view relaxation) {
+Trace solve_step(const SolvedStep& each, std::string_view outer, std::string_view relaxation) {
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
@@ -42,7 +42,7 @@ void time_again(const SolvedStep& each, std::string_view relaxation, Trace& plai
   const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
   for (int turn = 0; turn < fewest || (turn < most && spent() < enough); ++turn)
     for (auto [outer, best] : {std::pair{"plain", &plain}, {"auto", &automatic}}) {
-      Trace again = solve(each, outer, relaxation);
+      Trace again = solve_step(each, outer, relaxation);
       if (again.points.back().wall_s < best->points.back().wall_s) *best = std::move(again);
     }
 }
@@ -66,7 +66,7 @@ void auto_cost(Context& context, const std::vector<const SolvedStep*>& all) {
     if (!(rates[k] < contracting)) continue;
     const SolvedStep& each = *all[k];
     for (const auto relaxation : {"gauss_seidel", "conjugate_gradients", "direct"}) {
-      Trace plain = solve(each, "plain", relaxation), automatic = solve(each, "auto", relaxation);
+      Trace plain = solve_step(each, "plain", relaxation), automatic = solve_step(each, "auto", relaxation);
       if (automatic.report.row_updates == 0) time_again(each, relaxation, plain, automatic);
       for (const auto& [outer, trace] : {std::pair{"plain", &plain}, {"auto", &automatic}}) {
         const TracePoint& end = trace->points.back();

@@ -19,14 +19,14 @@ using namespace pbd;
 constexpr double step_s = 1.0 / 60;
 constexpr double target = 1e-6;  // residual, of that at the start
 
-struct Problem {
+struct LinearProblem {
   std::string scene, parameter;
   double value;
   Scene start;
 };
 
-std::vector<Problem> problems() {
-  std::vector<Problem> all;
+std::vector<LinearProblem> linear_problems() {
+  std::vector<LinearProblem> all;
   for (const double ratio : {1.0, 10.0, 100.0, 1e3, 1e4})
     all.push_back({"chain20", "mass_ratio", ratio, chain(20, ratio)});
   for (const double young : {1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9})
@@ -37,17 +37,17 @@ std::vector<Problem> problems() {
   return all;
 }
 
-struct Solve {
+struct LinearSolve {
   std::int64_t sweeps = 0;
   double residual = 1;  // of that at the start
 };
 
-Solve solve(const LinearStep& step, std::string_view name, std::int64_t most_sweeps) {
+LinearSolve solve_linear(const LinearStep& step, std::string_view name, std::int64_t most_sweeps) {
   Rows rows = step.rows;
   Points v = step.v_free;
   const double first = residual(rows, v);
   LinearSolver any = make_linear_solver(name);
-  Solve found;
+  LinearSolve found;
   std::visit(
       [&](auto& relaxation) {
         relaxation.begin(rows, v, true);
@@ -68,25 +68,25 @@ double most_sweeps_of(double condition) {
   return std::ceil(std::log(target / (2 * root)) / std::log((root - 1) / (root + 1)));
 }
 
-struct Found {
+struct Conditioned {
   double condition = 0;
-  std::vector<Solve> solves{};  // one a relaxation
+  std::vector<LinearSolve> solves{};  // one a relaxation
 };
 
 }  // namespace
 
 void conditioning(Context& context) {
-  const auto all = problems();
+  const auto all = linear_problems();
   const auto names = general_solver_names();
   const std::int64_t budget = context.full() ? 100000 : 10000;
-  std::vector<Found> found(all.size());
+  std::vector<Conditioned> found(all.size());
   context.begin(1);
   context.parallel(std::ssize(all), [&](std::int64_t index) {
     const Scene& scene = all[static_cast<std::size_t>(index)].start;
     const LinearStep step = linear_step(scene, scene.initial, step_s);
     auto& [condition, solves] = found[static_cast<std::size_t>(index)];
     condition = reference::relaxation_rates(scene, scene.initial.x, step_s).condition;
-    for (const auto name : names) solves.push_back(solve(step, name, budget));
+    for (const auto name : names) solves.push_back(solve_linear(step, name, budget));
   });
 
   Table table = context.table("sweeps", {"scene", "parameter", "value", "condition", "relaxation", "sweeps",

@@ -19,15 +19,15 @@ namespace {
 
 using namespace pbd;
 
-struct Problem : Case {
+struct ContractionCase : Case {
   OneEffectBody body;
   double stiffness, load;
 };
 
-std::vector<Problem> problems(bool full) {
+std::vector<ContractionCase> rate_cases(bool full) {
   std::vector<double> steps{1.0 / 15, 1.0 / 21, 1.0 / 30, 1.0 / 60};
   if (full) steps = {1.0 / 15, 1.0 / 21, 1.0 / 30, 1.0 / 42, 1.0 / 60, 1.0 / 85, 1.0 / 120, 1.0 / 240};
-  std::vector<Problem> all;
+  std::vector<ContractionCase> all;
   for (const auto& body : one_effect_bodies())
     for (const double stiffness : body.stiffnesses)
       for (const double load : body.loads)
@@ -44,7 +44,7 @@ std::vector<Problem> problems(bool full) {
   return all;
 }
 
-struct Found {
+struct FoundRate {
   reference::Contraction dense;
   double predicted = 0, bound = 0, measured = 0;
 };
@@ -58,7 +58,7 @@ bool stiffens(const reference::Contraction& dense) {
 }
 
 /// By an outer iteration that finds the step also where plain does not, and predicts by the same rows.
-Found find(const Problem& problem) {
+FoundRate find(const ContractionCase& problem) {
   const State& start = problem.scene.initial;
   const auto exact = truth(problem.scene, start, problem.h);
   Method method;
@@ -79,7 +79,8 @@ Found find(const Problem& problem) {
           measured_rate(problem.scene, start, problem.h, exact)};
 }
 
-void write_rates(Context& context, const std::vector<Problem>& all, const std::vector<Found>& found) {
+void write_rates(Context& context, const std::vector<ContractionCase>& all,
+                 const std::vector<FoundRate>& found) {
   Table table = context.table(
       "rates", {"effect", "strain", "step_s", "stiffness", "unit", "load_n", "predicted_rate", "stiffening",
                 "predicted_contraction", "bound", "measured_rate", "status", "reason"});
@@ -93,7 +94,7 @@ void write_rates(Context& context, const std::vector<Problem>& all, const std::v
   table.close();
 }
 
-void verdicts(Context& context, const std::vector<Found>& all) {
+void verdicts(Context& context, const std::vector<FoundRate>& all) {
   constexpr double worth_estimating = 0.7, measurable = 0.95;
   constexpr double comparable = 0.01;  // two iterations fit between the measured errors, 1e-6 and 1e-10
   Worst above, different, stiffened, softened;
@@ -133,13 +134,13 @@ void verdicts(Context& context, const std::vector<Found>& all) {
 }  // namespace
 
 std::vector<Case> contraction_cases(bool full) {
-  const auto all = problems(full);
+  const auto all = rate_cases(full);
   return {all.begin(), all.end()};
 }
 
 void contraction(Context& context) {
-  const auto all = problems(context.full());
-  std::vector<Found> found(all.size());
+  const auto all = rate_cases(context.full());
+  std::vector<FoundRate> found(all.size());
   context.begin(1);
   context.parallel(std::ssize(all), [&](std::int64_t index) {
     found[static_cast<std::size_t>(index)] = find(all[static_cast<std::size_t>(index)]);

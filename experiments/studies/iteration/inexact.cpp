@@ -13,16 +13,16 @@ namespace {
 
 using namespace pbd;
 
-struct Solve {
+struct InexactSolve {
   Method method;
   std::int64_t sweeps = 0, row_updates = 0;  // until the step is solved
   double error = 0;
   Report report{};
 };
 
-Solve solve(const Case& each, const State& start, const Points& exact, std::string_view relaxation,
-            double inner_tolerance) {
-  Solve found;
+InexactSolve solve_to_share(const Case& each, const State& start, const Points& exact,
+                            std::string_view relaxation, double inner_tolerance) {
+  InexactSolve found;
   found.method.relaxation = relaxation;
   found.method.inner_tolerance = inner_tolerance;
   found.method.max_sweeps = 1000000;
@@ -39,7 +39,7 @@ Solve solve(const Case& each, const State& start, const Points& exact, std::stri
 struct ChainCell {
   double ratio;
   Case step;
-  std::vector<Solve> solves{};  // in pairs: inexact, exact
+  std::vector<InexactSolve> solves{};  // in pairs: inexact, exact
 };
 
 std::vector<ChainCell> make_cells() {
@@ -61,7 +61,7 @@ void inexact(Context& context) {
     const Points exact = truth(cell.step.scene, start, cell.step.h).x;
     for (const auto name : {"gauss_seidel", "conjugate_gradients"})
       for (const double share : {Method{}.inner_tolerance, 1e-10})
-        cell.solves.push_back(solve(cell.step, start, exact, name, share));
+        cell.solves.push_back(solve_to_share(cell.step, start, exact, name, share));
   });
 
   Table table =

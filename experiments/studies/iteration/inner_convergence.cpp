@@ -17,13 +17,13 @@ namespace {
 
 using namespace pbd;
 
-struct Problem : Case {
+struct CurveCase : Case {
   int sweeps;       // most of them
   int chain_links;  // of a free chain, whose rates are known in closed form; 0 otherwise
 };
 
-std::vector<Problem> problems(bool full) {
-  std::vector<Problem> all;
+std::vector<CurveCase> curve_cases(bool full) {
+  std::vector<CurveCase> all;
   const auto add = [&](std::string name, Scene scene, double h, int sweeps, int links = 0) {
     stir(scene);
     all.push_back({{std::move(name), std::move(scene), h}, sweeps, links});
@@ -46,7 +46,7 @@ struct Run {
 constexpr double rounding_floor = 1e-13;
 
 /// Sweeps until the error is at rounding or the case's number is spent. The error is taken outside the clock.
-Run run_once(const Problem& each, const LinearStep& step, const Points& solved, std::string_view name) {
+Run run_once(const CurveCase& each, const LinearStep& step, const Points& solved, std::string_view name) {
   LinearSolver any = make_linear_solver(name);
   Rows rows = step.rows;
   Points v = step.v_free;
@@ -74,7 +74,7 @@ Run run_once(const Problem& each, const LinearStep& step, const Points& solved, 
 }
 
 /// Two runs after one that is thrown away, the smaller times kept.
-Run timed(const Problem& each, const LinearStep& step, const Points& solved, std::string_view name) {
+Run timed(const CurveCase& each, const LinearStep& step, const Points& solved, std::string_view name) {
   run_once(each, step, solved, name);
   Run best = run_once(each, step, solved, name);
   const Run other = run_once(each, step, solved, name);
@@ -97,7 +97,7 @@ struct Prediction {
   std::string theory;
 };
 
-Prediction predict(const Problem& each, std::string_view relaxation,
+Prediction predict(const CurveCase& each, std::string_view relaxation,
                    const reference::RelaxationRates& dense) {
   if (relaxation == "direct") return {0, "exact"};
   if (relaxation == "conjugate_gradients") {
@@ -120,7 +120,7 @@ bool worth_drawing(std::size_t k, std::size_t count) {
   return k < 100 || k + 1 == count || k % std::max<std::size_t>(1, k / 100) == 0;
 }
 
-void run_case(Context& context, const Problem& each, Table& errors, Table& rates) {
+void run_case(Context& context, const CurveCase& each, Table& errors, Table& rates) {
   const LinearStep step = linear_step(each.scene, each.scene.initial, each.h);
   const Points solved = dense_solution(step);
   const auto names = general_solver_names();
@@ -154,12 +154,12 @@ void run_case(Context& context, const Problem& each, Table& errors, Table& rates
 }  // namespace
 
 std::vector<Case> inner_convergence_cases(bool full) {
-  const auto all = problems(full);
+  const auto all = curve_cases(full);
   return {all.begin(), all.end()};
 }
 
 void inner_convergence(Context& context) {
-  const auto all = problems(context.full());
+  const auto all = curve_cases(context.full());
   context.begin(std::ssize(all));
   Table errors =
       context.table("errors", {"scene", "relaxation", "sweep", "wall_s", "error", "status", "reason"});

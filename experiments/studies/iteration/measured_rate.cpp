@@ -19,7 +19,7 @@ struct Moved {
 
 /// Velocities of all columns as the solver has them: nodes', then bodies' rotations in radii of gyration
 /// (m/s).
-Points columns(const Scene& scene, const Points& v, const Points& spin) {
+Points rate_columns(const Scene& scene, const Points& v, const Points& spin) {
   Points all(3, v.cols() + spin.cols());
   all << v, spin;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -59,7 +59,7 @@ Points without_symmetry(const Scene& scene) {
 }
 
 double change_of(const Scene& scene, const State& start, const reference::Judgement& solved) {
-  return columns(scene, solved.v - start.v, solved.spin - start.spin).norm();
+  return rate_columns(scene, solved.v - start.v, solved.spin - start.spin).norm();
 }
 
 /// The step with its first iterate beside the solution, along `direction` of all columns.
@@ -67,7 +67,8 @@ Moved beside(const Scene& scene, const State& start, double h, const reference::
              const Points& direction) {
   Moved moved{scene, start};
   const double length = begin * change_of(scene, start, solved) / direction.norm();
-  const Points unit = columns(scene, Points::Ones(3, scene.nodes()), Points::Ones(3, solved.spin.cols()));
+  const Points unit =
+      rate_columns(scene, Points::Ones(3, scene.nodes()), Points::Ones(3, solved.spin.cols()));
   const Points away = length * direction.cwiseQuotient(unit);
   moved.start.v = solved.v + away.leftCols(scene.nodes());
   moved.start.spin = solved.spin + away.rightCols(solved.spin.cols());
@@ -97,7 +98,7 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
   constexpr int fewest_restarts = 8, most_restarts = 40, most_iterations = 400;
   const Method method = plain(most_iterations, 1e-15);
   const double scale = change_of(scene, start, solved);
-  const Points end_velocities = columns(scene, solved.v, solved.spin);
+  const Points end_velocities = rate_columns(scene, solved.v, solved.spin);
   Points direction = without_symmetry(scene);
   double last_rate = 0, last_mean = 0;
   for (int restart = 0; restart < most_restarts; ++restart) {

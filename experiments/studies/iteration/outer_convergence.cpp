@@ -19,13 +19,13 @@ namespace {
 using namespace pbd;
 
 /// Errors after each outer iteration, linear problems solved by `relaxation`.
-struct Course {
+struct OuterCourse {
   std::vector<double> error;
   Report report;
 };
 
-Course course(const Scene& scene, const State& start, double h, const Points& reference,
-              std::string_view outer, std::string_view relaxation, int iterations) {
+OuterCourse course(const Scene& scene, const State& start, double h, const Points& reference,
+                   std::string_view outer, std::string_view relaxation, int iterations) {
   Method method;
   method.outer = outer;
   method.relaxation = relaxation;
@@ -33,7 +33,7 @@ Course course(const Scene& scene, const State& start, double h, const Points& re
   method.max_outer = iterations;
   Workspace workspace(scene, method);
   State state = start;
-  Course found;
+  OuterCourse found;
   found.report = step(workspace, h, state, [&](const Iterate& iterate) {
     found.error.push_back(relative_error(iterate.x, reference, start.x));
   });
@@ -51,7 +51,7 @@ std::string behaviour(const std::vector<double>& error) {
 }
 
 constexpr double lead_step = 1.0 / 100;  // s
-constexpr int lead_steps = 30;
+constexpr int chain_lead_steps = 30;
 
 std::vector<Case> pendulums() {
   std::vector<Case> all;
@@ -61,11 +61,11 @@ std::vector<Case> pendulums() {
 
 Case cantilever_case(double young) {
   return {fmt::format("cantilever E={:g} Pa", young), cantilever(8, {young, 0.3}, Strain::green), 1.0 / 60,
-          lead_step, lead_steps};
+          lead_step, chain_lead_steps};
 }
 
-void write_course(Table& table, const std::string& scene, double h, double ratio, std::string_view outer,
-                  std::string_view relaxation, const Course& found) {
+void write_outer_course(Table& table, const std::string& scene, double h, double ratio,
+                        std::string_view outer, std::string_view relaxation, const OuterCourse& found) {
   for (std::size_t k = 0; k < found.error.size(); ++k)
     table.row({scene, h, ratio, std::string(outer), std::string(relaxation), static_cast<std::int64_t>(k),
                found.error[k], std::string(status_names[static_cast<std::size_t>(found.report.status)]),
@@ -76,9 +76,9 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
   for (const auto& [name, scene, h, lead, steps] : pendulums()) {
     const auto judged = truth(scene, scene.initial, h);
     const double predicted = reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius();
-    const Course found = course(scene, scene.initial, h, judged.x, "plain", "direct", 60);
+    const OuterCourse found = course(scene, scene.initial, h, judged.x, "plain", "direct", 60);
     const double measured = measured_rate(scene, scene.initial, h, judged);
-    write_course(errors, "pendulum", h, 1, "plain", "direct", found);
+    write_outer_course(errors, "pendulum", h, 1, "plain", "direct", found);
     map.row({"pendulum", h, 1.0, "plain", predicted, measured, behaviour(found.error), found.error.back(),
              std::string(status_names[static_cast<std::size_t>(found.report.status)]),
              std::string(found.report.reason)});
@@ -117,8 +117,8 @@ void error_curves(Context& context, Table& errors) {
                                                         {"incremental", "direct", 60},
                                                         {"incremental", "gauss_seidel", 200},
                                                         {"frozen", "direct", 3}}) {
-      const Course found = course(each.scene, start, each.h, judged.x, outer, relaxation, iterations);
-      write_course(errors, name, each.h, ratio, outer, relaxation, found);
+      const OuterCourse found = course(each.scene, start, each.h, judged.x, outer, relaxation, iterations);
+      write_outer_course(errors, name, each.h, ratio, outer, relaxation, found);
       if (outer == std::string_view("proximal")) proximal.add(found.error.back());
     }
     context.advance(name);
@@ -127,23 +127,23 @@ void error_curves(Context& context, Table& errors) {
                   "largest error", proximal.value(), 1e-10);
 }
 
-struct Cell {
+struct OuterCell {
   double h, ratio, predicted, measured;
   std::string behaviour;
-  Course course;
+  OuterCourse course;
 };
 
 void chain_map(Context& context, Table& map) {
   const auto ratios = chain_ratios(context.full());
   const auto steps = chain_steps(context.full());
-  std::vector<Cell> cells(ratios.size() * steps.size());
+  std::vector<OuterCell> cells(ratios.size() * steps.size());
   context.parallel(std::ssize(ratios), [&](std::int64_t r) {
     const double ratio = ratios[static_cast<std::size_t>(r)];
     const State start = start_of(swinging_chain(ratio, 0));
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const auto [name, scene, h, lead, lead_count] = swinging_chain(ratio, steps[s]);
       const auto judged = truth(scene, start, h);
-      Cell& cell = cells[static_cast<std::size_t>(r) * steps.size() + s];
+      OuterCell& cell = cells[static_cast<std::size_t>(r) * steps.size() + s];
       cell = {h, ratio, reference::plain_contraction(scene, judged.x, judged.multiplier, h).radius(),
               0, "",    course(scene, start, h, judged.x, "plain", "direct", 1000)};
       cell.measured = measured_rate(scene, start, h, judged);

@@ -13,7 +13,7 @@ using namespace pbd;
 
 constexpr double reached = 1e-8;  // error that iterations are counted to
 
-MapSolve solve(const Case& each, const State& start, const Points& exact, const Method& method) {
+MapSolve solve_cell(const Case& each, const State& start, const Points& exact, const Method& method) {
   MapSolve found{.method = method};
   try {
     const Trace trace = measure_once(each.scene, start, each.h, method, exact);
@@ -44,14 +44,14 @@ std::vector<MapCell> run_map(const Context& context, const StabilityMap& map,
     cell.start = start_of(cell.step);
     cell.exact = truth(cell.step.scene, cell.start, cell.step.h);
     const Points exact = places(cell.step.scene, cell.exact.x, cell.exact.orientation);
-    for (const auto& method : all) cell.solves.push_back(solve(cell.step, cell.start, exact, method));
+    for (const auto& method : all) cell.solves.push_back(solve_cell(cell.step, cell.start, exact, method));
   });
   return cells;
 }
 
 const MapSolve& solve_by_auto(const MapCell& cell) {
   return *std::find_if(cell.solves.begin(), cell.solves.end(),
-                       [](const MapSolve& solve) { return solve.method.outer == "auto"; });
+                       [](const MapSolve& solve_cell) { return solve_cell.method.outer == "auto"; });
 }
 
 }  // namespace pbdcheck

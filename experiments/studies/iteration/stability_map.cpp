@@ -25,7 +25,7 @@ Case stiff_cantilever(double young, double h) {
       cantilever(cells, {young, 0.3}, strain), h};
 }
 
-StabilityMap chain_map(bool full) {
+StabilityMap stability_of_chain(bool full) {
   return {"chain20", "mass_ratio", chain_ratios(full), chain_steps(full), swinging_chain};
 }
 
@@ -133,7 +133,7 @@ void cantilevers(Context& context) {
 
 std::vector<Case> stability_map_cases(bool full) {
   std::vector<Case> all;
-  std::vector<StabilityMap> maps{chain_map(full), rods_map(full), cantilever_map(full)};
+  std::vector<StabilityMap> maps{stability_of_chain(full), rods_map(full), cantilever_map(full)};
   if (full)
     for (StabilityMap& map : larger_maps()) maps.push_back(std::move(map));
   for (const auto& map : maps)
@@ -146,7 +146,7 @@ void stability_map(Context& context) {
   context.begin(context.full() ? 5 + std::ssize(larger_maps()) : 5);
   std::vector<std::vector<MapCell>> found;
   for (const StabilityMap& map :
-       {chain_map(context.full()), rods_map(context.full()), cantilever_map(context.full())}) {
+       {stability_of_chain(context.full()), rods_map(context.full()), cantilever_map(context.full())}) {
     found.push_back(run_map(context, map, methods(context.full())));
     Table table = map_table(context, map.scene, map.value_column);
     write_map(table, map, found.back());

@@ -13,7 +13,7 @@ namespace {
 
 using namespace pbd;
 
-struct Prediction {
+struct RatePrediction {
   double radius = 0;     // of the dense matrices
   double predicted = 0;  // by the solver, at the end of the step by auto
   bool returns = false;  // plain does to the solution, from beside it
@@ -22,8 +22,8 @@ struct Prediction {
   bool agrees() const { return returns ? predicted < 1 : predicted >= 1; }
 };
 
-std::vector<Prediction> predictions(const Context& context, const std::vector<MapCell>& cells) {
-  std::vector<Prediction> all(cells.size());
+std::vector<RatePrediction> predictions(const Context& context, const std::vector<MapCell>& cells) {
+  std::vector<RatePrediction> all(cells.size());
   context.parallel(std::ssize(cells), [&](std::int64_t index) {
     const auto& cell = cells[static_cast<std::size_t>(index)];
     const auto& [name, scene, h, lead, lead_steps] = cell.step;
@@ -44,7 +44,7 @@ void prediction_verdicts(Context& context, const std::vector<MapCell>& cells) {
   Worst rate;
   double decided = 0, wrong = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    const Prediction& found = all[k];
+    const RatePrediction& found = all[k];
     table.row({"chain20", cells[k].step.h, cells[k].value, found.radius, found.predicted,
                found.returns ? "converged" : "oscillating"});
     if (std::abs(found.radius - 1) > undecided) ++decided, wrong += found.agrees() ? 0 : 1;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene.h"
+#include "scenes/contacts.h"
 
 namespace pbdcheck {
 
@@ -25,6 +25,12 @@ struct ContactCase {
   /// Relative error of a motion that is known, after steps of h seconds.
   std::function<double(const pbd::State& end, double h, std::int64_t steps)> missed = {};
 };
+
+// What the scenes share.
+inline constexpr double video_frame = 1.0 / 60;  // s
+inline Eigen::Quaterniond about_y(double angle) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, pbd::Vec3::UnitY()));
+}
 
 /// Scenes that stand, or fall where they should; scenes that slide, roll, swing and spin.
 std::vector<ContactCase> cases_at_rest(bool full);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "scenes/arch.h"
-#include "scenes/contacts.h"
 #include "studies/robustness/contact_cases.h"
 
 namespace pbdcheck {
@@ -14,12 +13,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, pi = std::numbers::pi;
-constexpr double frame = 1.0 / 60;  // s
-
-Eigen::Quaterniond about_y(double angle) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY()));
-}
+using std::numbers::pi;
 
 double weight(const Scene& scene) {
   double mass = 0;
@@ -58,8 +52,8 @@ ContactCase heavy_top(int base, double ratio, double duration) {
   const auto top = static_cast<std::size_t>(scene.bodies.back().node);
   scene.mass[top] *= ratio;
   scene.bodies.back().inertia *= ratio;
-  return at_rest(fmt::format("pyramid of base {} with a top {}:1", base, ratio), std::move(scene), frame,
-                 duration, 0.2);
+  return at_rest(fmt::format("pyramid of base {} with a top {}:1", base, ratio), std::move(scene),
+                 video_frame, duration, 0.2);
 }
 
 /// Box2D's HighMassRatio2: 400:1 dropped on two small boxes.
@@ -68,7 +62,7 @@ ContactCase dropped_box() {
   build.ground();
   for (const double x : {-9.0, 9.0}) build.box(Vec3::Constant(1), 1, {Vec3(x, 0, 0.5)});
   build.box(Vec3(20, 4, 20), 400, {Vec3(0, 0, 11 + 15)});
-  return {"box of 400:1 dropped on two small ones", build.finish(), frame, 4, 1};
+  return {"box of 400:1 dropped on two small ones", build.finish(), video_frame, 4, 1};
 }
 
 ContactCase heavy_cylinder(double mass) {
@@ -76,7 +70,8 @@ ContactCase heavy_cylinder(double mass) {
   build.ground();
   build.box(Vec3::Constant(0.5), 1, {Vec3(0, 0, 0.25)});
   build.cylinder(0.5, 1, mass, {Vec3(0, 0, 1)});
-  return at_rest(fmt::format("cylinder of {:g} kg on a cube of 1 kg", mass), build.finish(), frame, 1, 0.5);
+  return at_rest(fmt::format("cylinder of {:g} kg on a cube of 1 kg", mass), build.finish(), video_frame, 1,
+                 0.5);
 }
 
 /// A leaning card of 1 m: how far its corners are from its centre, m.
@@ -124,7 +119,7 @@ ContactCase table() {
     for (const double y : {-0.4, 0.4})
       build.contact().collider.push_back(
           {Box{Vec3(leg, leg, height)}, top, {Vec3(x, y, -(height + leg) / 2)}, 0});
-  return at_rest("table on four legs", build.finish(), frame, 1, leg);
+  return at_rest("table on four legs", build.finish(), video_frame, 1, leg);
 }
 
 /// A-frames of two cards each, `levels` high, floors between them (65 degrees, friction 0.5).
@@ -158,7 +153,8 @@ ContactCase slab(int side) {
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) build.fixed(Box{Vec3::Constant(0.05)}, {Vec3(i * 0.1, j * 0.1, 0.025)});
   build.box(Vec3(0.1 * side, 0.1 * side, 0.1), 10, {Vec3(0.05 * (side - 1), 0.05 * (side - 1), 0.1)});
-  ContactCase made = at_rest(fmt::format("slab on {} cubes", side * side), build.finish(), frame, 1, 0.1);
+  ContactCase made =
+      at_rest(fmt::format("slab on {} cubes", side * side), build.finish(), video_frame, 1, 0.1);
   made.reaction = -1;  // the cubes carry it
   return made;
 }
@@ -172,7 +168,7 @@ std::vector<ContactCase> cases_at_rest(bool full) {
     if (full || ratio == 300) all.push_back(heavy_top(full ? 10 : 5, ratio, full ? 10 : 1));
   all.push_back(dropped_box());
   for (const double mass : {60.0, 100.0}) all.push_back(heavy_cylinder(mass));
-  all.push_back(at_rest("cubes, each twice as heavy", column(10, 2), frame, 1, 0.2));
+  all.push_back(at_rest("cubes, each twice as heavy", column(10, 2), video_frame, 1, 0.2));
   for (const double degrees : {60.0, 75.0})
     for (const double beyond_limit : {0.01, -0.01}) all.push_back(leaning_card(degrees, beyond_limit));
   for (const int levels : {2, 3, 4})

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "scenes/contacts.h"
 #include "studies/robustness/contact_cases.h"
 
 namespace pbdcheck {
@@ -13,12 +12,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, pi = std::numbers::pi;
-constexpr double frame = 1.0 / 60;  // s
-
-Eigen::Quaterniond about_y(double angle) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY()));
-}
+using std::numbers::pi;
 
 /// `friction` just above the tangent of the angle, 0.499999, and below (li2020incremental).
 ContactCase on_incline(double friction, bool holds) {
@@ -65,13 +59,13 @@ ContactCase wrecking_ball(int links, double ratio) {
   }
   Scene scene = build.finish();
   scene.effects.emplace_back(std::move(joints));
-  ContactCase made{fmt::format("wrecking ball of {:g}:1 on {} links", ratio, links), std::move(scene), frame,
-                   3, 0.05};
+  ContactCase made{fmt::format("wrecking ball of {:g}:1 on {} links", ratio, links), std::move(scene),
+                   video_frame, 3, 0.05};
   made.settles = false;
   return made;
 }
 
-ContactCase balls(int side) {
+ContactCase colliding_balls(int side) {
   BodyScene build({.friction = 0});
   build.ground();
   std::mt19937_64 engine(42);
@@ -129,7 +123,7 @@ std::vector<ContactCase> moving_cases(bool full) {
   for (const double friction : {0.0, 1e-6, 0.5, 1.0, 5.0, 10.0, 1e6}) all.push_back(rough_cube(friction));
   for (const int links : {3, 5, 10})
     if (full || links == 3) all.push_back(wrecking_ball(links, 100));
-  all.push_back(balls(full ? 6 : 3));
+  all.push_back(colliding_balls(full ? 6 : 3));
   if (full) all.push_back(coin());
   for (const double friction : {0.1, 0.5, 1.0}) all.push_back(turntable(friction));
   return all;

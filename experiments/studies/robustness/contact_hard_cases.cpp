@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "harness/measure.h"
+#include "scenes/standard.h"
 #include "studies/contact/contact_answers.h"
 #include "studies/experiments.h"
 #include "studies/robustness/contact_cases.h"
@@ -29,8 +30,6 @@ namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-constexpr double gravity = 9.81;
 
 double kinetic(const Scene& scene, const State& state) {
   double sum = 0;
@@ -86,7 +85,7 @@ double joint_error(const Scene& scene, const State& state) {
   return worst;
 }
 
-struct Run {
+struct CaseRun {
   std::vector<Gate> gates;
   std::int64_t steps = 0, ok = 0, sweeps = 0;
   Status worst = Status::ok;
@@ -128,8 +127,8 @@ std::vector<Gate> gates_of(const ContactCase& each, const Watched& watched, cons
   };
 }
 
-Run simulate(const ContactCase& each, const Method& method, double h) {
-  Run run;
+CaseRun run_contact_case(const ContactCase& each, const Method& method, double h) {
+  CaseRun run;
   const Scene& scene = each.scene;
   Workspace workspace(scene, method);
   State state = scene.initial;
@@ -182,25 +181,25 @@ struct Frontier {
 
 /// Longer steps and fewer sweeps while the gates hold; where they do not hold as it is, shorter steps until
 /// they do.
-Frontier frontier_of(const ContactCase& each, const Method& method, bool holds) {
+Frontier contact_frontier(const ContactCase& each, const Method& method, bool holds) {
   Frontier frontier;
   if (holds) {
     frontier.largest_step = each.h;
     for (const double factor : {2.0, 4.0, 8.0}) {
-      if (!simulate(each, method, factor * each.h).all_hold()) break;
+      if (!run_contact_case(each, method, factor * each.h).all_hold()) break;
       frontier.largest_step = factor * each.h;
     }
     frontier.fewest_sweeps = method.max_sweeps;
     for (const int most : {100, 30, 10, 3, 1}) {
       Method tried = method;
       tried.max_sweeps = most;
-      if (!simulate(each, tried, each.h).all_hold()) break;
+      if (!run_contact_case(each, tried, each.h).all_hold()) break;
       frontier.fewest_sweeps = most;
     }
     return frontier;
   }
   for (const double factor : {0.5, 0.25})
-    if (simulate(each, method, factor * each.h).all_hold()) {
+    if (run_contact_case(each, method, factor * each.h).all_hold()) {
       frontier.largest_step = factor * each.h;
       break;
     }
@@ -227,7 +226,7 @@ void contact_hard_cases(Context& context) {
       Method method;
       method.relaxation = relaxation;
       if (relaxation != relaxations[0]) method.max_outer = 10, method.max_sweeps = 100;
-      const Run run = simulate(each, method, each.h);
+      const CaseRun run = run_contact_case(each, method, each.h);
       const std::string status(status_names[static_cast<std::size_t>(run.worst)]);
       for (const Gate& gate : run.gates) {
         if (!gate.skipped.empty()) continue;
@@ -242,7 +241,7 @@ void contact_hard_cases(Context& context) {
         worst[index].add(gate.measured);
       }
       if (relaxation != relaxations[0]) continue;
-      const Frontier frontier = frontier_of(each, method, run.all_hold());
+      const Frontier frontier = contact_frontier(each, method, run.all_hold());
       frontiers.row({each.name, method.outer, relaxation, method.friction, frontier.largest_step,
                      frontier.fewest_sweeps, status, run.reason});
     }

@@ -48,7 +48,7 @@ void judge_claim(const Case& each, const Method& method, const State& end, Solve
   solved.claim = allowed > 0 ? found.residual / allowed : found.residual;
 }
 
-Solved solve(const Case& each, std::string_view relaxation, const std::optional<Judged>& exact) {
+Solved solve_scene(const Case& each, std::string_view relaxation, const std::optional<Judged>& exact) {
   Solved solved;
   solved.relaxation = relaxation;
   Method method;
@@ -88,7 +88,7 @@ void generated_scenes(Context& context) {
       judge_says[static_cast<std::size_t>(i)] = exact->status;
     }
     for (const auto relaxation : relaxations)
-      all[static_cast<std::size_t>(i)].push_back(solve(each, relaxation, exact));
+      all[static_cast<std::size_t>(i)].push_back(solve_scene(each, relaxation, exact));
     const std::lock_guard lock(mutex);
     context.advance(each.name);
   });

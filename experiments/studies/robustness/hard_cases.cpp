@@ -16,7 +16,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double gravity = 9.81, density = 1000;  // m/s^2, kg/m^3
+constexpr double density = 1000;  // kg/m^3
 constexpr double frame_s = 1.0 / 60;
 
 /// Rope of `links` links of 1 m and 0.5 kg a node, the last one `ratio` times that, from a fixed node along
@@ -99,7 +99,7 @@ double beam_frequency(double young) {
   return std::max(0.1615 * 2 * std::numbers::pi * 0.25 * std::sqrt(young / density), std::sqrt(gravity));
 }
 
-void stiffness(std::vector<HardCase>& all, int cells) {
+void stiffness_cases(std::vector<HardCase>& all, int cells) {
   for (const double young : {1e2, 1e4, 1e6, 1e8})
     all.push_back({fmt::format("Young's modulus {:.0e} Pa", young),
                    cantilever(cells, {young, 0.3}, Strain::corotational), 0.025, 1,
@@ -118,7 +118,7 @@ Scene twisted_rod(int cells) {
   return scene;
 }
 
-void steps(std::vector<HardCase>& all, int cells) {
+void case_steps(std::vector<HardCase>& all, int cells) {
   const double slowest = std::sqrt(1e4 / density);  // slower than any wave over the rod's 1 m
   for (const double h : {0.002, 0.005, 0.01, 0.025, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0})
     all.push_back({fmt::format("twisted rod, step {:g} s", h), twisted_rod(cells), h, 1, slowest});
@@ -216,8 +216,8 @@ std::vector<HardCase> hard_cases(bool full) {
   ropes(all);
   all.push_back(slabs(full ? 8 : 4, 1e4));
   all.push_back(joint_grid(full ? 24 : 6));
-  stiffness(all, beam);
-  steps(all, beam);
+  stiffness_cases(all, beam);
+  case_steps(all, beam);
   recoveries(all, full ? 3 : 2);
   for (const double poisson : {0.45, 0.49, 0.499, 0.4999, 0.49999})
     all.push_back(membrane(full ? 8 : 4, poisson));

@@ -21,7 +21,7 @@ double chain_shape(int node) {
 
 // ---- a regular tetrahedron with corners at distance sqrt(3) r from its centre
 
-constexpr double r = 0.1, density = 1000;  // m, kg/m^3
+constexpr double r = 0.1, ball_density = 1000;  // m, kg/m^3
 const Eigen::Matrix<double, 3, 4> corners =
     (Eigen::Matrix<double, 3, 4>() << r, -r, -r, r, r, -r, r, -r, r, r, -r, -r).finished();
 
@@ -32,7 +32,7 @@ Scene tetrahedron(const Eigen::Matrix3d& shape, const Material& elastic, const M
   TetMesh mesh;
   mesh.x = corners;
   mesh.tets = {{0, 1, 2, 3}};
-  add_solid(scene, mesh, density, elastic, Strain::corotational);
+  add_solid(scene, mesh, ball_density, elastic, Strain::corotational);
   std::get<TetStrain>(scene.effects[0]).damping = damping;
   scene.initial.x = (Eigen::Matrix3d::Identity() + amplitude * shape) * corners;
   return scene;
@@ -90,14 +90,14 @@ Oscillator damped_chain() {
 
 Oscillator breathing_tetrahedron() {
   return {"tetrahedron, breathing", tetrahedron(Eigen::Matrix3d::Identity(), elastic, viscous),
-          std::sqrt(3 * bulk(elastic) / density) / r, bulk(viscous) / bulk(elastic),
+          std::sqrt(3 * bulk(elastic) / ball_density) / r, bulk(viscous) / bulk(elastic),
           [](const Scene&, const Points& x) { return x.col(0).dot(corners.col(0)) / (3 * r * r) - 1; }};
 }
 
 Oscillator shearing_tetrahedron() {
   const Eigen::Matrix3d shape = Vec3(1, -1, 0).asDiagonal();
   return {"tetrahedron, shearing", tetrahedron(shape, elastic, viscous),
-          std::sqrt(2 * shear(elastic) / density) / r, shear(viscous) / shear(elastic),
+          std::sqrt(2 * shear(elastic) / ball_density) / r, shear(viscous) / shear(elastic),
           [](const Scene&, const Points& x) { return x(0, 0) / r - 1; }};
 }
 

@@ -32,7 +32,7 @@ Discrete every(double a, double b, double c, double d) {
   return {std::sqrt(square), std::acos((d + square * b) / (2 * std::sqrt(square) * c))};
 }
 
-struct Run {
+struct DampedRun {
   const Oscillator* oscillator;
   OscillatorRule rule;
   std::string outer;
@@ -46,7 +46,7 @@ struct Run {
   double error() const { return status == Status::ok ? std::abs(decrement / exact - 1) : std::nan(""); }
 };
 
-void measure(Run& run) {
+void measure(DampedRun& run) {
   const Oscillator& oscillator = *run.oscillator;
   Method method = method_of(run.rule);
   method.outer = run.outer;
@@ -70,10 +70,10 @@ void measure(Run& run) {
       reference::logarithmic_decrement(run.rule.step(run.h, oscillator.frequency, oscillator.retardation));
 }
 
-std::vector<Run> runs(const std::vector<Oscillator>& oscillators, bool full) {
+std::vector<DampedRun> runs(const std::vector<Oscillator>& oscillators, bool full) {
   std::vector<double> steps{0.04, 0.02, 0.01, 0.005, 0.0025, 0.00125, 0.000625};
   if (full) steps.push_back(0.0003125);
-  std::vector<Run> all;
+  std::vector<DampedRun> all;
   for (const auto& oscillator : oscillators) {
     const bool solid = std::holds_alternative<TetStrain>(oscillator.scene.effects.front());
     for (const auto& rule : reference::oscillator_rules())
@@ -120,12 +120,14 @@ void decrements(Context& context, const std::vector<Oscillator>& oscillators) {
   }
   const auto limit = reference::damped_spring(spring_stiffness, 1, damping_coefficient);
   for (const auto& rule : reference::oscillator_rules()) {
-    std::vector<const Run*> finest;  // the springs' runs with 1000 sweeps, coarse to fine
+    std::vector<const DampedRun*> finest;  // the springs' runs with 1000 sweeps, coarse to fine
     for (const auto& run : all)
       if (run.oscillator == oscillators.data() && label(run.rule) == label(rule) && run.sweeps == 1000)
         finest.push_back(&run);
-    const auto difference = [&](const Run& run) { return std::abs(run.rate - damping_coefficient / 2); };
-    const Run &fine = *finest.back(), &coarse = *finest[finest.size() - 2];
+    const auto difference = [&](const DampedRun& run) {
+      return std::abs(run.rate - damping_coefficient / 2);
+    };
+    const DampedRun &fine = *finest.back(), &coarse = *finest[finest.size() - 2];
     // Of bdf2 the term of the next order is the larger one at long steps.
     const double order = std::log2(difference(coarse) / difference(fine));
     context.verdict("damping.order." + id_of(rule),

@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "harness/measure.h"
+#include "scenes/standard.h"
 #include "studies/time/direction.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-constexpr double gravity = 9.81;  // m/s^2
 
 struct Swing {
   DirectionRun run;

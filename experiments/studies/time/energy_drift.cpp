@@ -15,10 +15,10 @@ namespace {
 
 using namespace pbd;
 
-constexpr double duration = 10;  // s
+constexpr double drift_duration = 10;  // s
 constexpr int levels = 3;
 
-struct Motion {
+struct DriftMotion {
   std::string name;
   Scene scene;
   double coarsest;  // s
@@ -30,22 +30,22 @@ Scene spring_pendulum() {
   return scene;
 }
 
-struct Level {
+struct DriftLevel {
   double h;
   double drift = 0;  // largest |E - E0| over the scale
   Simulation run{};
 };
 
-struct Course {
-  const Motion* motion;
+struct DriftCourse {
+  const DriftMotion* motion;
   Rule rule;
-  std::vector<Level> level{};
+  std::vector<DriftLevel> level{};
 };
 
-void follow(const Scene& scene, const Method& method, Level& level) {
+void follow_drift(const Scene& scene, const Method& method, DriftLevel& level) {
   const double start = total_energy(scene, scene.initial), scale = energy_scale(scene);
   Worst drift;
-  const int steps = static_cast<int>(std::lround(duration / level.h));
+  const int steps = static_cast<int>(std::lround(drift_duration / level.h));
   level.run = simulate_steps(scene, method, level.h, steps, [&](const State&, const State& now) {
     drift.add(std::abs(total_energy(scene, now) - start) / scale);
     return drift.value() < 10 ? "" : "energy grew by ten times its scale";
@@ -53,7 +53,7 @@ void follow(const Scene& scene, const Method& method, Level& level) {
   level.drift = drift.value();
 }
 
-void conclude(Context& context, Table& table, const Course& course) {
+void conclude_drift(Context& context, Table& table, const DriftCourse& course) {
   bool ok = true;
   std::vector<double> ratio;  // of the coarser level's drift over this one's
   double coarser = std::nan("");
@@ -76,10 +76,10 @@ void conclude(Context& context, Table& table, const Course& course) {
 }  // namespace
 
 void energy_drift(Context& context) {
-  const std::vector<Motion> motions{{"spring_pendulum", spring_pendulum(), 1.0 / 60},
-                                    {"free_beam", free_beam(context.full() ? 4 : 2, 1e4), 1.0 / 240}};
-  std::vector<Course> courses;
-  for (const Motion& motion : motions)
+  const std::vector<DriftMotion> motions{{"spring_pendulum", spring_pendulum(), 1.0 / 60},
+                                         {"free_beam", free_beam(context.full() ? 4 : 2, 1e4), 1.0 / 240}};
+  std::vector<DriftCourse> courses;
+  for (const DriftMotion& motion : motions)
     for (const Rule& rule : integrator_rules({0.5})) {
       const auto& name = rule.method.integrator;
       if (name != "newmark" && name != "midpoint") continue;
@@ -87,12 +87,13 @@ void energy_drift(Context& context) {
       for (int k = 0; k < levels; ++k) courses.back().level.push_back({motion.coarsest / (1 << k)});
     }
   context.parallel(std::ssize(courses) * levels, [&](std::int64_t index) {
-    Course& course = courses[static_cast<std::size_t>(index / levels)];
-    follow(course.motion->scene, course.rule.method, course.level[static_cast<std::size_t>(index % levels)]);
+    DriftCourse& course = courses[static_cast<std::size_t>(index / levels)];
+    follow_drift(course.motion->scene, course.rule.method,
+                 course.level[static_cast<std::size_t>(index % levels)]);
   });
   Table table = context.table("drift", {"scene", "integrator", "alpha", "outer", "relaxation", "step_s",
                                         "drift", "ratio", "status", "reason"});
-  for (const Course& course : courses) conclude(context, table, course);
+  for (const DriftCourse& course : courses) conclude_drift(context, table, course);
   table.close();
   context.advance("drift");
 }

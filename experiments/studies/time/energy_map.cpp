@@ -13,8 +13,8 @@ namespace {
 
 using namespace pbd;
 
-constexpr double rate = 5;       // rad/s
-constexpr double duration = 10;  // s
+constexpr double rate = 5;                // rad/s
+constexpr double circling_duration = 10;  // s
 const std::vector<double> alphas{0.5, 0.5025, 0.505, 0.51, 0.515, 0.52, 0.53, 0.55, 0.6, 1};
 
 /// 1 kg circling 1 m about the origin; the link's rest length makes that an equilibrium.
@@ -35,18 +35,19 @@ struct CircleCell {
   Simulation run{};
 
   /// Multiplied over the whole time, rounding becomes as large as the motion.
-  bool grows() const { return std::log(growth) * duration / h > -std::log(0x1p-52); }
+  bool grows() const { return std::log(growth) * circling_duration / h > -std::log(0x1p-52); }
   bool decays() const { return growth <= 1 + 1e-9; }
   bool safe() const { return run.status == Status::ok; }
 };
 
-void follow(CircleCell& cell) {
+void follow_circle(CircleCell& cell) {
   const Scene scene = circling(cell.compliance);
   const double stiffness = cell.compliance > 0 ? cell.h / std::sqrt(cell.compliance) : infinity;
   cell.growth = reference::circling_growth(cell.alpha, rate * cell.h, stiffness);
   const double start = total_energy(scene, scene.initial);
   Worst factor;
-  cell.run = simulate_steps(scene, cell.rule.method, cell.h, static_cast<int>(std::lround(duration / cell.h)),
+  cell.run = simulate_steps(scene, cell.rule.method, cell.h,
+                            static_cast<int>(std::lround(circling_duration / cell.h)),
                             [&](const State&, const State& now) {
                               factor.add(total_energy(scene, now) / start);
                               return factor.value() < 2 ? "" : "energy doubled";
@@ -54,7 +55,7 @@ void follow(CircleCell& cell) {
   cell.energy_factor = factor.value();
 }
 
-std::vector<CircleCell> make_cells(bool full) {
+std::vector<CircleCell> circle_cells(bool full) {
   std::vector<double> steps{1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240};
   if (full) steps = {1.0 / 30, 1.0 / 42, 1.0 / 60, 1.0 / 85, 1.0 / 120, 1.0 / 170, 1.0 / 240, 1.0 / 480};
   std::vector<CircleCell> cells;
@@ -66,7 +67,7 @@ std::vector<CircleCell> make_cells(bool full) {
   return cells;
 }
 
-void write_map(Context& context, const std::vector<CircleCell>& cells) {
+void write_circle_map(Context& context, const std::vector<CircleCell>& cells) {
   Table table =
       context.table("map", {"scene", "integrator", "alpha", "outer", "relaxation", "compliance_m_per_n",
                             "step_s", "predicted_growth", "energy_factor", "status", "reason"});
@@ -89,7 +90,7 @@ void write_map(Context& context, const std::vector<CircleCell>& cells) {
 }
 
 /// The smallest alpha of the map from which on no larger one blows up, beside the predicted one.
-void write_frontier(Context& context, const std::vector<CircleCell>& cells) {
+void write_circle_frontier(Context& context, const std::vector<CircleCell>& cells) {
   Table table =
       context.table("frontier", {"scene", "compliance_m_per_n", "step_s", "predicted_alpha", "safe_alpha"});
   for (const CircleCell& cell : cells) {
@@ -110,11 +111,11 @@ void write_frontier(Context& context, const std::vector<CircleCell>& cells) {
 }  // namespace
 
 void energy_map(Context& context) {
-  auto cells = make_cells(context.full());
+  auto cells = circle_cells(context.full());
   context.parallel(std::ssize(cells),
-                   [&](std::int64_t index) { follow(cells[static_cast<std::size_t>(index)]); });
-  write_map(context, cells);
-  write_frontier(context, cells);
+                   [&](std::int64_t index) { follow_circle(cells[static_cast<std::size_t>(index)]); });
+  write_circle_map(context, cells);
+  write_circle_frontier(context, cells);
   context.advance("map");
 }
 

@@ -95,7 +95,7 @@ struct Body {
   bool hard = false;
 };
 
-struct Course {
+struct FreeCourse {
   const Body* body;
   Rule rule;
   bool solved;                                                 // or stopped early
@@ -105,7 +105,7 @@ struct Course {
   Simulation run{};
 };
 
-void follow(Course& course) {
+void follow_free(FreeCourse& course) {
   const Scene& scene = course.body->scene;
   const Vec3 linear = linear_momentum(scene, scene.initial), angular = angular_momentum(scene, scene.initial);
   double spin = 0;
@@ -137,8 +137,8 @@ void follow(Course& course) {
   course.unexplained = unexplained.value();
 }
 
-std::vector<Course> make_courses(const std::vector<Body>& bodies) {
-  std::vector<Course> all;
+std::vector<FreeCourse> make_courses(const std::vector<Body>& bodies) {
+  std::vector<FreeCourse> all;
   for (const Body& body : bodies)
     for (Rule rule : integrator_rules({0.5, 0.55})) {
       if (body.hard && rule.marginal) continue;  // blows up
@@ -156,7 +156,7 @@ std::vector<Course> make_courses(const std::vector<Body>& bodies) {
   return all;
 }
 
-void write(Table& table, const Course& course) {
+void write_course(Table& table, const FreeCourse& course) {
   std::vector<Cell> row{course.body->name};
   for (auto& cell : method_cells(course.rule)) row.push_back(std::move(cell));
   row.insert(row.end(), {std::int64_t{course.rule.method.max_outer}, h, std::int64_t{course.run.steps},
@@ -174,13 +174,13 @@ void energy_momentum(Context& context) {
                                  {"solid", free_beam(2, 1e5)}};
   auto courses = make_courses(bodies);
   context.parallel(std::ssize(courses),
-                   [&](std::int64_t index) { follow(courses[static_cast<std::size_t>(index)]); });
+                   [&](std::int64_t index) { follow_free(courses[static_cast<std::size_t>(index)]); });
   Table table = context.table(
       "momentum", {"scene", "integrator", "alpha", "outer", "relaxation", "max_outer", "step_s", "steps",
                    "steps_ok", "linear_error", "angular_error", "angular_unexplained", "status", "reason"});
   Worst linear, kept, explained;
-  for (const Course& course : courses) {
-    write(table, course);
+  for (const FreeCourse& course : courses) {
+    write_course(table, course);
     linear.add(course.linear);
     if (!course.solved) continue;
     const bool ok = course.run.status == Status::ok;

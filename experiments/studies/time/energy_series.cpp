@@ -15,13 +15,13 @@ using namespace pbd;
 constexpr double duration = 10;                       // s
 constexpr double oscillation = 4 * std::numbers::pi;  // rad/s
 
-struct Motion {
+struct SeriesMotion {
   std::string name;
   Scene scene;
 };
 
 /// 1 kg on a link along x of rest length 1 m, 0.1 m beyond it.
-Scene spring() {
+Scene series_spring() {
   Scene scene;
   add_node(scene, Vec3::Zero(), infinity);
   add_node(scene, Vec3(1.1, 0, 0), 1);
@@ -36,8 +36,8 @@ Scene pendulum_on_spring(double stiffness) {
   return scene;
 }
 
-std::vector<Motion> motions() {
-  return {{"spring", spring()},
+std::vector<SeriesMotion> series_motions() {
+  return {{"spring", series_spring()},
           {"hard pendulum", pendulum_on_spring(infinity)},
           {"pendulum, 1e4 N/m", pendulum_on_spring(1e4)},
           {"spring pendulum, 100 N/m", pendulum_on_spring(100)},
@@ -50,7 +50,7 @@ struct Sample {
 };
 
 struct Series {
-  const Motion* motion;
+  const SeriesMotion* motion;
   Rule rule;
   double h;
   std::vector<Sample> samples{};
@@ -81,7 +81,7 @@ void follow(Series& series) {
   series.largest_change = change.value();
 }
 
-void write(Table& table, const Series& series) {
+void write_series(Table& table, const Series& series) {
   for (const auto& [time, energy, momentum, angular] : series.samples) {
     std::vector<Cell> row{series.motion->name};
     for (auto& cell : method_cells(series.rule)) row.push_back(std::move(cell));
@@ -109,9 +109,9 @@ void linear_verdicts(Context& context, const Series& series) {
 }  // namespace
 
 void energy_series(Context& context) {
-  const auto scenes = motions();
+  const auto scenes = series_motions();
   std::vector<Series> all;
-  for (const Motion& motion : scenes)
+  for (const SeriesMotion& motion : scenes)
     for (const double h : context.full() ? std::vector{1.0 / 60, 1.0 / 240} : std::vector{1.0 / 60})
       for (const Rule& rule : integrator_rules({1, 0.6, 0.55, 0.52, 0.5})) all.push_back({&motion, rule, h});
   context.parallel(std::ssize(all),
@@ -120,7 +120,7 @@ void energy_series(Context& context) {
       "series", {"scene", "integrator", "alpha", "outer", "relaxation", "step_s", "time_s", "energy_j",
                  "scale_j", "momentum_kg_m_s", "angular_momentum_kg_m2_s", "status", "reason"});
   for (const Series& series : all) {
-    write(table, series);
+    write_series(table, series);
     if (series.motion->name == "spring" && series.h == 1.0 / 60) linear_verdicts(context, series);
   }
   table.close();

@@ -6,11 +6,7 @@
 
 using namespace pbdcheck::test;
 
-namespace {
-
-const std::filesystem::path scenes = PBDCHECK_SCENES;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("compare writes the reference's row and every iterate of every method, with errors that fall") {
   const TemporaryFolder folder;

@@ -12,8 +12,6 @@ using namespace pbdcheck::test;
 
 namespace {
 
-const std::filesystem::path scenes = PBDCHECK_SCENES;
-
 /// A particle under the largest acceleration a scene may state, its energy written down.
 constexpr const char* falling_particle =
     "[gravity]\nacceleration_m_s2 = [0, 0, -1e100]\n[[particle]]\nposition_m = [0, 0, 0]\nmass_kg = 1\n"

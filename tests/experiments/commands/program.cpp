@@ -10,11 +10,7 @@
 using namespace pbdcheck;
 using namespace pbdcheck::test;
 
-namespace {
-
-const std::filesystem::path scenes = PBDCHECK_SCENES;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("every scene that comes with the program is read, and says what it shows") {
   int count = 0;

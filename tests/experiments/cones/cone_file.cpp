@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-PlantedCone stack() {
+PlantedCone stack_problem() {
   return planted_families()[5].draw(FrictionLaw::coulomb, 2);
 }
 
@@ -61,7 +61,7 @@ void check_same(const ConeProblem& read, const ConeProblem& written) {
 
 TEST_CASE("a problem survives writing and reading in each form") {
   const TemporaryFolder folder;
-  const PlantedCone p = stack();
+  const PlantedCone p = stack_problem();
   const MatrixXd w = p.problem.delassus;
   ConeSolution solution;
   solution.impulse = p.impulse, solution.velocity = p.velocity;
@@ -154,7 +154,7 @@ TEST_CASE("one contact that separates is left alone, however much friction there
 
 TEST_CASE("HDF5 files cut short anywhere are refused, never a crash") {
   const TemporaryFolder folder;
-  const PlantedCone p = stack();
+  const PlantedCone p = stack_problem();
   ConeSolution solution;
   solution.impulse = p.impulse, solution.velocity = p.velocity;
   write_cone_file(folder.path / "p.hdf5", p.problem, solution);
@@ -168,7 +168,7 @@ TEST_CASE("HDF5 files cut short anywhere are refused, never a crash") {
 
 TEST_CASE("cone prints one JSON object and writes what it solved") {
   const TemporaryFolder folder;
-  const PlantedCone p = stack();
+  const PlantedCone p = stack_problem();
   ConeSolution nothing;
   nothing.impulse = nothing.velocity = VectorXd::Zero(p.impulse.size());
   write_cone_file(folder.path / "p.hdf5", p.problem, nothing);

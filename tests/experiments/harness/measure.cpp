@@ -13,7 +13,7 @@ namespace {
 // A mass of 2 kg at rest on a spring of rest length 1 m and stiffness k, stretched to 1.5 m.
 constexpr double mass = 2, stiffness = 8, stretch = 0.5;
 
-pbd::Scene spring() {
+pbd::Scene one_spring() {
   pbd::Scene scene;
   pbd::add_node(scene, {0, 0, 0}, pbd::infinity);
   pbd::add_node(scene, {1 + stretch, 0, 0}, mass, {0, 3, 0});
@@ -24,7 +24,7 @@ pbd::Scene spring() {
 }  // namespace
 
 TEST_CASE("a trace ends at the step's solution, its work and time never fall") {
-  pbd::Scene scene = spring();
+  pbd::Scene scene = one_spring();
   scene.initial.v.setZero();
   const double h = 0.1;
   pbd::Points solution = scene.initial.x;  // of m (x - x_l)/h^2 = -k (x - 1)
@@ -77,7 +77,7 @@ TEST_CASE("a body's turn counts as that of points at its radii of gyration") {
 }
 
 TEST_CASE("energies and constraint errors are those of the formulas") {
-  pbd::Scene scene = spring();
+  pbd::Scene scene = one_spring();
   CHECK(kinetic_energy(scene, scene.initial) == Approx(mass * 9 / 2));
   CHECK(elastic_energy(scene, scene.initial) == Approx(stiffness * stretch * stretch / 2));
   CHECK(gravity_energy(scene, scene.initial) == 0);

@@ -13,9 +13,7 @@ using pbd::Vec3;
 
 namespace {
 
-const std::filesystem::path scenes = PBDCHECK_SCENES;
-
-SceneFile read(const std::string& text) {
+SceneFile read_contact_scene(const std::string& text) {
   const TemporaryFolder folder;
   return read_scene_file(folder.write("scene.toml", text + "[step]\nstep_s = 0.01\nsteps = 30\n"));
 }
@@ -34,8 +32,6 @@ struct Run {
   double number(std::size_t i) const { return std::get<double>(probes.at(i)); }
   Vec3 vector(std::size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
 };
-
-constexpr double gravity = 9.81;
 
 const std::string stone_and_wood = R"(
 [gravity]
@@ -80,7 +76,7 @@ relaxation = "direct"
 }  // namespace
 
 TEST_CASE("a scene of contact in a file moves as the same one built by hand does, bit for bit") {
-  auto file = read(stone_and_wood);
+  auto file = read_contact_scene(stone_and_wood);
 
   const pbd::ContactLaw all{.friction = 0.4, .restitution = 0.25};
   BodyScene build(all);
@@ -104,7 +100,7 @@ TEST_CASE("a scene of contact in a file moves as the same one built by hand does
 }
 
 TEST_CASE("nodes of every kind of table touch, all of them or those that are chosen") {
-  const auto file = read(R"(
+  const auto file = read_contact_scene(R"(
 [contact]
 thickness_m = 0.02
 [[particle]]
@@ -163,13 +159,13 @@ TEST_CASE("bodies that are kept out or apart do not touch, and no scene has cont
     return text.replace(text.find('%'), 1, line);
   };
   const double fallen = -gravity * 0.01 * 0.01 * (1 + 2 + 3);
-  const Run some(
-      read(with("contact = false\n") + "[contact]\n[[contact.apart]]\nbodies = [\"falls\", \"ground\"]\n"),
-      3);
+  const Run some(read_contact_scene(with("contact = false\n") +
+                                    "[contact]\n[[contact.apart]]\nbodies = [\"falls\", \"ground\"]\n"),
+                 3);
   CHECK(some.state.x(2, 1) - 0.1 == Approx(fallen));
   CHECK(some.state.x(2, 2) == Approx(0.1));
   CHECK(some.state.x(2, 3) - 0.1 == Approx(fallen));
-  const auto without = read(with(""));
+  const auto without = read_contact_scene(with(""));
   CHECK(contact_of(without.scene) == nullptr);
   CHECK(Run(without, 3).state.x(2, 2) - 0.1 == Approx(fallen));
 }

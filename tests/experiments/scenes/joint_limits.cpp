@@ -14,7 +14,7 @@ using pbd::Vec3;
 
 namespace {
 
-SceneFile read(const std::string& text, const std::string& relaxation) {
+SceneFile read_limited(const std::string& text, const std::string& relaxation) {
   const TemporaryFolder folder;
   return read_scene_file(folder.write("scene.toml", text +
                                                         "[step]\nstep_s = 0.01\nsteps = 300\n[method]\n"
@@ -29,7 +29,7 @@ struct End {
   pbd::Workspace workspace;
 
   explicit End(const std::string& text, const std::string& relaxation = "direct")
-      : file(read(text, relaxation)), state(file.scene.initial), workspace(file.scene, file.method) {
+      : file(read_limited(text, relaxation)), state(file.scene.initial), workspace(file.scene, file.method) {
     for (std::int64_t k = 0; k < file.steps; ++k)
       REQUIRE(pbd::step(workspace, file.step_s, state).status == pbd::Status::ok);
   }

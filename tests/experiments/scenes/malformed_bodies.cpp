@@ -7,7 +7,7 @@ using namespace pbdcheck::test;
 
 namespace {
 
-const std::vector<Mistake> mistakes{
+const std::vector<Mistake> body_mistakes{
     {body("mass_kg = 1\n"), {"scene.toml:15: rigid_body.2.name", "got nothing"}},
     {body("name = \"Arm\"\n"), {"scene.toml:16: rigid_body.2.name", "`Arm`", "lower case letters"}},
     {body("name = \"arm\"\n"), {"scene.toml:16: rigid_body.2.name", "`arm` twice", "a name of its own"}},
@@ -85,7 +85,7 @@ TEST_CASE("mistakes with rigid bodies are refused with line, key, value and what
   folder.write("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("mesh.stl", "solid\n");
   const auto out = folder.path / "out";
-  for (const auto& mistake : mistakes) {
+  for (const auto& mistake : body_mistakes) {
     INFO(mistake.text);
     const auto scene = folder.write("scene.toml", two_bodies + mistake.text);
     const auto ran = run_program({"simulate", scene, "-o", out});

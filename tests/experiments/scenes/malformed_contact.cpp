@@ -46,7 +46,7 @@ std::string probe(const std::string& rest) {
   return contact("[[probe]]\nkind = \"contact_force\"\n" + rest);
 }
 
-std::string body(const std::string& rest) {
+std::string third_body(const std::string& rest) {
   return contact("[[rigid_body]]\nname = \"third\"\n" + rest);
 }
 
@@ -54,11 +54,11 @@ std::string particle(const std::string& rest) {
   return contact("[[particle]]\nposition_m = [0, 0, 9]\nmass_kg = 1\n[particle.contact]\n" + rest);
 }
 
-std::string cloth(const std::string& rest) {
+std::string cloth_and_body(const std::string& rest) {
   return "[[cloth]]\ncells = [1, 1]\nsize_m = [1, 1]\narea_density_kg_m2 = 1\n[cloth.contact]\n" + rest;
 }
 
-const std::vector<Mistake> mistakes{
+const std::vector<Mistake> contact_mistakes{
     {"", {"scene.toml:5: rigid_body.1", "without a table [contact]", "a table [contact]"}},
     {contact("frction = 1\n"), {"scene.toml:21: contact.frction", "did you mean `friction`?"}},
     {contact("friction = -1\n"), {"scene.toml:21: contact.friction", "got -1", ">= 0"}},
@@ -86,29 +86,32 @@ const std::vector<Mistake> mistakes{
     {apart("[\"ball\", \"ball\"]"), {"scene.toml:22: contact.apart.0.bodies", "`ball` twice"}},
     {apart("[\"ball\", \"world\"]"),
      {"scene.toml:22: contact.apart.0.bodies", "`world`, which touches nothing", "take part in contact"}},
-    {body("shape = \"half_space\"\nmass_kg = 1\n"),
+    {third_body("shape = \"half_space\"\nmass_kg = 1\n"),
      {"scene.toml:24: rigid_body.3.mass_kg", "a mass of a half space", "it is fixed"}},
-    {body("shape = \"half_space\"\nheld = \"moving\"\n"),
+    {third_body("shape = \"half_space\"\nheld = \"moving\"\n"),
      {"scene.toml:24: rigid_body.3.held", "a half space that moves", "fixed"}},
-    {body("shape = \"half_space\"\nvelocity_m_s = [1, 0, 0]\n"),
+    {third_body("shape = \"half_space\"\nvelocity_m_s = [1, 0, 0]\n"),
      {"scene.toml:24: rigid_body.3.velocity_m_s", "a velocity of a fixed body"}},
-    {body("shape = \"half_spce\"\n"), {"scene.toml:23: rigid_body.3.shape", "did you mean `half_space`?"}},
-    {body("mass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nmaterial = \"wood\"\n"),
+    {third_body("shape = \"half_spce\"\n"),
+     {"scene.toml:23: rigid_body.3.shape", "did you mean `half_space`?"}},
+    {third_body("mass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nmaterial = \"wood\"\n"),
      {"scene.toml:25: rigid_body.3.material", "contact without a shape", "a body with a shape"}},
-    {body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nmaterial = \"Wood\"\n"),
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nmaterial = \"Wood\"\n"),
      {"scene.toml:26: rigid_body.3.material", "`Wood`", "lower case letters"}},
-    {body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = 1\n"),
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = 1\n"),
      {"scene.toml:26: rigid_body.3.contact", "got 1", "true or false"}},
-    {body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n[[contact.apart]]\nbodies = "
-          "[\"ball\", \"third\"]\n"),
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n[[contact.apart]]\nbodies = "
+                "[\"ball\", \"third\"]\n"),
      {"scene.toml:28: contact.apart.0.bodies", "`third`, which touches nothing"}},
     {particle("radius_m = -1\n"), {"scene.toml:25: particle.0.contact.radius_m", "got -1", ">= 0"}},
     {particle("radius = 1\n"), {"scene.toml:25: particle.0.contact.radius", "did you mean `radius_m`?"}},
     {particle("surface = true\n"), {"scene.toml:25: particle.0.contact.surface", "unknown key"}},
     {particle("node = 1\n"), {"scene.toml:25: particle.0.contact.node", "got 1", "from 0 to 0"}},
-    {contact(cloth("surface = 1\n")), {"scene.toml:26: cloth.0.contact.surface", "true or false"}},
-    {contact(cloth("node = 1\nnodes = [2]\n")), {"scene.toml:27: cloth.0.contact.nodes", "both node, nodes"}},
-    {contact(cloth("surface = true\nmaterial = \"silk\"\n") + cloth("surface = true\nmaterial = \"wool\"\n")),
+    {contact(cloth_and_body("surface = 1\n")), {"scene.toml:26: cloth.0.contact.surface", "true or false"}},
+    {contact(cloth_and_body("node = 1\nnodes = [2]\n")),
+     {"scene.toml:27: cloth.0.contact.nodes", "both node, nodes"}},
+    {contact(cloth_and_body("surface = true\nmaterial = \"silk\"\n") +
+             cloth_and_body("surface = true\nmaterial = \"wool\"\n")),
      {"scene.toml:34: cloth.1.contact.material", "a surface of another material", "one material"}},
     {contact("[[probe]]\nkind = \"contact\"\n"),
      {"scene.toml:22: probe.0.kind", "`contact`", "did you mean `contacts`?"}},
@@ -126,7 +129,7 @@ const std::vector<Mistake> mistakes{
 TEST_CASE("mistakes with contact are refused with line, key, value and what is allowed") {
   const TemporaryFolder folder;
   const auto out = folder.path / "out";
-  for (const auto& mistake : mistakes) {
+  for (const auto& mistake : contact_mistakes) {
     INFO(mistake.text);
     const auto scene = folder.write("scene.toml", three_bodies + mistake.text);
     const auto ran = run_program({"simulate", scene, "-o", out});
@@ -139,7 +142,7 @@ TEST_CASE("mistakes with contact are refused with line, key, value and what is a
 TEST_CASE("methods that contact does not allow are refused where they are stated") {
   const TemporaryFolder folder;
   const auto out = folder.path / "out";
-  const std::string stack = (std::filesystem::path(PBDCHECK_SCENES) / "stack.toml").string();
+  const std::string stack = (scenes / "stack.toml").string();
   for (const std::string setting : {"method.outer=quasi_newton", "method.integrator=midpoint"})
     check_refused(run_program({"simulate", stack, "-o", out, "--set", setting}),
                   {"--set " + setting.substr(0, setting.find('=')), "contact"});

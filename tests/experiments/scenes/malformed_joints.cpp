@@ -7,7 +7,7 @@ using namespace pbdcheck::test;
 
 namespace {
 
-const std::vector<Mistake> mistakes{
+const std::vector<Mistake> joint_mistakes{
     {joint("bal", ""), {"scene.toml:17: joint.0.kind", "`bal`", "did you mean `ball`?"}},
     {"[[joint]]\nbodies = [\"arm\", \"hand\"]\n",
      {"scene.toml:15: joint.0.kind", "got nothing", "one of ball, hinge"}},
@@ -133,7 +133,7 @@ const std::vector<Mistake> mistakes{
 TEST_CASE("mistakes with joints are refused with line, key, value and what is allowed") {
   const TemporaryFolder folder;
   const auto out = folder.path / "out";
-  for (const auto& mistake : mistakes) {
+  for (const auto& mistake : joint_mistakes) {
     INFO(mistake.text);
     const auto scene = folder.write("scene.toml", two_bodies + mistake.text);
     const auto ran = run_program({"simulate", scene, "-o", out});

@@ -11,11 +11,7 @@ using namespace pbdcheck;
 using namespace pbdcheck::test;
 using pbd::Vec3;
 
-namespace {
-
-const std::filesystem::path scenes = PBDCHECK_SCENES;
-
-}  // namespace
+namespace {}  // namespace
 
 // With the crank at the angle 4 rad/s t, the pin is where circles of 1 m about the crank's end and the
 // rocker's pivot meet above the line between them.

@@ -4,18 +4,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "program.h"
-#include "scenes/scene_file.h"
+#include "read_scene.h"
 
 namespace pbdcheck::test {
-
-inline const std::filesystem::path scenes = PBDCHECK_SCENES;
-
-inline SceneFile read(const std::string& text, const std::vector<std::string>& settings = {}) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory_symlink(scenes / "meshes", folder.path / "meshes");
-  return read_scene_file(folder.write("scene.toml", text + "[step]\nstep_s = 0.01\nsteps = 1\n"), settings);
-}
 
 /// The effect of the scene that is an E.
 template <class E>

@@ -79,7 +79,6 @@ TEST_CASE("a method survives being written as text and read again") {
 }
 
 TEST_CASE("every example of the format's description is read") {
-  const std::filesystem::path scenes = PBDCHECK_SCENES;
   const std::string four_particles =
       "[particles]\nposition_m = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]\nmass_kg = 1\n";
   const std::string document = read_text(scenes / "README.md");

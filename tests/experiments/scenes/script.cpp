@@ -15,15 +15,16 @@ using pbd::Vec3;
 
 namespace {
 
-constexpr double h = 0.04;
+constexpr double course_h = 0.04;
 
-const std::string step = "[step]\nstep_s = 0.04\nsteps = 100\n[method]\ntolerance = 1e-11\n";
+const std::string course_step = "[step]\nstep_s = 0.04\nsteps = 100\n[method]\ntolerance = 1e-11\n";
 
 /// Calls check(state) at the end of every step.
 template <class Check>
 void run(const std::string& text, const std::string& method, Check&& check) {
   const TemporaryFolder folder;
-  SceneFile file = read_scene_file(folder.write("scene.toml", text + step), {"method.integrator=" + method});
+  SceneFile file =
+      read_scene_file(folder.write("scene.toml", text + course_step), {"method.integrator=" + method});
   const pbd::Scene stated = file.scene;
   pbd::Workspace workspace(file.scene, file.method);
   pbd::State state = stated.initial;
@@ -65,7 +66,7 @@ TEST_CASE("a force over time gives the momentum of its integral, and implicit Eu
     double place = 0;
     run(scene, integrator, [&](const pbd::State& state) {
       const double speed = 3 / 0.5 * integral(state.time);
-      place += h * speed;
+      place += course_h * speed;
       CHECK(state.v(1, 0) == Approx(speed).margin(1e-12));
       if (integrator == "implicit_euler") CHECK(state.x(1, 0) == Approx(place).margin(1e-12));
     });
@@ -120,7 +121,7 @@ TEST_CASE("simulate and compare follow a course") {
       "scene.toml",
       "[[particle]]\nposition_m = [0, 0, 0]\nmass_kg = 2\n[[particle]]\nposition_m = [1, 0, 0]\nmass_kg = 1\n"
       "[[distance]]\nnodes = [0, 1]\n[[force]]\nnode = 1\nforce_n = [0, 3, 0]\n" +
-          course + step + "[[probe]]\nkind = \"momentum\"\n");
+          course + course_step + "[[probe]]\nkind = \"momentum\"\n");
   CHECK(run_program({"simulate", scene, "-o", folder.path / "out"}).exit_code == 0);
   const auto probes = read_text(folder.path / "out" / "probes.csv");
   const auto last = probes.substr(probes.rfind('\n', probes.size() - 2) + 1);  // step, time, px, py, ...

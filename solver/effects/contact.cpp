@@ -129,9 +129,7 @@ void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual
     if (!contacts.empty() && !contacts[0].of_surfaces) find_nearest(place.at, contacts);
     for (std::size_t i = 0; i < block.size(); ++i)
       linearise_contact(place, start_v_, contacts[i], block, i, own);
-    sums.squared += own.squared;
-    sums.rounding_squared += own.rounding_squared;
-    sums.impulses_squared += own.impulses_squared;
+    sums += own;
   });
 }
 

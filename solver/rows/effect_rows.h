@@ -57,9 +57,7 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) {
       RowResidual own;
       linearise_block(place, std::get<Block>(any), own);
-      sums.squared += own.squared;
-      sums.rounding_squared += own.rounding_squared;
-      sums.impulses_squared += own.impulses_squared;
+      sums += own;
     }
   }
 

@@ -23,6 +23,13 @@ struct RowResidual {
   double squared = 0;
   double rounding_squared = 0;
   double impulses_squared = 0;
+
+  RowResidual& operator+=(const RowResidual& other) {
+    squared += other.squared;
+    rounding_squared += other.rounding_squared;
+    impulses_squared += other.impulses_squared;
+    return *this;
+  }
 };
 inline constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 

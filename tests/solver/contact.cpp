@@ -224,56 +224,6 @@ TEST_CASE("nodes rest on bodies and push them") {
   }
 }
 
-TEST_CASE("deformable surfaces rest on each other") {
-  // A loose triangle above a fixed one; and two crossing edges of thin triangles.
-  for (const bool edges : {false, true}) {
-    Scene scene;
-    Contact contact;
-    constexpr double thickness = 0.01, height = thickness + 1e-3;
-    const auto triangle = [&](const Vec3& a, const Vec3& b, const Vec3& c, double mass) {
-      const int first = add_node(scene, a, mass);
-      add_node(scene, b, mass);
-      add_node(scene, c, mass);
-      contact.triangle.push_back({first, first + 1, first + 2});
-      return first;
-    };
-    triangle(edges ? Vec3(0, -1, 0) : Vec3(-1, -1, 0), edges ? Vec3(0, 1, 0) : Vec3(1, -1, 0),
-             edges ? Vec3(0, 0, -1) : Vec3(0, 1, 0), infinity);
-    const int upper = edges ? triangle(Vec3(-1, 0, height), Vec3(1, 0, height), Vec3(0, 0, 1), 1)
-                            : triangle(Vec3(0, 0, height), Vec3(0.1, 0, 1), Vec3(0, 0.1, 1), 1);
-    Distance links;
-    for (const auto& [a, b] : {std::array{0, 1}, std::array{1, 2}, std::array{0, 2}}) {
-      links.node.push_back({upper + a, upper + b});
-      links.rest_length.push_back((scene.initial.x.col(upper + a) - scene.initial.x.col(upper + b)).norm());
-      links.compliance.push_back(0);
-    }
-    contact.thickness = thickness;
-    contact.law[0].friction = 0.3;
-    contact.collider.push_back({Sphere{1}, add_body(scene, Vec3(9, 0, 0), 1, Vec3::Ones())});
-    scene.effects = {Gravity{}, links, contact};
-    const Method method = contact_method("direct");
-    Workspace workspace(scene, method);
-    constexpr double h = 0.01;
-    State end = run(scene, method, h, 2, workspace);
-    const Points before = end.v;
-    REQUIRE(step(workspace, h, end).status == Status::ok);
-    double carried = 0, gap = 1;
-    Vec3 on_upper = Vec3::Zero();
-    for (const ContactForce& each : workspace.contacts()) {
-      CHECK(std::min(each.collider[0], each.collider[1]) >= 1);  // nodes, counted behind the sphere
-      on_upper += each.collider[0] - 1 >= upper ? each.force : -each.force;
-      carried += std::abs(each.force.z());
-      gap = std::min(gap, each.gap);
-    }
-    const Vec3 gained = (end.v - before).middleCols<3>(upper).rowwise().sum() / h;  // times 1 kg
-    CHECK((gained - 3 * Vec3(0, 0, -gravity) - on_upper).norm() <= 1e-7 * gravity);
-    INFO((edges ? "edges" : "node and triangle"));
-    CHECK(gap >= -1e-10);
-    CHECK(carried > gravity);
-    CHECK(std::abs(end.x(2, upper) - thickness) <= 1e-8);
-  }
-}
-
 TEST_CASE("contact refuses what it cannot do") {
   const Scene scene = sliding_box(0, 0.5, 1);
   for (const auto integrator : {"midpoint", "bdf2", "generalised_alpha"}) {

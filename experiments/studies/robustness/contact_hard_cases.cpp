@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "harness/measure.h"
+#include "harness/probes.h"
 #include "scenes/standard.h"
 #include "studies/contact/contact_answers.h"
 #include "studies/experiments.h"
@@ -30,27 +31,6 @@ namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-double kinetic(const Scene& scene, const State& state) {
-  double sum = 0;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto& [node, inertia] = scene.bodies[b];
-    const double mass = scene.mass[static_cast<std::size_t>(node)];
-    if (!std::isfinite(mass)) continue;
-    const Vec3 spin = state.spin.col(static_cast<Eigen::Index>(b));
-    sum += 0.5 * mass * state.v.col(node).squaredNorm() + 0.5 * spin.dot(inertia.cwiseProduct(spin));
-  }
-  return sum;
-}
-
-double potential(const Scene& scene, const State& state) {
-  double sum = 0;
-  for (const RigidBody& body : scene.bodies) {
-    const double mass = scene.mass[static_cast<std::size_t>(body.node)];
-    if (std::isfinite(mass)) sum += mass * gravity * state.x(2, body.node);
-  }
-  return sum;
-}
 
 /// True if a body that nothing moves moves.
 bool scripted(const Scene& scene) {
@@ -116,7 +96,7 @@ std::vector<Gate> gates_of(const ContactCase& each, const Watched& watched, cons
       {"penetration_at_end", watched.overlap_at_end / each.size, 1e-3},
       {"joints", watched.joints / each.size, 1e-3, asked(jointed(each.scene), "no joints")},
       {"residual", watched.unimproved, 0},
-      {"settles", kinetic(each.scene, state) / (mass * gravity * each.size), 1e-6,
+      {"settles", kinetic_energy(each.scene, state) / (mass * gravity * each.size), 1e-6,
        asked(each.settles, "it goes on moving")},
       {"stays", largest_move / each.size, 1e-3, asked(each.stays, "it moves")},
       {"falls", largest_move > 0.1 ? 0.0 : 1.0, 0, asked(each.falls, "it may stay")},
@@ -135,8 +115,8 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
   double mass = 0;
   for (const double own : scene.mass)
     if (std::isfinite(own)) mass += own;
-  const double scale = kinetic(scene, state) + mass * gravity * each.size;
-  const double start = kinetic(scene, state) + potential(scene, state);
+  const double scale = kinetic_energy(scene, state) + mass * gravity * each.size;
+  const double start = kinetic_energy(scene, state) + gravity_energy(scene, state);
   Worst excess, overlap, joints, lift;
   double overlap_at_end = 0, reaction = 0;
   std::int64_t diverged = 0, unimproved = 0;
@@ -156,7 +136,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
       continue;
     }
     unimproved += report.status != Status::ok && !(std::max(report.primal, report.dual) < first);
-    excess.add(kinetic(scene, state) + potential(scene, state) - start);
+    excess.add(kinetic_energy(scene, state) + gravity_energy(scene, state) - start);
     overlap_at_end = reaction = 0;
     for (const ContactForce& contact : workspace.contacts()) {
       if (!(-contact.gap <= overlap_at_end)) overlap_at_end = -contact.gap;

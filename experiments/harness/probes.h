@@ -24,8 +24,8 @@ double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
 /// Minus the sum of m a . x over the nodes of finite mass, J; zero at the origin.
 double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 
-/// Sum of 1/2 c^T A^-1 c over all constraints with compliance A > 0, J; of one whose force has bounds, what
-/// they let it hold.
+/// Sum of 1/2 c^T A^-1 c over all constraints but contacts with compliance A > 0, J; of one whose force has
+/// bounds, what they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
 /// Of an effect's values, as columns end: "_m", "_rad" or nothing.

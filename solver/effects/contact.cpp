@@ -93,6 +93,7 @@ void ContactRows::allocate(bool, BlockList& blocks) {
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
   of_bodies.law = of_nodes.law = law_;
+  // In the order of ContactGroup; surfaces have four nodes, as bodies have four columns.
   blocks.add(RowBlock<3, 4>(of_bodies));
   blocks.add(RowBlock<1, 4>{});
   blocks.add(std::move(of_nodes));

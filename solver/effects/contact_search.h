@@ -1,6 +1,6 @@
 // Which contacts a step has. Where it begins, the shapes that may touch in it give contact points
 // (collision/), each a pair of features carried by a body or a node. Shapes take part that are nearer than
-// their motions go: to the free motion's end, and where an iterate goes farther, twice as far as that.
+// their motions go: to the free motion's end, and where a solved iterate went farther, twice as far as that.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 
 namespace pbd {
 
-/// Block Gauss-Seidel in the scene's order: dp_i = -N_ii^-1 r_i, v updated at once.
+/// Block Gauss-Seidel in the scene's order: dp_i = -N_ii^-1 r_i, v updated at once; a contact with friction
+/// goes to its own solution (`solve_contact`).
 struct GaussSeidel {
   static constexpr std::string_view name = "gauss_seidel";
   void begin(Rows&, const Points&, bool) {}

@@ -29,8 +29,9 @@ struct InnerBudget {
   double absolute = 0;  // sqrt(J)
 };
 
-/// Sweeps until the budget's end; returns the number of sweeps, further ones included. Adds the first sweep's
-/// seconds of each block to `first_sweep` unless it is null.
+/// Sweeps until the budget's end; `fresh`: nothing of the solver's earlier iterates in this step counts;
+/// returns the number of sweeps, further ones included. Adds the first sweep's seconds of each block to
+/// `first_sweep` unless it is null.
 std::int64_t relax(LinearSolver& solver, Rows& rows, Points& v, bool fresh, const InnerBudget& budget,
                    BlockSeconds first_sweep);
 

@@ -25,7 +25,7 @@ FreeComponents::FreeComponents(const StepSystem& system) {
       if (Block::nodes == 1) held[own[0]] = true;
     }
   });
-  std::vector<int> index(nodes, 0);  // of each root: -1 where something outside holds the component_
+  std::vector<int> index(nodes, 0);  // of each root: -1 where something outside holds the component
   for (std::size_t node = 0; node < nodes; ++node)
     if (held[node] || !(system.problem.inverse_mass[node] > 0)) index[root(static_cast<int>(node))] = -1;
   int count = 0;

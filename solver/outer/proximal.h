@@ -3,7 +3,7 @@
 // where D >= K/2 and the step's potential is convex on the motions that hard rows allow. D is half the
 // effects' own bounds of the stiffening part of K, one number a column, zero where no impulse pulls.
 // Unconverged, D takes momentum from one node to another: a step restores the linear momentum of every
-// component that nothing outside holds, not the angular one.
+// component that nothing outside holds, not the angular one; in scenes with contact of none.
 #pragma once
 
 #include "outer/acceleration.h"

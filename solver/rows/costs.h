@@ -9,7 +9,8 @@
 
 namespace pbd {
 
-/// What one effect cost in a step.
+/// What one effect cost: rows and bytes as the last step began, seconds of all steps so far, without those
+/// of finding contacts.
 struct EffectCost {
   std::string_view effect;
   std::int64_t rows = 0;

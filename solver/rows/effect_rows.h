@@ -179,9 +179,10 @@ class EffectRows final : public Source {
 
  private:
   static Kind kind_of(const E& effect) {
-    Kind kind{.of_bodies = BodyEffect<E>, .fills_space = C::fills_space || constraint_count(effect) == 0};
-    for (std::size_t i = 0; i < constraint_count(effect); ++i)
-      kind.compliant = kind.compliant && gives_way(effect, i);
+    Kind kind{constraint_count(effect), C::rows};
+    kind.of_bodies = BodyEffect<E>;
+    kind.fills_space = C::fills_space || kind.constraints == 0;
+    for (std::size_t i = 0; i < kind.constraints; ++i) kind.compliant &= gives_way(effect, i);
     if constexpr (requires { effect.bounds; }) kind.limited = !effect.bounds.empty();
     kind.damped = damped(effect);
     return kind;

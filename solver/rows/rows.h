@@ -80,6 +80,8 @@ struct RowBlock : ConstraintShape<R, K> {
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(
         entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
+        bounds.size() * sizeof(Bounds) + friction.size() * sizeof(double) +
+        (delassus.size() + stiffness.size()) * sizeof(compliance[0]) +
         size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
   }
 
@@ -158,8 +160,8 @@ struct BlockList : std::vector<AnyBlock> {
 };
 
 struct Rows {
-  std::vector<double> inverse_mass;  // 1/kg, one per node; 0 for infinite mass
-  BlockList blocks;                  // in the scene's order, without empty ones
+  std::vector<double> inverse_mass;  // 1/kg, one a column (bodies.h); 0 for infinite mass
+  BlockList blocks;                  // in the scene's order; those of contacts may be empty
   bool contacts = false;             // some blocks are those of contacts
   int generation = 0;                // raised with each other set of contacts
 };

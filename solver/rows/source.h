@@ -87,7 +87,9 @@ class Source {
  public:
   /// What its rows are, which nothing changes.
   struct Kind {
-    bool compliant = true;    // every constraint gives way: A is positive definite
+    std::size_t constraints = 0;  // all, rows or not; of contacts none
+    int rows_of_each = 0;
+    bool compliant = true;    // every constraint gives way: A is positive definite; true of contacts, too
     bool of_bodies = false;   // no potential by the columns
     bool fills_space = true;  // stiff in every direction, or no rows
     bool limited = false;     // impulses with bounds

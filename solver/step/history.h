@@ -11,7 +11,8 @@ class History {
  public:
   explicit History(const Integrator& integrator) : integrator_(&integrator) {}
 
-  /// Sets the problem's map of a step of h seconds from `state`, and what else of it belongs to the step.
+  /// Sets the problem's map of a step of h seconds from `state`, then lets each source begin the step:
+  /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
   /// Carries the solved map on to the step's end.

@@ -58,7 +58,7 @@ struct Integrator {
   StepCoefficients (*coefficients)(const StepStart& start);
   Keeps keeps = Keeps::nothing;
   bool explicit_forces = false;  // compliant constraints act as given forces, hard ones along J(x_l)
-  bool contact = false;          // what jumps at impacts is not carried on
+  bool contact = false;          // allowed: nothing that it carries on jumps at impacts
 };
 
 /// All integrators.

@@ -51,7 +51,7 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   return true;
 }
 
-/// A step that is easy ends before the first iterate that is kept.
+/// Keeps the iterate if it is the best one from the tenth on; an easy step ends before.
 void keep_if_best(const StepSystem& system, const Progress& progress, BestIterate& best) {
   constexpr int first_kept = 10;
   if (progress.outer_iterations < first_kept || !(progress.residual() < best.residual)) return;
@@ -65,7 +65,8 @@ void note_impulses(StepSystem& system) {
   for (Slot& slot : system.slots) slot.source->note_impulses(slot.view(system.rows));
 }
 
-/// True if the iterates' motion has brought rows that were not thought of.
+/// True if the solved iterate went farther than was searched: contacts have been found anew, perhaps the
+/// same ones.
 bool widen(StepSystem& system) {
   const Problem& problem = system.problem;
   const Configuration start = problem.start();

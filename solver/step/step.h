@@ -46,7 +46,7 @@ class Workspace {
   /// round), or hard constraints where they gave way (or the other way round); contact cannot be changed.
   void change(std::size_t index, const Effect& effect);
 
-  /// Rows, bytes and seconds per effect with rows, in the scene's order, summed over all steps so far.
+  /// What each effect with rows cost, in the scene's order.
   std::vector<EffectCost> costs() const;
 
   /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R for each of
@@ -55,7 +55,7 @@ class Workspace {
 
   /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
   /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
-  /// ones under explicit forces). J^T times them are the forces.
+  /// ones under explicit forces). J^T times them are the forces. Of contact none: `contacts` tells them.
   std::vector<double> forces(std::size_t index) const;
 
   /// All contacts of the last step, open ones included.
@@ -66,8 +66,8 @@ class Workspace {
   friend Report step(Workspace&, double, State&, const Observer&);
 };
 
-/// Advances `state` by h seconds. Does not throw: what went wrong stands in the report. A diverged step
-/// leaves `state` as it was.
+/// Advances `state` by h seconds. Throws only what the observer throws, and leaves `state` as it was then:
+/// what went wrong stands in the report. A diverged step leaves `state` as it was, too.
 Report step(Workspace& workspace, double h, State& state, const Observer& observer = {});
 
 }  // namespace pbd

@@ -172,8 +172,11 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
 
 std::vector<double> Workspace::forces(std::size_t index) const {
   std::vector<double> flat;
+  for (const Slot& slot : data_->system.slots)
+    if (slot.effect == index)
+      flat.assign(slot.source->kind().constraints * slot.source->kind().rows_of_each, std::nan(""));
   each_block_of(data_->system, index, [&]<class Block>(const Block& block) {
-    flat.assign(Block::rows * (block.entry(block.size() - 1) + 1), std::nan(""));
+    if (flat.empty()) return;
     for (std::size_t i = 0; i < block.size(); ++i)
       for (int r = 0; r < Block::rows; ++r)
         flat[Block::rows * block.entry(i) + r] = block.impulse[i][r] / data_->system.problem.map.s;

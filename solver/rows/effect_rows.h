@@ -54,11 +54,7 @@ class EffectRows final : public Source {
   }
 
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override {
-    for (AnyBlock& any : blocks) {
-      RowResidual own;
-      linearise_block(place, std::get<Block>(any), own);
-      sums += own;
-    }
+    for (AnyBlock& any : blocks) sums += linearise_block(place, std::get<Block>(any));
   }
 
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
@@ -200,7 +196,8 @@ class EffectRows final : public Source {
     evaluate(block, i, at, unused, jacobian);
   }
 
-  void linearise_block(const RowPlace& place, Block& block, RowResidual& sums) const {
+  RowResidual linearise_block(const RowPlace& place, Block& block) const {
+    RowResidual sums;
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
     Value value;
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -215,6 +212,7 @@ class EffectRows final : public Source {
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
       Operations::linearise(place, value, largest_coordinate<E>(own), block, i, sums);
     }
+    return sums;
   }
 
   void begin_damping(const StepBegin& begin, Block& block) const {

@@ -43,6 +43,8 @@ Scene swing() {
   return scene;
 }
 
+//
+
 }  // namespace
 
 TEST_CASE("a damped oscillator's decrement is the discrete closed form, however many sweeps a solve takes") {

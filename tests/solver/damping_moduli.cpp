@@ -13,8 +13,8 @@ using namespace pbd::test;
 
 namespace {
 
-/// Its end after `duration` s by the classical Runge-Kutta rule, in the plane.
-Eigen::Vector2d swung(double duration, int steps) {
+/ Its end after `duration` s by the classical Runge - Kutta rule,
+    in the plane.Eigen::Vector2d swung(double duration, int steps) {
   using Vec4 = Eigen::Vector4d;
   const auto rate = [](const Vec4& y) {
     const double length = y.head<2>().norm();

@@ -13,26 +13,6 @@ using namespace pbd::test;
 
 namespace {
 
-/ Its end after `duration` s by the classical Runge - Kutta rule,
-    in the plane.Eigen::Vector2d swung(double duration, int steps) {
-  using Vec4 = Eigen::Vector4d;
-  const auto rate = [](const Vec4& y) {
-    const double length = y.head<2>().norm();
-    const Eigen::Vector2d u = y.head<2>() / length;
-    const double tension = swing_stiffness * (length - 1 + swing_damping * u.dot(y.tail<2>()));
-    Vec4 dy;
-    dy << y.tail<2>(), -tension * u - Eigen::Vector2d(0, gravity);
-    return dy;
-  };
-  Vec4 y(1.2, 0, 0, -1);
-  const double h = duration / steps;
-  for (int k = 0; k < steps; ++k) {
-    const Vec4 a = rate(y), b = rate(y + h / 2 * a), c = rate(y + h / 2 * b), d = rate(y + h * c);
-    y += h / 6 * (a + 2 * b + 2 * c + d);
-  }
-  return y.head<2>();
-}
-
 Scene one_tet(const std::optional<Material>& damping, Strain strain) {
   Scene scene;
   TetMesh mesh;

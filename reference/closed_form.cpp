@@ -19,7 +19,7 @@
 namespace pbd::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Root n = 1, 2, ... of cosh(x) cos(x) = sign, near (n - 1/2) pi (clamped-free, sign -1) or (n + 1/2) pi
 /// (free-free, 1). Divided by cosh, so that it stays of order one.

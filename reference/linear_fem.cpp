@@ -12,7 +12,8 @@
 namespace pbd::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi, amplitude = 0.1;
+using std::numbers::pi;
+constexpr double amplitude = 0.1;
 
 struct FemSystem {
   Scene scene;

@@ -112,8 +112,8 @@ nlohmann::ordered_json comparison_json(const CompareOptions& options, const Scen
 
 /// Draws `compare.csv` of a folder by the project's plotting script; a warning if that fails.
 void draw(const std::filesystem::path& directory) {
-  const std::string script = PBDCHECK_PLOTS "/compare.py", folder = directory.string();
-  const char* const arguments[] = {PBDCHECK_PYTHON, script.c_str(), folder.c_str(), nullptr};
+  const std::string script = (source_root() / "plots" / "compare.py").string(), folder = directory.string();
+  const char* const arguments[] = {"/usr/bin/python3", script.c_str(), folder.c_str(), nullptr};
   pid_t child = 0;
   int status = 0;
   const bool started =

@@ -103,8 +103,12 @@ void require_writable(const std::filesystem::path& directory, std::string_view o
   std::filesystem::remove(trial, failure);
 }
 
+std::filesystem::path source_root() {
+  return PBDCHECK_ROOT;
+}
+
 std::filesystem::path scenes_folder() {
-  return PBDCHECK_SCENES;
+  return source_root() / "experiments" / "scenes";
 }
 
 }  // namespace pbdcheck

@@ -43,7 +43,8 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// be made or written to.
 void require_writable(const std::filesystem::path& directory, std::string_view option = "-o");
 
-/// Folder of the scenes and meshes that come with the program.
+/// Folder of the sources that this program was built from, with its scenes, problems and plots.
+std::filesystem::path source_root();
 std::filesystem::path scenes_folder();
 
 }  // namespace pbdcheck

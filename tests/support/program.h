@@ -11,9 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "harness/files.h"
+
 namespace pbdcheck::test {
 
-inline const std::filesystem::path scenes = PBDCHECK_SCENES;
+/// The built program, as a path.
+std::string tested_program();
+
+inline const std::filesystem::path experiments_folder = source_root() / "experiments",
+                                   scenes = scenes_folder();
 
 inline std::string read_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -47,7 +53,7 @@ struct Ran {
 
 inline Ran run_program(const std::vector<std::string>& arguments, const std::string& before = "") {
   const TemporaryFolder folder;
-  std::string command = before + " '" PBDCHECK_PROGRAM "'";
+  std::string command = before + " '" + tested_program() + "'";
   for (const auto& argument : arguments) command += " '" + argument + "'";
   command += " >'" + (folder.path / "out").string() + "' 2>'" + (folder.path / "err").string() + "'";
   const int status = std::system(command.c_str());

@@ -11,15 +11,10 @@
 #include "studies/experiments.h"
 
 namespace pbdcheck {
-namespace {
-
 using namespace pbd;
 
-constexpr double angle = 0.4, speed = 1, duration = 1;
-
-}  // namespace
-
 void convex_gap(Context& context) {
+  constexpr double angle = 0.4, speed = 1, duration = 1;
   const auto relaxations = general_solver_names();
   const double friction = std::tan(angle);
   const Vec3 normal(std::sin(angle), 0, std::cos(angle));

@@ -28,7 +28,7 @@ using namespace reference;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double cone_tolerance = 1e-8, h = 0.01;
+constexpr double cone_tolerance = 1e-8, cone_h = 0.01;
 
 struct Errors {
   double complementarity, dissipation, allowed;  // J
@@ -107,7 +107,7 @@ void friction_cone(Context& context) {
   Tables tables(context);
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
     const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
-    const LinearStep step = linear_step(scene, scene.initial, h, friction_by_name(name));
+    const LinearStep step = linear_step(scene, scene.initial, cone_h, friction_by_name(name));
     const ConeProblem problem = cone_problem(step.rows, step.v_free);
     const double stiffest = symmetric_eigen(problem.delassus).values.maxCoeff();
     const JudgedCone by{problem, law, name, cone_interior_point(problem, law, cone_tolerance), stiffest};

@@ -84,7 +84,7 @@ Run timed(const CurveCase& each, const LinearStep& step, const Points& solved, s
 }
 
 /// Contraction a sweep over the last half of the errors above 100 times rounding.
-double measured_rate(const std::vector<double>& error) {
+double rate_of_errors(const std::vector<double>& error) {
   std::size_t last = 0;
   while (last + 1 < error.size() && error[last + 1] > 100 * rounding_floor) ++last;
   if (last < 4) return std::nan("");
@@ -142,7 +142,7 @@ void run_case(Context& context, const CurveCase& each, Table& errors, Table& rat
         errors.row({each.name, std::string(name), static_cast<std::int64_t>(k + 1), found.seconds[k],
                     found.error[k], status, reason});
     const Prediction predicted = predict(each, name, dense);
-    const double measured = name == "direct" ? found.error.front() : measured_rate(found.error);
+    const double measured = name == "direct" ? found.error.front() : rate_of_errors(found.error);
     rates.row({each.name, std::string(name), predicted.rate, measured, predicted.theory, status, reason});
     if (each.chain_links > 0 && (name == "jacobi" || name == "gauss_seidel"))
       context.verdict("inner." + std::string(name) + "." + each.name, "the asymptotic rate is the theory's",

@@ -12,7 +12,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double duration = 10;                       // s
+constexpr double series_duration = 10;                // s
 constexpr double oscillation = 4 * std::numbers::pi;  // rad/s
 
 struct SeriesMotion {
@@ -66,7 +66,7 @@ Sample sample(const Scene& scene, const State& state) {
 void follow(Series& series) {
   const Scene& scene = series.motion->scene;
   const double start = total_energy(scene, scene.initial), scale = energy_scale(scene);
-  const int steps = static_cast<int>(std::lround(duration / series.h)), every = steps / 150;
+  const int steps = static_cast<int>(std::lround(series_duration / series.h)), every = steps / 150;
   series.samples.push_back(sample(scene, scene.initial));
   Worst change;
   int done = 0;

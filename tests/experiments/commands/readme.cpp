@@ -8,13 +8,12 @@ using namespace pbdcheck::test;
 
 namespace {
 
-const std::filesystem::path root = std::filesystem::path(PBDCHECK_SCENES).parent_path().parent_path();
 const std::string program = "build/release/pbdcheck";
 
 /// The commands of README.md, with their comments; a line that ends in \ goes on.
 std::vector<std::string> commands() {
   std::vector<std::string> found;
-  std::istringstream in(read_text(root / "README.md"));
+  std::istringstream in(read_text(pbdcheck::source_root() / "README.md"));
   bool goes_on = false;
   for (std::string line; std::getline(in, line); goes_on = line.ends_with('\\')) {
     if (goes_on)
@@ -50,9 +49,9 @@ TEST_CASE("every quick command of the README ends well") {
     INFO(command);
     const TemporaryFolder folder;
     replace_all(command, " -o out", " -o '" + folder.path.string() + "'");
-    command.replace(0, program.size(), "'" PBDCHECK_PROGRAM "'");
-    command =
-        "cd '" + root.string() + "' && (" + command + "\n) >'" + (folder.path / "log").string() + "' 2>&1";
+    command.replace(0, program.size(), "'" + tested_program() + "'");
+    command = "cd '" + pbdcheck::source_root().string() + "' && (" + command + "\n) >'" +
+              (folder.path / "log").string() + "' 2>&1";
     const int status = std::system(command.c_str());
     INFO(read_text(folder.path / "log"));
     CHECK(status == 0);

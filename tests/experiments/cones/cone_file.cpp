@@ -200,7 +200,7 @@ TEST_CASE("cone fails with exit code 1 where no impulse is within the tolerance"
 }
 
 TEST_CASE("each of the solver's relaxations solves a problem from a file") {
-  const auto cube = (std::filesystem::path(PBDCHECK_PROBLEMS) / "sliding_cube.dat").string();
+  const auto cube = (experiments_folder / "problems" / "sliding_cube.dat").string();
   for (const auto relaxation : pbd::general_solver_names())
     for (const auto* law : {"cone", "coulomb", "box"}) {
       const auto ran =
@@ -215,7 +215,7 @@ TEST_CASE("each of the solver's relaxations solves a problem from a file") {
 
 TEST_CASE("the problems that come with the program are solved by the judges' laws") {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PBDCHECK_PROBLEMS))
+  for (const auto& entry : std::filesystem::directory_iterator(experiments_folder / "problems"))
     if (entry.path().extension() != ".md")
       for (const auto* law : {"cone", "coulomb"}) {
         ++files;

@@ -9,8 +9,6 @@ using namespace pbdcheck::test;
 
 namespace {
 
-const std::filesystem::path rooms_folder = std::filesystem::path(PBDCHECK_SCENES).parent_path();
-
 /// From what is on top to what all others may include.
 const std::vector<std::string> order{"main.cpp", "commands", "studies", "cones",
                                      "harness",  "scenes",   "rivals"};
@@ -27,7 +25,7 @@ std::vector<std::filesystem::path> includes(const std::filesystem::path& source)
   for (std::string line; std::getline(in, line);) {
     if (!line.starts_with(before)) continue;
     const auto name = line.substr(before.size(), line.rfind('"') - before.size());
-    if (std::filesystem::exists(rooms_folder / name)) found.emplace_back(name);
+    if (std::filesystem::exists(experiments_folder / name)) found.emplace_back(name);
   }
   return found;
 }
@@ -42,9 +40,9 @@ std::string study(const std::filesystem::path& file) {
 
 TEST_CASE("rooms include downwards only") {
   int seen = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(rooms_folder)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(experiments_folder)) {
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
-    const auto file = std::filesystem::relative(entry.path(), rooms_folder);
+    const auto file = std::filesystem::relative(entry.path(), experiments_folder);
     REQUIRE(rank(*file.begin()) < std::ssize(order));
     for (const auto& included : includes(entry.path())) {
       INFO(file.string() << " includes " << included.string());

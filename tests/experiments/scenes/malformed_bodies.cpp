@@ -84,15 +84,7 @@ TEST_CASE("mistakes with rigid bodies are refused with line, key, value and what
                                   "f 5 8 6\nf 6 8 7\nf 7 8 5\nf 5 6 7\n");
   folder.write("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("mesh.stl", "solid\n");
-  const auto out = folder.path / "out";
-  for (const auto& mistake : body_mistakes) {
-    INFO(mistake.text);
-    const auto scene = folder.write("scene.toml", two_bodies + mistake.text);
-    const auto ran = run_program({"simulate", scene, "-o", out});
-    check_refused(ran, mistake.message);
-    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-    CHECK_FALSE(std::filesystem::exists(out));
-  }
+  check_mistakes(folder, two_bodies, body_mistakes);
 }
 
 TEST_CASE("bodies that are missed are asked for") {

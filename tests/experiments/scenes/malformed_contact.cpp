@@ -127,16 +127,7 @@ const std::vector<Mistake> contact_mistakes{
 }  // namespace
 
 TEST_CASE("mistakes with contact are refused with line, key, value and what is allowed") {
-  const TemporaryFolder folder;
-  const auto out = folder.path / "out";
-  for (const auto& mistake : contact_mistakes) {
-    INFO(mistake.text);
-    const auto scene = folder.write("scene.toml", three_bodies + mistake.text);
-    const auto ran = run_program({"simulate", scene, "-o", out});
-    check_refused(ran, mistake.message);
-    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-    CHECK_FALSE(std::filesystem::exists(out));
-  }
+  check_mistakes(TemporaryFolder(), three_bodies, contact_mistakes);
 }
 
 TEST_CASE("methods that contact does not allow are refused where they are stated") {

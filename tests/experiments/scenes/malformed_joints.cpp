@@ -131,14 +131,5 @@ const std::vector<Mistake> joint_mistakes{
 }  // namespace
 
 TEST_CASE("mistakes with joints are refused with line, key, value and what is allowed") {
-  const TemporaryFolder folder;
-  const auto out = folder.path / "out";
-  for (const auto& mistake : joint_mistakes) {
-    INFO(mistake.text);
-    const auto scene = folder.write("scene.toml", two_bodies + mistake.text);
-    const auto ran = run_program({"simulate", scene, "-o", out});
-    check_refused(ran, mistake.message);
-    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-    CHECK_FALSE(std::filesystem::exists(out));
-  }
+  check_mistakes(TemporaryFolder(), two_bodies, joint_mistakes);
 }

@@ -164,7 +164,7 @@ int compare(const CompareOptions& options) {
     error_message(reason);
   }
   bool all_ok = outcome == Outcome::complete && missed == 0;
-  Progress progress("compare", static_cast<std::int64_t>(contenders.size()));
+  ProgressBar progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
       if (outcome == Outcome::failed) {

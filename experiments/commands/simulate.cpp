@@ -126,8 +126,8 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
 std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
   const pbd::Scene stated = file.scene;
   pbd::State state = stated.initial;
-  file.script.begin_step(stated, file.step_s, file.scene, state);
-  Progress progress("simulate", file.steps);
+  file.script.begin_step(stated, file.step_s, file.scene, state);  // for the probes at the start
+  ProgressBar progress("simulate", file.steps);
   std::string lost = output.add(0, state, nullptr);
   while (totals.steps < file.steps && lost.empty()) {
     throw_if_interrupted();

@@ -31,7 +31,7 @@ struct Context::Data {
   std::filesystem::path directory;
   Tier tier;
   int threads;
-  std::optional<Progress> progress;
+  std::optional<ProgressBar> progress;
   std::vector<Verdict> verdicts;
   RowCounts rows;
 };

@@ -41,31 +41,8 @@ void for_turning_bodies(const pbd::Scene& scene, F&& f) {
       f(body, inertia);
 }
 
-/// Of the values of an effect, as columns end.
-struct Unit {
-  std::string_view operator()(const pbd::TriangleStrain&) const { return ""; }
-  std::string_view operator()(const pbd::TetStrain&) const { return ""; }
-  std::string_view operator()(const pbd::Bending&) const { return "_rad"; }
-  std::string_view operator()(const pbd::AxisJoint&) const { return "_rad"; }
-  std::string_view operator()(const pbd::PerpendicularJoint&) const { return "_rad"; }
-  std::string_view operator()(const pbd::RotationJoint&) const { return "_rad"; }
-  std::string_view operator()(const pbd::AngleJoint&) const { return "_rad"; }
-  template <class OfLengths>
-  std::string_view operator()(const OfLengths&) const {
-    return "_m";
-  }
-};
-
-bool has_rows(const pbd::Effect& effect) {
-  return std::visit(
-      []<class E>(const E&) {
-        using namespace pbd;
-        constexpr bool force = std::is_same_v<E, Gravity> || std::is_same_v<E, ExternalForce> ||
-                               std::is_same_v<E, ExternalTorque> || std::is_same_v<E, Gyroscopic>;
-        return !force && !std::is_same_v<E, Contact>;
-      },
-      effect);
-}
+template <class E, class... Listed>
+constexpr bool one_of = (std::is_same_v<E, Listed> || ...);
 
 void append(std::vector<Cell>& row, const pbd::Vec3& vector) {
   for (int axis = 0; axis < 3; ++axis) row.emplace_back(vector[axis]);
@@ -132,9 +109,9 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
   }
   if (probe.kind == "constraint_error")
     for (std::size_t i = 0; i < scene.effects.size(); ++i)
-      if (has_rows(scene.effects[i])) {
+      if (const auto unit = error_unit(scene.effects[i])) {
         const auto name = std::visit([](const auto& effect) { return effect.name; }, scene.effects[i]);
-        columns.push_back(fmt::format("{}{}_{}_error{}", begin, name, i, error_unit(scene.effects[i])));
+        columns.push_back(fmt::format("{}{}_{}_error{}", begin, name, i, *unit));
       }
   return columns;
 }
@@ -173,8 +150,20 @@ void append_contact(const SceneFile& file, const Probe& probe, const pbd::Worksp
 
 }  // namespace
 
-std::string_view error_unit(const pbd::Effect& effect) {
-  return std::visit(Unit{}, effect);
+std::optional<std::string_view> error_unit(const pbd::Effect& effect) {
+  using namespace pbd;
+  return std::visit(
+      []<class E>(const E&) -> std::optional<std::string_view> {
+        constexpr bool none = one_of<E, Gravity, ExternalForce, ExternalTorque, Gyroscopic, Contact>;
+        constexpr bool strain = one_of<E, TriangleStrain, TetStrain>;
+        constexpr bool angle = one_of<E, Bending, AxisJoint, PerpendicularJoint, RotationJoint, AngleJoint>;
+        constexpr bool length =
+            one_of<E, Anchor, Distance, PointJoint, LineJoint, BodyDistance, SlideJoint, Attachment>;
+        static_assert(none + strain + angle + length == 1, "state the unit of the effect's error, or none");
+        if (none) return {};
+        return strain ? "" : angle ? "_rad" : "_m";
+      },
+      effect);
 }
 
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state) {
@@ -235,7 +224,7 @@ void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Wo
     if (probe.kind == "momentum") append_momentum(scene, state, row);
     if (probe.kind == "constraint_error")
       for (const auto& effect : scene.effects)
-        if (has_rows(effect)) row.emplace_back(constraint_error(scene, effect, state));
+        if (error_unit(effect)) row.emplace_back(constraint_error(scene, effect, state));
   }
 }
 

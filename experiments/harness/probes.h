@@ -1,6 +1,7 @@
 // What a simulation writes down after every step.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,9 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 /// bounds, what they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
-/// Of an effect's values, as columns end: "_m", "_rad" or nothing.
-std::string_view error_unit(const pbd::Effect& effect);
+/// How the column of an effect's constraint error ends: "_m", "_rad" or, of strains, "". None of an effect
+/// without such an error: given forces, and contact, which has probes of its own.
+std::optional<std::string_view> error_unit(const pbd::Effect& effect);
 
 /// Largest |c| over the constraints without compliance of one effect, in the unit of c; 0 if there are none.
 /// A limit counts where it is passed, a motor of limited force not at all.

@@ -44,14 +44,14 @@ void error_message(std::string_view text) {
   message("error", "31", text);
 }
 
-Progress::Progress(std::string title, std::int64_t units)
+ProgressBar::ProgressBar(std::string title, std::int64_t units)
     : title_(std::move(title)), units_(std::max<std::int64_t>(units, 1)), terminal_(on_terminal()) {}
 
-Progress::~Progress() {
+ProgressBar::~ProgressBar() {
   if (drawn_) print("\n");
 }
 
-void Progress::advance(std::string_view label) {
+void ProgressBar::advance(std::string_view label) {
   ++done_;
   if (terminal_) {
     const auto now = std::chrono::steady_clock::now();
@@ -65,7 +65,7 @@ void Progress::advance(std::string_view label) {
   }
 }
 
-void Progress::draw_bar(std::string_view label) {
+void ProgressBar::draw_bar(std::string_view label) {
   const auto filled = static_cast<std::size_t>(std::min(done_, units_) * bar_width / units_);
   const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
   print(fmt::format("\r\033[K{} {} {}/{} {}", title_,

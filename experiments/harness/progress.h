@@ -17,12 +17,12 @@ bool in_colour();
 void warn(std::string_view text);
 void error_message(std::string_view text);
 
-class Progress {
+class ProgressBar {
  public:
-  Progress(std::string title, std::int64_t units);
-  ~Progress();  // leaves a bar's line
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ProgressBar(std::string title, std::int64_t units);
+  ~ProgressBar();  // leaves a bar's line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// One more unit is done.
   void advance(std::string_view label);

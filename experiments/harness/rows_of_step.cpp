@@ -40,11 +40,7 @@ void stir(Scene& scene) {
 }
 
 StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law)
-    : scene_(scene),
-      h_(h),
-      slots_(allocate_rows(scene, law, false, rows_)),
-      bodies_(scene),
-      time_(state.time) {
+    : scene_(scene), h_(h), slots_(make_slots(scene, law, false, rows_)), bodies_(scene), time_(state.time) {
   Points acceleration;
   bodies_.begin(state, start_x_, start_v_);
   bodies_.place(start_x_, start_poses_);

@@ -18,7 +18,7 @@ std::unique_ptr<Source> make_source(const Scene& scene, const Effect& effect, Fr
       effect);
 }
 
-std::vector<Slot> allocate_rows(const Scene& scene, Friction law, bool hard_alone, Rows& rows) {
+std::vector<Slot> make_slots(const Scene& scene, Friction law, bool hard_alone, Rows& rows) {
   std::vector<Slot> slots;
   rows.inverse_mass = Bodies(scene).inverse_masses(scene);
   for (std::size_t index = 0; index < scene.effects.size(); ++index) {

@@ -12,7 +12,7 @@ std::unique_ptr<Source> make_source(const Scene& scene, const Effect& effect, Fr
 
 /// Sources of all effects with rows, in the scene's order, and their blocks: those of all constraints, or of
 /// the hard ones alone. Impulses are zero.
-std::vector<Slot> allocate_rows(const Scene& scene, Friction law, bool hard_alone, Rows& rows);
+std::vector<Slot> make_slots(const Scene& scene, Friction law, bool hard_alone, Rows& rows);
 
 /// Sets the sum of the given forces' accelerations, m/s^2, of all columns.
 void set_given_accelerations(const Scene& scene, const ForceBegin& begin, Points& acceleration);

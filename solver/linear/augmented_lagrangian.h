@@ -23,6 +23,7 @@ class AugmentedLagrangian {
   static bool applies(const Rows& rows);
 
   static constexpr std::string_view name = "augmented_lagrangian";
+  static constexpr bool solves_any_rows = false;
   void begin(Rows&, const Points&, bool) { further_sweeps_ = 0; }
 
   /// One `improve`; returns the natural residual it met.

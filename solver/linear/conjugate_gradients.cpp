@@ -34,7 +34,8 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
       } else if (const typename Block::Value to = block.impulse[i] + full; cut(block, i, to) == to) {
         change.setZero();  // it sticks
       } else {
-        if constexpr (Block::rows == 3) change = (solved(block, i, r) - block.impulse[i]) / 2 + change / 2;
+        if constexpr (Block::rows == 3)
+          change = (solved_impulse(block, i, r) - block.impulse[i]) / 2 + change / 2;
         const bool slides = block.impulse[i][0] + change[0] > 0 && block.law != Friction::cone;
         free = slides ? Free::first : Free::none;
       }

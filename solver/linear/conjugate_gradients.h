@@ -15,6 +15,7 @@ namespace pbd {
 class ConjugateGradients {
  public:
   static constexpr std::string_view name = "conjugate_gradients";
+  static constexpr bool solves_any_rows = true;
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 

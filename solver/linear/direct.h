@@ -13,6 +13,7 @@ namespace pbd {
 class Direct {
  public:
   static constexpr std::string_view name = "direct";
+  static constexpr bool solves_any_rows = true;
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 

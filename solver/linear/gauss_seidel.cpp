@@ -14,7 +14,7 @@ PBD_FLATTEN Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds
       typename Block::Value change = allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
       squared += squared_residual(block, i, r, change);  // all that this change is for with friction
       if constexpr (Block::rows == 3)
-        if (block.frictional()) change = solved(block, i, r) - block.impulse[i];
+        if (block.frictional()) change = solved_impulse(block, i, r) - block.impulse[i];
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
     }

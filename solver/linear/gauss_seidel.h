@@ -8,6 +8,7 @@ namespace pbd {
 /// goes to its own solution (`solve_contact`).
 struct GaussSeidel {
   static constexpr std::string_view name = "gauss_seidel";
+  static constexpr bool solves_any_rows = true;
   void begin(Rows&, const Points&, bool) {}
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 };

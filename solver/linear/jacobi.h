@@ -12,6 +12,7 @@ namespace pbd {
 class Jacobi {
  public:
   static constexpr std::string_view name = "jacobi";
+  static constexpr bool solves_any_rows = true;
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
   double factor() const { return omega_; }  // omega of the last linearisation

@@ -20,6 +20,7 @@ namespace pbd {
 class Ldlt {
  public:
   static constexpr std::string_view name = "ldlt";
+  static constexpr bool solves_any_rows = false;
   static bool applies(const Rows& rows) { return !rows.contacts; }
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);

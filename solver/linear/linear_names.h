@@ -9,7 +9,7 @@ namespace pbd {
 /// All of them.
 std::vector<std::string_view> linear_solver_names();
 
-/// Those that solve any rows: all but ldlt, semismooth_newton and augmented_lagrangian.
+/// Those that solve any rows, by themselves and from any start: `solves_any_rows` of their types.
 std::vector<std::string_view> general_solver_names();
 
 }  // namespace pbd

@@ -65,6 +65,12 @@ template <class... Kinds>
 struct NameList<std::variant<Kinds...>> {
   static std::vector<std::string_view> all() { return {Kinds::name...}; }
 
+  static std::vector<std::string_view> general() {
+    std::vector<std::string_view> names;
+    ((Kinds::solves_any_rows ? names.push_back(Kinds::name) : void()), ...);
+    return names;
+  }
+
   static LinearSolver make(std::string_view name) {
     LinearSolver made;
     const bool found = ((Kinds::name == name && (made.emplace<Kinds>(), true)) || ...);
@@ -79,7 +85,7 @@ std::vector<std::string_view> linear_solver_names() {
   return NameList<LinearSolver>::all();
 }
 std::vector<std::string_view> general_solver_names() {
-  return {GaussSeidel::name, Jacobi::name, NesterovJacobi::name, ConjugateGradients::name, Direct::name};
+  return NameList<LinearSolver>::general();
 }
 LinearSolver make_linear_solver(std::string_view name) {
   return NameList<LinearSolver>::make(name);

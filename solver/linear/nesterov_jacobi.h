@@ -12,6 +12,7 @@ namespace pbd {
 class NesterovJacobi {
  public:
   static constexpr std::string_view name = "nesterov_jacobi";
+  static constexpr bool solves_any_rows = true;
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
   void forget() { bound_.forget(); }

@@ -19,6 +19,7 @@ namespace pbd {
 class SemismoothNewton {
  public:
   static constexpr std::string_view name = "semismooth_newton";
+  static constexpr bool solves_any_rows = false;
   static constexpr double enough_fall = 0.9;  // of the residual, to count as a gain
 
   void begin(Rows&, const Points&, bool) { trust(); }

@@ -5,17 +5,17 @@
 namespace pbd {
 
 Automatic::Automatic(StepSystem& system) : proximal_(system) {
-  if (QuasiNewton::suits(system)) potential_.emplace(system);
+  if (QuasiNewton::suits(system)) quasi_newton_.emplace(system);
 }
 
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = 0;
   proximal_.begin(system);
-  if (potential_) potential_->begin(system);
+  if (quasi_newton_) quasi_newton_->begin(system);
 }
 
 RowResidual Automatic::refresh(StepSystem& system) {
-  return potential_ ? potential_->refresh(system) : linearise_at(system, system.at.v);
+  return quasi_newton_ ? quasi_newton_->refresh(system) : linearise_at(system, system.at.v);
 }
 
 bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
@@ -29,7 +29,7 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
 }
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
-  if (potential_) return potential_->iterate(system, progress);
+  if (quasi_newton_) return quasi_newton_->iterate(system, progress);
   if (!plain_contracts(system, progress)) return proximal_.iterate(system, progress);
   system.at.v = system.at.rebuilt;
   relax(system, progress);
@@ -37,11 +37,11 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
 
 void Automatic::forget() {
   proximal_.forget();
-  if (potential_) potential_->forget();
+  if (quasi_newton_) quasi_newton_->forget();
 }
 
 std::optional<RowResidual> Automatic::settle(StepSystem& system, const Progress& progress, bool stalled) {
-  return potential_ ? potential_->settle(system, progress, stalled) : std::nullopt;
+  return quasi_newton_ ? quasi_newton_->settle(system, progress, stalled) : std::nullopt;
 }
 
 }  // namespace pbd

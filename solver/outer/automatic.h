@@ -15,23 +15,23 @@ class Automatic {
  public:
   explicit Automatic(StepSystem& system);
 
-  bool on_potential() const { return potential_.has_value(); }
+  bool on_potential() const { return quasi_newton_.has_value(); }
 
   void begin(StepSystem& system);
   RowResidual refresh(StepSystem& system);
   void iterate(StepSystem& system, Progress& progress);
   void forget();
   void forget_stiffness() {
-    if (potential_) potential_->forget_stiffness();
+    if (quasi_newton_) quasi_newton_->forget_stiffness();
   }
   void end(StepSystem& system) { proximal_.end(system); }
   std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
-  void unsettle(StepSystem& system) { potential_->unsettle(system); }
+  void unsettle(StepSystem& system) { quasi_newton_->unsettle(system); }
 
  private:
   bool plain_contracts(StepSystem& system, const Progress& progress);
 
-  std::optional<QuasiNewton> potential_;  // where it suits
+  std::optional<QuasiNewton> quasi_newton_;  // where it suits
   Proximal proximal_;
   GeometricMass mass_;
   int slow_changes_ = 0;  // of v in this step, in a row

@@ -141,7 +141,7 @@ typename Block::Value cut(const Block& block, std::size_t i, const typename Bloc
 
 /// The impulse of contact i alone that its law asks for where its row misses r.
 template <class Block>
-typename Block::Value solved(const Block& block, std::size_t i, const typename Block::Value& r) {
+typename Block::Value solved_impulse(const Block& block, std::size_t i, const typename Block::Value& r) {
   static_assert(Block::rows == 3);
   if (block.bounds[i].freedom == Freedom::free) return block.impulse[i] - block.delassus[i].inverse() * r;
   if (block.bounds[i].freedom == Freedom::held) return Block::Value::Zero();

@@ -127,7 +127,9 @@ struct RowBlock : ConstraintShape<R, K> {
 };
 
 /// Contacts of a local problem, u = W p + q: node i is the relative velocity u of contact i, and has no mass.
-/// What an impulse does to velocities is a column of the Delassus matrix W.
+/// What an impulse does to velocities is a column of the Delassus matrix W. It stands among the blocks of the
+/// scenes because the linear solvers visit one variant; a row of W has more columns than a RowBlock has
+/// nodes.
 struct LocalContacts : RowBlock<3, 1> {
   struct Coupling {
     int contact;

@@ -1,5 +1,5 @@
 // What an effect with rows is to the solver: a source, which fills rows at an iterate x_k = x0 + d v_k,
-//   J,  b = c(x_k)/d - J v_k,  Sigma = A/(s d),  N_ii^-1 = (J W J^T + Sigma)^-1
+//   J,  b = c(x_k)/d - J v_k,  Sigma = A/(s d), of contacts A/(h d),  N_ii^-1 = (J W J^T + Sigma)^-1
 // and states what else of its formulas the outer iterations ask for. The formulas are compiled behind this
 // interface, once: in the effect's own file.
 #pragma once
@@ -16,7 +16,8 @@
 
 namespace pbd {
 
-/// Squared dual residual of rows, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p, and the same of the
+/// Squared dual residual of rows, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p (of bounds and laws of
+/// friction what they leave of it, `squared_residual` in rows/laws.h), and the same of the
 /// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J; and
 /// what the rows' impulses p do each alone, sum_i |W J_i^T p_i|_M^2. All in J.
 struct RowResidual {
@@ -41,7 +42,7 @@ struct StepBegin {
   const Configuration& at;
   const Configuration &ahead, &behind;  // d further and back along v; read where c0 bends (damping)
   const Points& v;                      // m/s
-  const Points& a;                      // m/s^2, that the integrator carries on; empty if none
+  const Points& a;                      // m/s^2, that the integrator carries on, if it does
   const std::vector<double>& inverse_mass;
   bool warm_start;
 };

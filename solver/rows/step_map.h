@@ -1,5 +1,6 @@
 // A step as an affine map of the velocity v that is solved for (integrators.h):
-//   x = x0 + d v,   M (v - v_free) = J(x)^T p,   a row's bias c(x_k)/d - J v_k, its Sigma A/(s d)
+//   x = x0 + d v,   M (v - v_free) = J(x)^T p,   a row's bias c(x_k)/d - J v_k, its Sigma A/(s d); of
+//   contacts A/(h d)
 #pragma once
 
 #include "geometry.h"

@@ -101,16 +101,16 @@ bool History::begin_sources(StepSystem& system) {
   const Configuration start = problem.start(),
                       ahead = placed(problem, ahead_x_, ahead_poses_, problem.start_time),
                       behind = placed(problem, behind_x_, behind_poses_, problem.start_time);
-  const StepBegin begin{problem.bodies,
-                        problem.map,
-                        problem.coefficients,
-                        start,
-                        ahead,
-                        behind,
-                        problem.start_v,
-                        a_,
-                        problem.inverse_mass,
-                        problem.method.warm_start};
+  const StepBegin begin{.bodies = problem.bodies,
+                        .map = problem.map,
+                        .coefficients = problem.coefficients,
+                        .at = start,
+                        .ahead = ahead,
+                        .behind = behind,
+                        .v = problem.start_v,
+                        .a = a_,
+                        .inverse_mass = problem.inverse_mass,
+                        .warm_start = problem.method.warm_start};
   bool others = false;
   for (Slot& slot : system.slots) others |= slot.source->begin_step(begin, slot.blocks(system.rows));
   return others;

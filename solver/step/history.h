@@ -32,7 +32,7 @@ class History {
   const Integrator* integrator_;
   double h_ = 0;               // s, of the last step; 0 if there is none
   Points x_, v_;               // where the last step began
-  Points q_, a_;               // m/s^2, as in integrators.h; empty where the integrator asks for none
+  Points q_, a_;               // m/s^2, as in integrators.h; a_ has a meaning where a_v > 0
   Points acceleration_;        // m/s^2, by given forces
   Points impulse_;             // m/s, what those of contacts have brought
   Points ahead_x_, behind_x_;  // m, d further and back along v, where an effect is damped

@@ -13,7 +13,7 @@ constexpr std::string_view not_finite = "not finite";
 /// What the residuals of a step are compared with.
 struct Levels {
   double free_change = 0, free_speed = 0;               // |v_free - v_l|_M, |v_free|_M
-  double velocity_rounding = 0, rounding = 0;           // of the primal and of the dual residual
+  double primal_rounding = 0, dual_rounding = 0;        // what rounding makes of the residuals
   double first_residual = 0, last_residual = infinity;  // of this step
 };
 
@@ -26,8 +26,8 @@ void measure(const StepSystem& system, const RowResidual& found, Levels& levels,
   progress.scale = mass_distance(inverse_mass, system.at.v, system.problem.start_v) + levels.free_change;
   const double impulses = std::sqrt(found.impulses_squared);
   const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
-  levels.velocity_rounding = 8 * rounding_unit * (levels.free_speed + (balance ? impulses : 0.0));
-  levels.rounding = 8 * rounding_unit * levels.free_speed + std::sqrt(found.rounding_squared);
+  levels.primal_rounding = 8 * rounding_unit * (levels.free_speed + (balance ? impulses : 0.0));
+  levels.dual_rounding = 8 * rounding_unit * levels.free_speed + std::sqrt(found.rounding_squared);
 }
 
 /// Sets status and reason; true if the outer iteration is to end.
@@ -36,8 +36,8 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   if (!std::isfinite(progress.primal) || !std::isfinite(progress.dual) || !std::isfinite(progress.scale)) {
     report.status = Status::diverged;
     report.reason = not_finite;
-  } else if (progress.primal <= std::max(method.tolerance * progress.scale, levels.velocity_rounding) &&
-             progress.dual <= std::max(method.tolerance * progress.scale, levels.rounding)) {
+  } else if (progress.primal <= std::max(method.tolerance * progress.scale, levels.primal_rounding) &&
+             progress.dual <= std::max(method.tolerance * progress.scale, levels.dual_rounding)) {
     report.status = Status::ok;
     report.reason = "";
   } else if (progress.residual() > blown_up * std::max(levels.first_residual, progress.scale)) {
@@ -70,8 +70,16 @@ void note_impulses(StepSystem& system) {
 bool widen(StepSystem& system) {
   const Problem& problem = system.problem;
   const Configuration start = problem.start();
-  const StepBegin begin{problem.bodies,  problem.map, problem.coefficients, start, start, start,
-                        problem.start_v, {},          problem.inverse_mass, true};
+  const StepBegin begin{.bodies = problem.bodies,
+                        .map = problem.map,
+                        .coefficients = problem.coefficients,
+                        .at = start,
+                        .ahead = start,
+                        .behind = start,
+                        .v = problem.start_v,
+                        .a = {},
+                        .inverse_mass = problem.inverse_mass,
+                        .warm_start = true};
   bool widened = false;
   for (Slot& slot : system.slots) {
     const Widened found = slot.source->widen(begin, system.at.x, slot.blocks(system.rows));
@@ -89,11 +97,11 @@ struct StepRun {
   Report report{};
 
   void begin(double h, const State& state);
-  void iterate(const Observer& observer);
+  void solve(const Observer& observer);
   void end(double h, State& state);
 
  private:
-  bool settled(bool stalled);
+  bool settle_here(bool stalled);
   bool stalls();
   void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
 };
@@ -106,11 +114,6 @@ void StepRun::begin(double h, const State& state) {
   }
   w.history.begin_step(h, state, system);
   if (!w.method.warm_start) clear_impulses(system.rows);
-  for (Slot& slot : system.slots)
-    if (slot.source->kind().contacts) {
-      slot.cost.rows = row_count(slot.view(system.rows));
-      slot.cost.bytes = bytes(slot.view(system.rows));
-    }
   system.at.v = system.problem.start_v;
   w.best.residual = infinity;
   pbd::begin(w.outer, system);
@@ -134,7 +137,7 @@ bool StepRun::stalls() {
 }
 
 /// True if the iterate ends the step once its impulses are settled.
-bool StepRun::settled(bool stalled) {
+bool StepRun::settle_here(bool stalled) {
   const auto found = settle(w.outer, w.system, progress, stalled);
   if (!found) return false;
   measure(w.system, *found, levels, progress);
@@ -143,7 +146,7 @@ bool StepRun::settled(bool stalled) {
   return false;
 }
 
-void StepRun::iterate(const Observer& observer) {
+void StepRun::solve(const Observer& observer) {
   StepSystem& system = w.system;
   Points& previous = w.previous;
   previous = system.at.v;
@@ -165,7 +168,7 @@ void StepRun::iterate(const Observer& observer) {
       w.best.residual = infinity;
       continue;
     }
-    if (settled(stalled)) break;
+    if (settle_here(stalled)) break;
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;
@@ -196,6 +199,11 @@ void StepRun::end(double h, State& state) {
     pbd::end(w.outer, system);
     w.history.end_step(h, system, state);
   }
+  for (Slot& slot : system.slots)
+    if (slot.source->kind().contacts) {
+      slot.cost.rows = row_count(slot.view(system.rows));
+      slot.cost.bytes = bytes(slot.view(system.rows));
+    }
   report.outer_iterations = progress.outer_iterations;
   report.sweeps = progress.sweeps;
   report.row_updates = progress.row_updates;
@@ -210,7 +218,7 @@ void StepRun::end(double h, State& state) {
 Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
   StepRun run{*workspace.data_};
   run.begin(h, state);
-  run.iterate(observer);
+  run.solve(observer);
   run.end(h, state);
   return run.report;
 }

@@ -6,11 +6,14 @@
 //   dual     c(x(v)) / d + Sigma p = 0, Sigma = A/(s d)
 //
 // that is, impulses act along the directions at x(v), the end of the step (midpoint: its middle), and every
-// constraint is met up to its compliance A.
+// constraint is met up to its compliance A. Where an impulse has bounds or a law of friction (limits,
+// contacts), these hold in place of the dual equation; of contacts Sigma is A/(h d).
 //
 // Both residuals are measured in the same unit, sqrt(J): |v - v_free - W J^T p|_M and sqrt(sum_i r_i^T
-// N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; they are compared
-// with scale = |v - v_old|_M + |v_free - v_old|_M. The first iterate is v = v_old. What rounding makes of x
+// N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; of bounds and
+// laws, what is left by them of a step -N_ii^-1 r_i of p (`squared_residual` in rows/laws.h). They are
+// compared with scale = |v - v_l|_M + |v_free - v_l|_M, v_l being the velocity at the step's start and the
+// first iterate. What rounding makes of x
 // in a constraint's value counts as solved (RowResidual in rows/source.h); where impulses balance each other
 // to half of the digits, so that next to nothing moves, what it makes of their velocities does, too.
 #pragma once

@@ -20,7 +20,7 @@ struct Planted {
   Points v_free, v_exact;
 
   explicit Planted(const Scene& scene, double h = 1.0 / 60) {
-    const std::vector<Slot> slots = allocate_rows(scene, Friction::coulomb, false, rows);
+    const std::vector<Slot> slots = make_slots(scene, Friction::coulomb, false, rows);
     const StepMap map{scene.initial.x, scene.initial.v, h, h, h};
     v_free = Points::Zero(3, scene.nodes());
     const std::vector<Pose> no_bodies;

@@ -157,13 +157,14 @@ class ConeProgram : public Ipopt::TNLP {
   VectorXd q_;
 };
 
-/// Impulses of the scaled problem, empty if Ipopt gave none.
+/// Impulses of the scaled problem, empty if Ipopt gave none. `barrier` is how its parameter falls.
 template <class Form>
-VectorXd run(const ConeProblem& scaled, int& iterations) {
+VectorXd run(const ConeProblem& scaled, const char* barrier, int& iterations) {
   // The error of a contact with r = u = 0 goes as the root of this; below rounding Ipopt ends without
   // success.
   constexpr double complementarity = 1e-16;
   const auto app = ipopt_application(complementarity);
+  app->Options()->SetStringValue("mu_strategy", barrier);
   if (app->Initialize() != Ipopt::Solve_Succeeded) return {};
   const Ipopt::SmartPtr<ConeProgram<Form>> program = new ConeProgram<Form>(scaled);
   app->OptimizeTNLP(GetRawPtr(program));
@@ -171,7 +172,7 @@ VectorXd run(const ConeProblem& scaled, int& iterations) {
   return program->found;
 }
 
-/// The law `cone`.
+/// The law `cone`. Some problems stop Ipopt short in one form or with one barrier, hardly any in all.
 ConeSolution minimum(const ConeProblem& problem, double tolerance) {
   EquilibratedCone scaled = equilibrate(problem);
   const double size = scaled.problem.free_velocity.cwiseAbs().maxCoeff();
@@ -180,14 +181,15 @@ ConeSolution minimum(const ConeProblem& problem, double tolerance) {
   if (size > 0) {
     scaled.problem.free_velocity /= size;
     double smallest = infinity;
-    for (const auto form : {run<PolarTangent>, run<Ratio>}) {
-      if (smallest <= tolerance) break;
-      const VectorXd found = form(scaled.problem, best.iterations);
-      if (found.size() == 0 || !found.allFinite()) continue;
-      const VectorXd impulse = size * scaled.scale.cwiseProduct(found);
-      const double residual = measure_cone(problem, FrictionLaw::cone, impulse).residual();
-      if (residual < smallest) smallest = residual, best.impulse = impulse;
-    }
+    for (const char* barrier : {"monotone", "adaptive"})
+      for (const auto form : {run<PolarTangent>, run<Ratio>}) {
+        if (smallest <= tolerance) break;
+        const VectorXd found = form(scaled.problem, barrier, best.iterations);
+        if (found.size() == 0 || !found.allFinite()) continue;
+        const VectorXd impulse = size * scaled.scale.cwiseProduct(found);
+        const double residual = measure_cone(problem, FrictionLaw::cone, impulse).residual();
+        if (residual < smallest) smallest = residual, best.impulse = impulse;
+      }
   }
   certify(problem, FrictionLaw::cone, tolerance, best);
   return best;

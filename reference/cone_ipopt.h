@@ -2,9 +2,10 @@
 //
 //   polar   r = p (1, mu s),      p >= 0,    |s|^2 <= 1                  not convex, smooth at the apex
 //   ratio   r_N >= 0,             mu r_N - |r_T|^2 / (mu r_N) >= 0       convex, with a pole at the apex
-// The ratio is tried where the polar form misses the tolerance. Neither is regular where r = 0, so Ipopt's
-// own status says little: what counts is the natural residual. Independent of the first judge by formulation,
-// derivatives, path and linear solver (MUMPS); only the contacts' equilibration is shared.
+// The ratio is tried where the polar form misses the tolerance, then both with Ipopt's adaptive barrier.
+// Neither is regular where r = 0, so Ipopt's own status says little: what counts is the natural residual.
+// Independent of the first judge by formulation, derivatives, path and linear solver (MUMPS); only the
+// contacts' equilibration is shared.
 #pragma once
 
 #include "cone_problem.h"

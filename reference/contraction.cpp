@@ -14,6 +14,7 @@ constexpr double dependent = 1e-10;  // rows whose pivot is below this share of 
 }  // namespace
 
 Contraction extremes(const Eigen::MatrixXd& map) {
+  if (!map.allFinite()) return {std::nan(""), std::nan("")};
   Contraction found;
   for (const auto& value : eigenvalues(map)) {
     found.smallest = std::min(found.smallest, std::copysign(std::abs(value), value.real()));

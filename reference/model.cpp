@@ -1,7 +1,8 @@
-// Rest quantities of every effect, from the rest positions in the scene.
-//   tetrahedron: Dm = [X1-X0, X2-X0, X3-X0], F = Ds Dm^-1, so w_1..3 = rows of Dm^-1 and w_0 = -(w_1 + w_2 +
-//   w_3); V = det Dm / 6 triangle: likewise in the plane of the rest triangle with u along X0 X1; area = det
-//   Dm / 2 A^-1 = V C (tetrahedron), area C (triangle); 1/compliance otherwise
+// Rest quantities of every effect of nodes, from the rest positions in the scene.
+//   tetrahedron  Dm = [X1-X0, X2-X0, X3-X0], F = Ds Dm^-1, so w_1..3 = rows of Dm^-1 and w_0 = -(w_1 + w_2 +
+//                w_3); V = det Dm / 6
+//   triangle     likewise in the plane of the rest triangle with u along X0 X1; area = det Dm / 2
+//   A^-1         V C of a tetrahedron, area C of a triangle; 1/compliance otherwise
 #include <Eigen/Dense>
 #include <cmath>
 

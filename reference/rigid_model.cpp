@@ -128,9 +128,6 @@ struct ModelBuilder {
   }
 };
 
-static_assert(AllJudged<Effect>::value);
-static_assert(states<ModelBuilder>(BodyEffects{}), "an effect of rigid bodies without its statement");
-
 void add_rotors(const Scene& scene, RigidModel& model) {
   model.unknowns = model.nodes.unknowns;
   for (const auto& [node, inertia] : scene.bodies) {

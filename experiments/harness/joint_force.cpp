@@ -17,7 +17,7 @@ Wrench on_second_body(const pbd::Scene& scene, const pbd::Effect& effect, std::s
   const auto source = pbd::make_source(scene, effect, pbd::Friction::coulomb);
   const Eigen::VectorXd push = source->push(i, multipliers, at);
   constexpr Eigen::Index two_bodies = 12;
-  if (push.size() != two_bodies) return {};
+  if (!source->kind().of_bodies || push.size() != two_bodies) return {};
   return {push.segment<3>(6), at.pose[body].turn_per_arc.transpose().inverse() * push.segment<3>(9)};
 }
 

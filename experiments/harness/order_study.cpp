@@ -87,13 +87,13 @@ double largest_error(const std::vector<double>& errors) {
 }
 
 void write_errors(Table& table, const OrderCourse& course) {
-  const double judged_place = largest_error(course.motion->exact.position_error) / course.motion->size;
+  const double judge_error = largest_error(course.motion->exact.position_error) / course.motion->size;
   double coarser = std::nan("");
   for (const OrderLevel& level : course.levels) {
     std::vector<Cell> row{course.motion->name};
     for (auto& cell : method_cells(course.rule)) row.push_back(std::move(cell));
     for (const double number :
-         {level.h, level.error, std::log2(coarser / level.error), level.unsolved, judged_place})
+         {level.h, level.error, std::log2(coarser / level.error), level.unsolved, judge_error})
       row.emplace_back(number);
     row.emplace_back(status_cell(level.run.status));
     row.emplace_back(level.run.reason);
@@ -104,7 +104,7 @@ void write_errors(Table& table, const OrderCourse& course) {
 
 /// Where a rule's order is decided: not of a damped newmark, whose errors of first and second order compete,
 /// nor where hard constraints are marginal.
-bool judged_place(const OrderCourse& course) {
+bool order_is_judged(const OrderCourse& course) {
   const bool damped = course.rule.method.integrator == "newmark" && course.rule.order == 1;
   return course.motion->judged && !damped && !(course.motion->hard && course.rule.marginal);
 }
@@ -123,7 +123,7 @@ void conclude_order(Context& context, std::string_view experiment, Table& table,
     h.push_back(level->h);
     error.push_back(level->error);
     if (level->run.status > worst.status) worst = level->run;
-    if (judged_place(course)) resolved.add((level->unsolved + exact) / level->error);
+    if (order_is_judged(course)) resolved.add((level->unsolved + exact) / level->error);
   }
   const double order = fitted_order(h, error);
   const int expected = expected_order(course);
@@ -133,7 +133,7 @@ void conclude_order(Context& context, std::string_view experiment, Table& table,
              {order, static_cast<double>(expected), std::int64_t{fitted_levels}, h.back(), error.back(),
               std::string(behaviour_of(error)), status_cell(worst.status), worst.reason});
   table.row(row);
-  if (!judged_place(course)) return;
+  if (!order_is_judged(course)) return;
   const bool solved = worst.status == Status::ok && behaviour_of(error) == "converging";
   context.verdict(std::string(experiment) + "." + course.motion->name + "." + course.rule.name(),
                   "the errors fall at the integrator's order", "|order - " + std::to_string(expected) + "|",

@@ -31,6 +31,7 @@ std::vector<Slot> make_slots(const Scene& scene, Friction law, bool hard_alone, 
     slot.count = rows.blocks.size() - slot.first;
     rows.contacts |= slot.source->kind().contacts && slot.count > 0;
     slot.cost.effect = std::visit([](const auto& effect) { return effect.name; }, scene.effects[index]);
+    slot.count_rows(rows);
     slots.push_back(std::move(slot));
   }
   return slots;

@@ -18,9 +18,9 @@ void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
 
 /// Takes impulses that their law would move along the surface of what it allows there, or to nothing, and
 /// tells which parts of the impulses remain free. True if another set of them is.
-bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
+bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, double& squared) {
   bool changed = false;
-  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     if (!block.bounded()) return;
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
@@ -52,7 +52,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, double& squared) {
 
 PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double moved = 0;  // squared residual of what the laws have moved
-  const bool set_changed = find_free(rows, v, moved);
+  const bool set_changed = find_free(rows, v, seconds, moved);
   push_.setZero(3, v.cols());
   double product = 0, kept_product = 0;  // of r with the new and the last D^-1 r
   double slope = 0;                      // of r along the old direction
@@ -76,7 +76,7 @@ PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds 
   slope = beta * slope - product;
   velocity_ = push_ + beta * velocity_;
   double curvature = squared_mass_norm(rows.inverse_mass, velocity_);
-  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       auto direction = entries(direction_, block, first_row, i);
       direction = beta * direction - entries(last_, block, first_row, i);
@@ -92,12 +92,12 @@ PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds 
     return {std::sqrt(moved), moved == 0};              // nothing left to gain along J
   }
   const double length = -slope / curvature;
-  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t first_row) {
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] += length * entries(direction_, block, first_row, i);
   });
   v += length * velocity_;
-  visit_blocks(rows.blocks, nullptr, [&]<class Block>(Block& block, std::size_t) {
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
     for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
       const typename Block::Value back = cut(block, i, block.impulse[i]) - block.impulse[i];
       if (back.isZero(0)) continue;

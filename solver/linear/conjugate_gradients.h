@@ -20,7 +20,7 @@ class ConjugateGradients {
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 
  private:
-  bool find_free(Rows& rows, Points& v, double& squared);
+  bool find_free(Rows& rows, Points& v, BlockSeconds seconds, double& squared);
 
   std::vector<double> direction_, last_;  // s, and the last D^-1 r; one entry a row
   Points velocity_, push_;                // u, and W J^T of the new part of s

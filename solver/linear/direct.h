@@ -21,7 +21,7 @@ class Direct {
   /// Gauss-Seidel.
   std::int64_t further_sweeps() const { return further_sweeps_; }
 
-  /// The name of the part that made the last gain.
+  /// The name of the part that worked last.
   std::string_view part() const { return part_; }
 
  private:

@@ -12,7 +12,7 @@ void Jacobi::begin(Rows& rows, const Points& v, bool fresh) {
   if (fresh) caution_ = 1;
   omega_ = caution_ * std::min(1.0, 2 / bound_.update(rows, v));
   least_omega_ = omega_ / 2;
-  last_residual_ = lowest_residual_ = std::numeric_limits<double>::infinity();
+  last_residual_ = lowest_residual_ = infinity;
 }
 
 PBD_FLATTEN Sweep Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {

@@ -111,7 +111,7 @@ void Ldlt::factorise(const Rows& rows) {
   std::size_t next = 0;
   assemble(rows, [&](int, int, double value) { matrix_.valuePtr()[slot_[next++]] += value; });
   factored_ = factor_.factorise(matrix_);
-  last_residual_ = std::numeric_limits<double>::infinity();
+  last_residual_ = infinity;
 }
 
 /// Takes impulses to the bound that a sweep of Gauss-Seidel leaves them at; true if the set of such has

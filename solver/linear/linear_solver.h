@@ -38,7 +38,7 @@ std::int64_t relax(LinearSolver& solver, Rows& rows, Points& v, bool fresh, cons
 /// What was learnt of earlier rows counts no more.
 void forget(LinearSolver& solver);
 
-/// Which part of a composed solver made the last gain; of the others their name.
+/// Which part of a composed solver worked last; of the others their name.
 std::string_view part(const LinearSolver& solver);
 
 /// A fresh one by name (SetupError if unknown).

@@ -3,12 +3,18 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace pbd {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The larger one; NaN if one of them is.
+inline double larger(double a, double b) {
+  return std::isnan(a) || a > b ? a : b;
+}
 
 using Vec3 = Eigen::Vector3d;
 using Points = Eigen::Matrix3Xd;  // one column a node

@@ -13,11 +13,6 @@ bool eliminates(const Slot& slot) {
   return kind.compliant && !kind.of_bodies && !kind.contacts;
 }
 
-/// |.|_M^2 by the product of one vector with itself.
-double squared(const Problem& problem, const Points& v) {
-  return mass_product(problem.inverse_mass, v, v);
-}
-
 }  // namespace
 
 QuasiNewton::QuasiNewton(StepSystem& system)
@@ -98,7 +93,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
 double QuasiNewton::find_direction() {
   const auto find = [this] {
     lbfgs_.direction(potential_.gradient, potential_.metric, direction_);
-    slope_ = (potential_.gradient.array() * direction_.array()).sum();
+    slope_ = dot(potential_.gradient, direction_);
   };
   find();
   if (!(slope_ < 0)) {
@@ -119,7 +114,7 @@ bool QuasiNewton::start_low(StepSystem& system) {
   double lowest = potential_.value;
   const Points* last = &search_from_;
   for (const Points* start : {&problem.map.v_free, static_cast<const Points*>(&zero_)}) {
-    if (start == &zero_ && lowest <= squared(problem, problem.map.v_free) / 2) break;
+    if (start == &zero_ && lowest <= squared_mass_norm(problem.inverse_mass, problem.map.v_free) / 2) break;
     v = *start;
     evaluate(system);
     if (potential_.value < lowest) {
@@ -163,7 +158,7 @@ void QuasiNewton::descend(StepSystem& system, bool first) {
   for (int k = 0; k < most_halvings; ++k, length /= 2) {
     v = search_from_ + length * direction_;
     evaluate(system);
-    const double along = (potential_.gradient.array() * direction_.array()).sum();
+    const double along = dot(potential_.gradient, direction_);
     if (potential_.value <= before + sufficient * length * slope_ ||
         (potential_.value <= (1 + flat) * before && along <= flatter * std::abs(slope_))) {
       lbfgs_.learn(v - search_from_, potential_.gradient - last_gradient_);

@@ -75,6 +75,7 @@ void relax(StepSystem& system, Progress& progress) {
   for (Slot& slot : system.slots)
     for (std::size_t b = slot.first; b < slot.first + slot.count; ++b)
       slot.cost.seconds += system.block_seconds[b] * static_cast<double>(sweeps);
+  progress.linear_part = part(system.solver);
   progress.sweeps += sweeps;
   progress.row_updates += sweeps * row_count(system.rows);
 }

@@ -69,8 +69,9 @@ struct Progress {
   double contraction = 0;                  // of plain, as the last step's end predicts it; NaN: unknown
   double forcing = 0;                      // share of the residual that the linear problem is solved to
   double relaxed_residual = infinity;      // that the last linear problem was solved for
+  std::string_view linear_part;            // what solved it
 
-  double residual() const { return std::max(primal, dual); }
+  double residual() const { return larger(primal, dual); }
 };
 
 /// Residual (sqrt(J)) as small as the outer iteration can use: tighter while its own does not fall.

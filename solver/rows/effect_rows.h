@@ -159,7 +159,7 @@ class EffectRows final : public Source {
       C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, jacobian);
       const Square compliance = C::compliance(effect_, i);
       if (compliance.isZero(0))  // no effect has both kinds of rows in one constraint
-        sum.missed = std::max(sum.missed, unmet(effect_, i, value));
+        sum.missed = larger(sum.missed, unmet(effect_, i, value));
       else
         sum.energy += held_energy(effect_, i, value, compliance);
     }

@@ -47,11 +47,7 @@ Eigen::Matrix3d invert(const Eigen::Matrix3d& n, bool& singular) {
 }
 
 Matrix6d invert(const Matrix6d& n, bool& singular) {
-  Matrix6d inverse;
-  singular = !inverted(n, inverse);
-  if (!singular) return inverse;
-  const auto eigen = symmetric_eigen(n);
-  return pseudo_inverse<Matrix6d>(eigen.values, eigen.vectors);
+  return invert_small(n, singular);
 }
 
 }  // namespace pbd

@@ -94,12 +94,10 @@ Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
 ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Vector3d& p,
                                         const Eigen::Vector3d& step) {
   Vector3d z = p + step;
-  if (law == Friction::disc || law == Friction::box) {
-    const Matrix3d derivative = law == Friction::disc ? disc_derivative(mu, z) : box_derivative(mu, z);
-    return {derivative, derivative};
-  }
-  if (law == Friction::cone) {
-    const Matrix3d derivative = cone_derivative(mu, z);
+  if (law != Friction::coulomb) {
+    const Matrix3d derivative = law == Friction::cone   ? cone_derivative(mu, z)
+                                : law == Friction::disc ? disc_derivative(mu, z)
+                                                        : box_derivative(mu, z);
     return {derivative, derivative};
   }
   const double slip = std::hypot(step[1], step[2]);

@@ -14,9 +14,9 @@ inline double dot(const Points& a, const Points& b) {
   return (a.array() * b.array()).sum();
 }
 
-/// `sum` + a . M b
-inline double mass_product(const std::vector<double>& inverse_mass, const Points& a, const Points& b,
-                           double sum = 0) {
+/// a . M b
+inline double mass_product(const std::vector<double>& inverse_mass, const Points& a, const Points& b) {
+  double sum = 0;
   for (std::size_t node = 0; node < inverse_mass.size(); ++node)
     if (inverse_mass[node] > 0) sum += a.col(node).dot(b.col(node)) / inverse_mass[node];
   return sum;
@@ -45,7 +45,7 @@ inline double mass_norm(const std::vector<double>& inverse_mass, const Points& v
   return std::sqrt(squared_mass_norm(inverse_mass, v));
 }
 
-/// |force|_W = |W force|_M of momenta (N s).
+/// |momentum|_W = |W momentum|_M, sqrt(J).
 inline double momentum_norm(const std::vector<double>& inverse_mass, const Points& momentum) {
   double sum = 0;
   for (std::size_t node = 0; node < inverse_mass.size(); ++node)

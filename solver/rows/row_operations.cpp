@@ -15,7 +15,9 @@ bool RowOperations<R, K>::invert_diagonal(Block& block, const std::vector<double
   bool singular = false;
   if (block.frictional()) {
     block.delassus[i] = n;
-    block.inverse_diagonal[i] = R / n.trace() * Square::Identity();
+    const double trace = n.trace();
+    block.inverse_diagonal[i] = (trace > 0 ? R / trace : 0.0) * Square::Identity();
+    if (!(trace > 0)) block.bounds[i].freedom = Freedom::held;  // nothing that it touches can move
   } else {
     block.inverse_diagonal[i] = invert(n, singular);
   }

@@ -179,6 +179,12 @@ struct Slot {
 
   BlockSpan blocks(Rows& rows) const { return BlockSpan(rows.blocks).subspan(first, count); }
   ConstBlockSpan view(const Rows& rows) const { return ConstBlockSpan(rows.blocks).subspan(first, count); }
+
+  /// Sets the cost's rows and bytes.
+  void count_rows(const Rows& rows) {
+    cost.rows = row_count(view(rows));
+    cost.bytes = bytes(view(rows));
+  }
 };
 
 }  // namespace pbd

@@ -85,8 +85,8 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
   if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
   set_map(h, goes_on, problem);
   if (begin_sources(system)) ++system.rows.generation;
+  h_ = 0;  // until the step has ended
   if (integrator_->keeps == Keeps::nothing) return;
-  h_ = h;
   x_ = problem.start_x;
   v_ = problem.start_v;
 }
@@ -127,6 +127,7 @@ void History::end_step(double h, const StepSystem& system, State& state) {
     problem.bodies.end(end_x_, end_v_, state);
   }
   state.time += h;
+  if (integrator_->keeps != Keeps::nothing) h_ = h;
   if (problem.bodies.count() > 0) ended_ = state;
 }
 

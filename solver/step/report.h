@@ -26,12 +26,13 @@ struct Report {
   double scale = 0;
   double contraction = std::nan("");  // of plain at the step's end: what it multiplies an error by; an
                                       // estimate, for quasi_newton an upper bound
-  std::string_view linear_part;       // the linear solver, or which part of `direct` made the last gain
+  std::string_view linear_part;       // the linear solver, of `direct` the part, that worked last; empty if
+                                      // nothing was relaxed
 
   /// Largest residual relative to `scale`; 0 if both vanish.
   double residual() const {
-    const double largest = std::max(primal, dual);
-    return largest > 0 ? largest / scale : largest;
+    const double largest = larger(primal, dual);
+    return largest == 0 ? 0 : largest / scale;
   }
 };
 

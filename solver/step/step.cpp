@@ -199,18 +199,14 @@ void StepRun::end(double h, State& state) {
     pbd::end(w.outer, system);
     w.history.end_step(h, system, state);
   }
-  for (Slot& slot : system.slots)
-    if (slot.source->kind().contacts) {
-      slot.cost.rows = row_count(slot.view(system.rows));
-      slot.cost.bytes = bytes(slot.view(system.rows));
-    }
+  for (Slot& slot : system.slots) slot.count_rows(system.rows);
   report.outer_iterations = progress.outer_iterations;
   report.sweeps = progress.sweeps;
   report.row_updates = progress.row_updates;
   report.primal = progress.primal;
   report.dual = progress.dual;
   report.scale = progress.scale;
-  report.linear_part = part(system.solver);
+  report.linear_part = progress.linear_part;
 }
 
 }  // namespace

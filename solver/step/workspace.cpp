@@ -26,6 +26,13 @@ double finite_mass_of(const Scene& scene) {
   return sum > 0 ? sum : 1;  // nothing moves, and an unmet constraint still weighs
 }
 
+bool implicit_gyroscopic(const Scene& scene, const Integrator& integrator) {
+  bool implicit = false;
+  for (const Effect& effect : scene.effects)
+    if (const auto* torque = std::get_if<Gyroscopic>(&effect)) implicit = torque->implicit;
+  return implicit && !integrator.explicit_forces;
+}
+
 StepSystem system_of(const Scene& scene, const Method& method) {
   const Integrator& integrator = find_named(integrators(), "integrator", method.integrator);
   require_outer(method.outer);
@@ -37,31 +44,20 @@ StepSystem system_of(const Scene& scene, const Method& method) {
   problem.inverse_mass = system.rows.inverse_mass;
   problem.finite_mass = finite_mass_of(scene);
   problem.direction_blend = integrator.explicit_forces ? 0 : method.direction_blend;
-  for (const Effect& effect : scene.effects)
-    if (const auto* gyroscopic = std::get_if<Gyroscopic>(&effect))
-      problem.implicit_gyroscopic = gyroscopic->implicit && !integrator.explicit_forces;
-  for (Slot& slot : system.slots) {
-    problem.hard_constraints |= !slot.source->kind().compliant;
-    slot.cost.rows = row_count(slot.view(system.rows));
-    slot.cost.bytes = bytes(slot.view(system.rows));
-  }
+  problem.implicit_gyroscopic = implicit_gyroscopic(scene, integrator);
+  for (const Slot& slot : system.slots) problem.hard_constraints |= !slot.source->kind().compliant;
   return system;
 }
 
-/// True if the rows of both effects, which are of one kind, have the same Sigma.
+/// True if the rows of both effects, which are of one kind, have the same Sigma; of strains it is a matter of
+/// much, and false.
 bool same_stiffness(const Effect& a, const Effect& b) {
-  const auto same = [](const Material& one, const Material& other) {
-    return one.young == other.young && one.poisson == other.poisson;
-  };
   return std::visit(
       [&]<class E>(const E& one) {
         const E& other = std::get<E>(b);
         if constexpr (requires { one.compliance; })
           return one.compliance == other.compliance && one.damping == other.damping;
-        else if constexpr (requires { one.material; })
-          return same(one.material, other.material) && one.damping.has_value() == other.damping.has_value() &&
-                 (!one.damping || same(*one.damping, *other.damping));
-        return true;
+        return false;
       },
       a);
 }
@@ -128,6 +124,8 @@ void Workspace::change(std::size_t index, const Effect& effect) {
   effects[index] = effect;  // in place: the sources refer to it
   try {
     validate_effect(data_->scene, index);
+    data_->system.problem.implicit_gyroscopic =
+        implicit_gyroscopic(data_->scene, data_->history.integrator());
     if (slot == slots.end()) return;
     const auto source = make_source(data_->scene, effects[index], Friction::coulomb);
     if (source->kind() != slot->source->kind() ||

@@ -168,18 +168,17 @@ TEST_CASE("the parts of direct solve bilateral rows alone, each by its own rate"
   CHECK(errors(problem, "augmented_lagrangian", 10).back() < 1e-9);
 }
 
-TEST_CASE("direct says which part made the last gain, and ldlt refuses contact") {
+TEST_CASE("direct says which part worked last, and ldlt refuses contact") {
   Method method;
   method.relaxation = "direct";
   const Scene links = chain(4);
   State state = links.initial;
   CHECK(one_step(links, method, 0.01, state).linear_part == "ldlt");
-  const Scene pile = pbdcheck::pile();
-  state = pile.initial;
-  const auto part = one_step(pile, method, 0.01, state).linear_part;
-  CHECK((part == "semismooth_newton" || part == "augmented_lagrangian" || part == "gauss_seidel"));
+  const Scene resting = pbdcheck::sliding_box(0, 0, 0);  // all contacts press: one step of Newton's solves it
+  state = resting.initial;
+  CHECK(one_step(resting, method, 0.01, state).linear_part == "semismooth_newton");
   method.relaxation = "ldlt";
-  CHECK_THROWS_WITH(Workspace(pile, method), Catch::Contains("relaxation") && Catch::Contains("ldlt"));
+  CHECK_THROWS_WITH(Workspace(resting, method), Catch::Contains("relaxation") && Catch::Contains("ldlt"));
 }
 
 TEST_CASE("an unknown relaxation is refused with the list") {

@@ -19,10 +19,13 @@ Method by_quasi_newton() {
   return method;
 }
 
-/// The scene's strain with another Young's modulus.
-TetStrain stiffer(const Scene& scene, std::size_t index, double young) {
+/// The scene's strain a hundred times as stiff, or with a rest shape smaller by a hundredth.
+TetStrain other_strain(const Scene& scene, std::size_t index, bool stiffer) {
   TetStrain strain = std::get<TetStrain>(scene.effects[index]);
-  strain.material.young = young;
+  if (stiffer)
+    strain.material.young *= 100;
+  else
+    for (auto& corners : strain.rest) corners *= 0.99;
   return strain;
 }
 
@@ -34,11 +37,12 @@ std::size_t strain_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a modulus changed between steps is that of the next step, as in a workspace of its own") {
+TEST_CASE("a modulus or rest shape changed between steps is the next step's, as in a workspace of its own") {
+  const bool stiffer = GENERATE(true, false);
   const Scene soft = cantilever(4, {1e5, 0.3}, Strain::green);
   const std::size_t index = strain_of(soft);
   Scene hard = soft;
-  hard.effects[index] = stiffer(soft, index, 1e7);
+  hard.effects[index] = other_strain(soft, index, stiffer);
   for (const std::string outer : {"quasi_newton", "auto", "plain"}) {
     INFO(outer);
     Method method = by_quasi_newton();
@@ -48,7 +52,6 @@ TEST_CASE("a modulus changed between steps is that of the next step, as in a wor
     for (int k = 0; k < 3; ++k) step(changed, h, state);
     State expected = state, old = state;
     changed.change(index, hard.effects[index]);
-    CHECK(std::get<TetStrain>(changed.scene().effects[index]).material.young == 1e7);
     CHECK(step(changed, h, state).status == Status::ok);
     Workspace fresh(hard, method), unchanged(soft, method);
     step(fresh, h, expected);
@@ -57,6 +60,23 @@ TEST_CASE("a modulus changed between steps is that of the next step, as in a wor
     CHECK((state.x - expected.x).norm() < 1e-6 * (state.x - soft.initial.x).norm());
     CHECK((state.x - old.x).norm() > 1e-2 * (state.x - soft.initial.x).norm());
   }
+}
+
+TEST_CASE("a gyroscopic torque made explicit between steps acts once, as in a workspace of its own") {
+  const bool implicit = GENERATE(true, false);
+  Scene scene, other;
+  for (Scene* own : {&scene, &other}) {
+    add_body(*own, Vec3::Zero(), 2, Vec3(1, 2, 3), Eigen::Quaterniond::Identity(), Vec3::Zero(),
+             Vec3(1, 1, 1));
+    own->effects.emplace_back(Gyroscopic{own == &scene ? implicit : !implicit});
+  }
+  Workspace changed(scene, {}), fresh(other, {});
+  State state = scene.initial, expected = scene.initial;
+  changed.change(0, other.effects[0]);
+  CHECK(step(changed, h, state).status == Status::ok);
+  CHECK(step(fresh, h, expected).status == Status::ok);
+  CHECK(state.spin == expected.spin);
+  CHECK(state.spin != scene.initial.spin);
 }
 
 TEST_CASE("an effect is replaced by one of the same constraints only, and nothing changes otherwise") {
@@ -89,6 +109,7 @@ TEST_CASE("an effect is replaced by one of the same constraints only, and nothin
   const auto& kept = std::get<Distance>(workspace.scene().effects[index]);
   CHECK(kept.node == links.node);
   CHECK(kept.rest_length == links.rest_length);
+  CHECK(kept.compliance == links.compliance);
   CHECK(kept.damping == links.damping);
   Distance longer = links;
   for (double& length : longer.rest_length) length *= 1.1;

@@ -31,15 +31,15 @@ struct Level {
 Level level_of(const Mechanism& mechanism, const Rule& rule, int steps) {
   Level level{.h = mechanism.duration / steps};
   const auto start = std::chrono::steady_clock::now();
-  level.run =
-      simulate_steps(mechanism.scene, rule.method, level.h, steps,
-                     [&](const State&, const State& after) -> std::string_view {
-                       for (const Effect& effect : mechanism.scene.effects) {
-                         double& error = error_unit(effect) == "_rad" ? level.error_rad : level.error_m;
-                         error = std::max(error, constraint_error(mechanism.scene, effect, after));
-                       }
-                       return std::max(level.error_m, level.error_rad) < 1 ? "" : "a joint came apart";
-                     });
+  level.run = simulate_steps(mechanism.scene, rule.method, level.h, steps,
+                             [&](const State&, const State& after) -> std::string_view {
+                               for (const Effect& effect : mechanism.scene.effects) {
+                                 double& error =
+                                     error_unit(effect) == "_rad" ? level.error_rad : level.error_m;
+                                 error = larger(error, constraint_error(mechanism.scene, effect, after));
+                               }
+                               return larger(level.error_m, level.error_rad) < 1 ? "" : "a joint came apart";
+                             });
   level.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   level.missed = level.run.steps - level.run.steps_ok;
   level.values = mechanism.values(level.run.end);

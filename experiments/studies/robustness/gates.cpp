@@ -53,8 +53,8 @@ double link_error(const Scene& scene, const State& state) {
     if (const auto* links = std::get_if<Distance>(&effect))
       if (std::count(links->compliance.begin(), links->compliance.end(), 0.0) > 0)
         largest =
-            std::max(largest, constraint_error(scene, effect, state) /
-                                  *std::min_element(links->rest_length.begin(), links->rest_length.end()));
+            larger(largest, constraint_error(scene, effect, state) /
+                                *std::min_element(links->rest_length.begin(), links->rest_length.end()));
   return largest;
 }
 
@@ -66,7 +66,7 @@ double tension_error(const Scene& scene, const Workspace& workspace, double h) {
       const auto impulses = workspace.impulses(index);
       for (std::size_t i = links->node.size(); i-- > 0;) {
         below += scene.mass[static_cast<std::size_t>(links->node[i][1])] * 9.81;
-        largest = std::max(largest, std::abs(-impulses[i] / h / below - 1));
+        largest = larger(largest, std::abs(-impulses[i] / h / below - 1));
       }
     }
   return largest;

@@ -128,7 +128,7 @@ DirectionScene taut_chain(double speed) {
 }
 
 DirectionRun simulate(const DirectionScene& each, const Method& method, double h, double duration,
-                      const Watch& watch) {
+                      const StateWatch& watch) {
   const auto& [name, scene, scale, largest_gain, own_energy] = each;
   const auto energy_of = own_energy ? own_energy : energy_in_gravity(scene);
   const bool claims = find_named(outer_names(), "outer", method.outer).solves_step;

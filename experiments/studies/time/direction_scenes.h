@@ -66,11 +66,11 @@ struct DirectionRun {
 };
 
 /// Called with the state after each step.
-using Watch = std::function<void(const pbd::State&)>;
+using StateWatch = std::function<void(const pbd::State&)>;
 
 /// `duration` s in steps of h, ended where a step diverges, a link doubles or the energy exceeds the largest
 /// gain. Steps that miss their tolerance count against a method that claims to solve them.
 DirectionRun simulate(const DirectionScene& scene, const pbd::Method& method, double h, double duration,
-                      const Watch& watch = {});
+                      const StateWatch& watch = {});
 
 }  // namespace pbdcheck

@@ -61,7 +61,7 @@ PlantedCone stack(FrictionLaw law, std::uint64_t seed, int boxes, double growth)
     double above = 0;
     for (int k = b; k < boxes; ++k) above += mass[k];
     const double mu = random.between(0.2, 0.8);
-    const State state = random.between(0, 1) < 0.6 ? State::sticking : State::sliding;
+    const ContactState state = random.between(0, 1) < 0.6 ? ContactState::sticking : ContactState::sliding;
     const Planted joint = plant(law, state, mu, 1, random);
     for (int corner = 0; corner < 4; ++corner) {
       const Vector3d at(corner % 2 - 0.5, corner / 2 - 0.5, 0);
@@ -115,7 +115,7 @@ PlantedCone wedge(FrictionLaw law, std::uint64_t seed) {
       friction(corners.size()) = mu;
       corners.push_back(
           {0, -1, Vector3d(side / 2, corner % 2 - 0.5, corner / 2 - 0.5), Vector3d::Zero(), normal});
-      planted.push_back(plant(law, State::sticking, mu, random.between(0.5, 2), random));
+      planted.push_back(plant(law, ContactState::sticking, mu, random.between(0.5, 2), random));
     }
   }
   return finish(jacobian_of(corners, 1), cube_inverse_mass({1}), std::move(friction), planted);

@@ -22,15 +22,15 @@ Vector3d Random::vector() {
   return {between(-1, 1), between(-1, 1), between(-1, 1)};
 }
 
-Planted plant(FrictionLaw law, State state, double mu, double size, Random& random) {
+Planted plant(FrictionLaw law, ContactState state, double mu, double size, Random& random) {
   Planted at;
   const Vector2d t = random.direction();
   const double hover = law == FrictionLaw::cone ? mu : 0;  // u_N / |u_T| of a sliding contact
   const double within = random.between(0, 0.9), speed = random.between(0.1, 1);
-  if (state == State::sticking) at.r << 1, within * mu * t;
-  if (state == State::sliding) at.r << 1, mu * t;
-  if (state == State::sliding) at.u << hover * speed, -speed * t;
-  if (state == State::separated) at.u << hover * within + speed, within * t;
+  if (state == ContactState::sticking) at.r << 1, within * mu * t;
+  if (state == ContactState::sliding) at.r << 1, mu * t;
+  if (state == ContactState::sliding) at.u << hover * speed, -speed * t;
+  if (state == ContactState::separated) at.u << hover * within + speed, within * t;
   at.r *= size;
   return at;
 }
@@ -40,7 +40,8 @@ std::vector<Planted> plant_all(FrictionLaw law, const VectorXd& friction, double
   const int degenerate = static_cast<int>(std::lround(both_zero * contacts));
   std::vector<Planted> all;
   for (int i = 0; i < contacts; ++i) {
-    const auto state = i >= contacts - degenerate ? State::both_zero : static_cast<State>(i % 3);
+    const auto state =
+        i >= contacts - degenerate ? ContactState::both_zero : static_cast<ContactState>(i % 3);
     all.push_back(plant(law, state, friction(i), random.between(0.5, 2), random));
   }
   return all;

@@ -21,13 +21,13 @@ class Random {
   std::mt19937_64 generator_;
 };
 
-enum class State { sticking, sliding, separated, both_zero };
+enum class ContactState { sticking, sliding, separated, both_zero };
 
 /// r* (N s) and u* (m/s) of one contact obeying the law.
 struct Planted {
   Eigen::Vector3d r = Eigen::Vector3d::Zero(), u = Eigen::Vector3d::Zero();
 };
-Planted plant(FrictionLaw law, State state, double mu, double size, Random& random);
+Planted plant(FrictionLaw law, ContactState state, double mu, double size, Random& random);
 
 /// Contacts in every state by turns, with the share of both_zero last.
 std::vector<Planted> plant_all(FrictionLaw law, const Eigen::VectorXd& friction, double both_zero,

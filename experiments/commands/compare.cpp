@@ -156,18 +156,18 @@ int compare(const CompareOptions& options) {
                      options.at_step));
   const Judged judged = judge_step(name, file.scene, state, file.step_s);
   comparison.add_judge(name, judged);
-  Outcome outcome = Outcome::complete;
+  RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   if (judged.status != "ok") {
-    outcome = Outcome::failed;
+    outcome = RunOutcome::failed;
     reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
     error_message(reason);
   }
-  bool all_ok = outcome == Outcome::complete && missed == 0;
+  bool all_ok = outcome == RunOutcome::complete && missed == 0;
   ProgressBar progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
-      if (outcome == Outcome::failed) {
+      if (outcome == RunOutcome::failed) {
         comparison.skip(contender, reason);
         continue;
       }
@@ -180,7 +180,7 @@ int compare(const CompareOptions& options) {
       progress.advance(contender.text);
     }
   } catch (const Interrupted&) {
-    outcome = Outcome::interrupted;
+    outcome = RunOutcome::interrupted;
     reason = "stopped by the user";
   }
   comparison.close();
@@ -190,7 +190,7 @@ int compare(const CompareOptions& options) {
   json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   record.write(json_text(json));
   record.complete();
-  if (outcome == Outcome::interrupted) return exit_interrupted;
+  if (outcome == RunOutcome::interrupted) return exit_interrupted;
   draw(options.directory);
   return all_ok ? exit_done : exit_failed;
 }

@@ -53,7 +53,7 @@ bool already_complete(const std::filesystem::path& directory, const RunOptions& 
 
 /// How an experiment ended; `exit_code` is what that makes of the program's.
 struct Ending {
-  Outcome outcome;
+  RunOutcome outcome;
   int exit_code;
   std::string reason;
 };
@@ -61,13 +61,13 @@ struct Ending {
 Ending run_guarded(const Experiment& experiment, Context& context) {
   try {
     experiment.run(context);
-    return {Outcome::complete, exit_done, ""};
+    return {RunOutcome::complete, exit_done, ""};
   } catch (const Interrupted&) {
-    return {Outcome::interrupted, exit_interrupted, "stopped by the user"};
+    return {RunOutcome::interrupted, exit_interrupted, "stopped by the user"};
   } catch (const pbd::SetupError& failure) {  // a result that cannot be written
-    return {Outcome::failed, exit_usage, failure.what()};
+    return {RunOutcome::failed, exit_usage, failure.what()};
   } catch (const std::exception& failure) {
-    return {Outcome::failed, exit_failed, failure.what()};
+    return {RunOutcome::failed, exit_failed, failure.what()};
   }
 }
 
@@ -94,7 +94,7 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   std::int64_t holding = 0, failing = 0;
-  const auto record = [&](Outcome outcome, const std::string& reason) {
+  const auto record = [&](RunOutcome outcome, const std::string& reason) {
     auto json = run_record(options.threads, outcome, reason);
     json["experiment"] = experiment.name;
     json["tier"] = options.tier;
@@ -104,11 +104,11 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
     json["verdicts"] = {{"holds", holding}, {"fails", failing}};
     write_file(directory / "run.json", json_text(json));
   };
-  record(Outcome::interrupted, "ended before it was done");  // until it is: the program may be killed
+  record(RunOutcome::interrupted, "ended before it was done");  // until it is: the program may be killed
   remove_tables(directory);
   const auto [outcome, exit_code, reason] = run_guarded(experiment, context);
   context.write_verdicts();
-  if (outcome == Outcome::failed) error_message(fmt::format("{}: {}", experiment.name, reason));
+  if (outcome == RunOutcome::failed) error_message(fmt::format("{}: {}", experiment.name, reason));
   report_failures(experiment, context);
   for (const auto& verdict : context.verdicts()) ++(verdict.holds() ? holding : failing);
   record(outcome, reason);

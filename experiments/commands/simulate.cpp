@@ -158,13 +158,13 @@ int simulate(const SimulateOptions& options) {
 
   const auto start = std::chrono::steady_clock::now();
   Totals totals;
-  Outcome outcome = Outcome::complete;
+  RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {
     reason = advance(file, workspace, output, totals);
-    if (!reason.empty()) outcome = Outcome::failed;
+    if (!reason.empty()) outcome = RunOutcome::failed;
   } catch (const Interrupted&) {
-    outcome = Outcome::interrupted;
+    outcome = RunOutcome::interrupted;
     reason = "stopped by the user";
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
@@ -181,9 +181,9 @@ int simulate(const SimulateOptions& options) {
   if (totals.missed() > 0)
     warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, {}", totals.missed(), totals.steps,
                      file.method.tolerance, worst_text(totals)));
-  if (outcome == Outcome::failed) error_message(reason);
-  if (outcome == Outcome::interrupted) return exit_interrupted;
-  return outcome == Outcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
+  if (outcome == RunOutcome::failed) error_message(reason);
+  if (outcome == RunOutcome::interrupted) return exit_interrupted;
+  return outcome == RunOutcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
 }
 
 }  // namespace pbdcheck

@@ -53,7 +53,7 @@ std::string version_text() {
   return text;
 }
 
-nlohmann::ordered_json run_record(int threads, Outcome outcome, const std::string& reason) {
+nlohmann::ordered_json run_record(int threads, RunOutcome outcome, const std::string& reason) {
   nlohmann::ordered_json record{{"commit", build_info::commit},
                                 {"dirty", build_info::dirty},
                                 {"changes", build_info::changes},

@@ -9,7 +9,7 @@
 namespace pbdcheck {
 
 /// How a command or an experiment ended, as `status` in run.json.
-enum class Outcome { complete, failed, interrupted };
+enum class RunOutcome { complete, failed, interrupted };
 inline constexpr std::array<std::string_view, 3> outcome_names{"complete", "failed", "interrupted"};
 
 /// Whether a run.json was written by this very program: the same commit ("unknown" outside a git work tree)
@@ -21,7 +21,7 @@ std::string version_text();
 
 /// The fields every run.json has: commit, dirty, changes (a hash of the differences from the commit),
 /// version, compiler, flags, processor, threads, seed, libraries; status, and reason unless that is empty.
-nlohmann::ordered_json run_record(int threads, Outcome outcome, const std::string& reason);
+nlohmann::ordered_json run_record(int threads, RunOutcome outcome, const std::string& reason);
 
 /// As files keep it: two spaces of indentation.
 std::string json_text(const nlohmann::ordered_json& json);

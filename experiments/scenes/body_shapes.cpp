@@ -6,7 +6,7 @@ namespace pbdcheck {
 namespace {
 
 constexpr int sides = 32;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Distance from the axis, height (m).
 using Profile = std::vector<Eigen::Vector2d>;

@@ -10,7 +10,7 @@
 namespace pbdcheck {
 
 /// By gauss_seidel.
-inline pbd::Method method_of(const pbd::reference::OscillatorRule& rule) {
+inline pbd::Method oscillator_method(const pbd::reference::OscillatorRule& rule) {
   pbd::Method method;
   method.integrator = rule.integrator;
   method.alpha = rule.alpha;

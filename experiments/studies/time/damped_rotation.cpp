@@ -51,7 +51,7 @@ struct Spun {
 
 Spun spun(Table& table, const OscillatorRule& rule, double retardation, bool steady, double h) {
   const Scene scene = spinning_pair(retardation, steady);
-  Method method = method_of(rule);
+  Method method = oscillator_method(rule);
   method.tolerance = 1e-12;
   Workspace workspace(scene, method);
   State state = scene.initial;

@@ -48,7 +48,7 @@ struct DampedRun {
 
 void measure(DampedRun& run) {
   const Oscillator& oscillator = *run.oscillator;
-  Method method = method_of(run.rule);
+  Method method = oscillator_method(run.rule);
   method.outer = run.outer;
   method.max_sweeps = run.sweeps;
   method.tolerance = solved;
@@ -102,7 +102,7 @@ void decrements(Context& context, const std::vector<Oscillator>& oscillators) {
                      "error", "row_updates", "status", "reason"});
   for (const auto& run : all) {
     const double expected = run.oscillator->retardation * std::pow(run.oscillator->frequency, 2) / 2;
-    table.row({run.oscillator->name, label(run.rule), run.outer, method_of(run.rule).relaxation,
+    table.row({run.oscillator->name, label(run.rule), run.outer, oscillator_method(run.rule).relaxation,
                std::int64_t{run.sweeps}, run.h, run.oscillator->retardation, run.decrement, run.exact,
                run.rate, expected, std::int64_t{run.rule.order}, run.error(), run.row_updates,
                std::string(status_names[static_cast<std::size_t>(run.status)]), std::string(run.reason)});
@@ -148,7 +148,7 @@ void decrements(Context& context, const std::vector<Oscillator>& oscillators) {
 /// Numbers in which runs of two scenes differ.
 std::int64_t differing(const OscillatorRule& rule, Scene none, Scene zero) {
   std::int64_t count = 0;
-  const Method method = method_of(rule);
+  const Method method = oscillator_method(rule);
   Workspace without(none, method), with(zero, method);
   for (int k = 0; k < 100; ++k) {
     step(without, 0.01, none.initial);

@@ -91,7 +91,7 @@ TEST_CASE("every example of the format's description is read") {
     const TemporaryFolder folder;
     std::filesystem::create_directory_symlink(scenes / "meshes", folder.path / "meshes");
     const auto whole = example + (example.find("[particles]") == std::string::npos ? four_particles : "") +
-                       (example.find("[step]") == std::string::npos ? step : "");
+                       (example.find("[step]") == std::string::npos ? two_steps : "");
     CHECK_NOTHROW(read_scene_file(folder.write("scene.toml", whole)));
     ++count;
   }

@@ -44,7 +44,8 @@ double integral(double t) {
 }
 const std::string course = "over_time = [[0.5, 0], [1.5, 2], [2.5, 2], [3, -1]]\n";
 
-const std::vector<std::string> integrators{"implicit_euler", "newmark", "midpoint", "symplectic_euler"};
+const std::vector<std::string> scripted_integrators{"implicit_euler", "newmark", "midpoint",
+                                                    "symplectic_euler"};
 
 }  // namespace
 
@@ -61,7 +62,7 @@ TEST_CASE("a force over time gives the momentum of its integral, and implicit Eu
   const std::string scene =
       "[[particle]]\nposition_m = [1, 0, 0]\nmass_kg = 0.5\n[[force]]\nnode = 0\nforce_n = [0, 3, 0]\n" +
       course;
-  for (const auto& integrator : integrators) {
+  for (const auto& integrator : scripted_integrators) {
     INFO(integrator);
     double place = 0;
     run(scene, integrator, [&](const pbd::State& state) {
@@ -83,7 +84,7 @@ TEST_CASE("a torque over time gives the angular momentum of its integral") {
 }
 
 TEST_CASE("a moving body is where the integral of its velocities is, under every integrator") {
-  for (const auto& integrator : integrators) {
+  for (const auto& integrator : scripted_integrators) {
     INFO(integrator);
     run("[[rigid_body]]\nname = \"a\"\nheld = \"moving\"\nposition_m = [1, 2, 3]\nvelocity_m_s = [0, 4, 0]\n"
         "angular_velocity_rad_s = [0.3, 0, 0.4]\n" +

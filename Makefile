@@ -81,11 +81,13 @@ format-check: ## fail if a C++ source is not formatted (needs clang-format 14)
 	@if $(CLANG_FORMAT) --version | grep -q 'version 14\.'; then $(CLANG_FORMAT) --dry-run --Werror $(SOURCES); \
 	else echo "format-check skipped: needs clang-format 14, found $$($(CLANG_FORMAT) --version)"; fi
 
-tidy: deps ## run clang-tidy over the C++ sources
+tidy: deps ## run clang-tidy over the C++ sources, several at once
 	@$(INSTALL) tidy
-	cmake --preset debug
-	cmake --build --preset debug --target build_info
-	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/debug -extra-arg=-Wno-unknown-warning-option "^$(CURDIR)/(solver|reference|experiments|tests)/"
+	cmake --preset tidy
+	cmake --build --preset tidy --target build_info
+	$(PYTHON) "$$(command -v run-clang-tidy)" -quiet -j $(JOBS) -p build/tidy -checks=-bugprone-suspicious-include \
+	  -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-unused-command-line-argument \
+	  "^$(CURDIR)/(build/tidy/)?(solver|reference|experiments|tests)/"
 
 bench: build ## measure times, one thread, nothing else should run
 	$(PBDCHECK) run work_precision effects_cost --tier $(TIER) --threads 1 -o $(RESULTS)

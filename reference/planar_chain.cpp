@@ -83,7 +83,7 @@ Eigen::Matrix<double, 3, 2> common_plane(const std::vector<Points>& groups) {
   std::vector<Points> scaled;
   for (const Points& group : groups)
     if (const double largest = group.cwiseAbs().maxCoeff(); largest > 0) {
-      scaled.push_back(group / largest);
+      scaled.emplace_back(group / largest);
       sum += scaled.back() * scaled.back().transpose();
     }
   const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors();

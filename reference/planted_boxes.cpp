@@ -64,7 +64,8 @@ PlantedCone stack(FrictionLaw law, std::uint64_t seed, int boxes, double growth)
     const ContactState state = random.between(0, 1) < 0.6 ? ContactState::sticking : ContactState::sliding;
     const Planted joint = plant(law, state, mu, 1, random);
     for (int corner = 0; corner < 4; ++corner) {
-      const Vector3d at(corner % 2 - 0.5, corner / 2 - 0.5, 0);
+      const int row = corner / 2;
+      const Vector3d at(corner % 2 - 0.5, row - 0.5, 0);
       corners.push_back({b, b - 1, at - Vector3d(0, 0, 0.5), at + Vector3d(0, 0, 0.5), Vector3d::UnitZ()});
       planted.push_back({random.between(0.2, 0.3) * above * joint.r, joint.u});
       friction(4 * b + corner) = mu;
@@ -113,8 +114,8 @@ PlantedCone wedge(FrictionLaw law, std::uint64_t seed) {
     const Vector3d normal = Vector3d(-side, lean.y(), lean.z()).normalized();
     for (int corner = 0; corner < 4; ++corner) {
       friction(corners.size()) = mu;
-      corners.push_back(
-          {0, -1, Vector3d(side / 2, corner % 2 - 0.5, corner / 2 - 0.5), Vector3d::Zero(), normal});
+      const int row = corner / 2;
+      corners.push_back({0, -1, Vector3d(side / 2, corner % 2 - 0.5, row - 0.5), Vector3d::Zero(), normal});
       planted.push_back(plant(law, ContactState::sticking, mu, random.between(0.5, 2), random));
     }
   }

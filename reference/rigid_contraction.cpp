@@ -33,7 +33,7 @@ Eigen::MatrixXd increments(const RigidStep& step, const Vector& velocity) {
 Contraction plain_contraction_of_bodies(const Scene& scene, const State& start, double h,
                                         const Judgement& solved) {
   const RigidStep step{make_rigid_model(scene), start, h};
-  if (step.model.gyroscopic == GyroscopicTorque::implicit)
+  if (step.model.gyroscopic == GyroscopicTorque::at_end)
     throw SetupError("plain_contraction_of_bodies", "an implicit gyroscopic torque",
                      "a scene without one, or with an explicit one");
   RigidStep at_end = step;

@@ -74,7 +74,7 @@ class EquationBuilder {
     // Euler's equations: I2 w2' - (I3 - I1) w3 w1 = ..., by jets.
     Triple<Jet<3, 1>> now;
     for (int i = 0; i < 3; ++i) now[i] = Jet<3, 1>::variable(w[i], i);
-    const bool implicit = s_.model.gyroscopic == GyroscopicTorque::implicit;
+    const bool implicit = s_.model.gyroscopic == GyroscopicTorque::at_end;
     const bool none = s_.model.gyroscopic == GyroscopicTorque::none;
     const Vec3 torque = s_.start.orientation[b].toRotationMatrix().transpose() * rotor.torque;
     for (int i = 0; i < 3; ++i) {

@@ -66,7 +66,7 @@ struct ModelBuilder {
   int effect = 0;
 
   void operator()(const Gyroscopic& torque) {
-    model.gyroscopic = torque.implicit ? GyroscopicTorque::implicit : GyroscopicTorque::explicit_;
+    model.gyroscopic = torque.implicit ? GyroscopicTorque::at_end : GyroscopicTorque::at_start;
   }
   void operator()(const ExternalTorque& external) {
     for (std::size_t i = 0; i < external.body.size(); ++i)

@@ -31,7 +31,7 @@ struct Rotor {
   double radius = 1;            // of gyration (m), to compare rotations with displacements
 };
 
-enum class GyroscopicTorque { none, explicit_, implicit };
+enum class GyroscopicTorque { none, at_start, at_end };
 
 struct RigidModel {
   Model nodes;

@@ -41,10 +41,10 @@ void add_rotations(const RigidStep& s, const Vector& velocity, RigidSystem& syst
     const Vec3 momentum = rotor.inertia.cwiseProduct(w);
     Eigen::Matrix3d by_w = Eigen::Matrix3d(rotor.inertia.asDiagonal()) / s.h;
     Vec3 gyroscopic = Vec3::Zero();
-    if (s.model.gyroscopic == GyroscopicTorque::implicit) {
+    if (s.model.gyroscopic == GyroscopicTorque::at_end) {
       gyroscopic = w.cross(momentum);
       by_w += cross_matrix(w) * rotor.inertia.asDiagonal() - cross_matrix(momentum);
-    } else if (s.model.gyroscopic == GyroscopicTorque::explicit_) {
+    } else if (s.model.gyroscopic == GyroscopicTorque::at_start) {
       gyroscopic = before.cross(rotor.inertia.cwiseProduct(before));
     }
     const Vec3 inertial = rotor.inertia.cwiseProduct(w - before) / s.h;

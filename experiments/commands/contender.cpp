@@ -36,7 +36,8 @@ Contender parsed_rival(const std::string& text, Words words, const pbd::Method& 
   std::string settings;
   for (const auto& [key, setting] : words) {
     if (key != "tolerance" && key != "max_outer")
-      throw pbd::SetupError(option + " " + key, "`" + setting + "` for a rival", "tolerance, max_outer");
+      throw pbd::SetupError(fmt::format("{} {}", option, key), fmt::format("`{}` for a rival", setting),
+                            "tolerance, max_outer");
     settings += setting + " ";
   }
   Contender contender{text, parse_method(settings, base, option)};

@@ -57,7 +57,7 @@ VtkCells node_cells(const pbd::Scene& scene) {
   return cells;
 }
 
-VtkSeries::VtkSeries(const std::filesystem::path& directory, std::string collection, std::string frame,
+VtkSeries::VtkSeries(const std::filesystem::path& directory, const std::string& collection, std::string frame,
                      const VtkCells& cells)
     : directory_(directory),
       frame_(std::move(frame)),

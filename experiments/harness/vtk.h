@@ -26,7 +26,7 @@ VtkCells node_cells(const pbd::Scene& scene);
 class VtkSeries {
  public:
   /// Frames go to `<directory>/frames/<frame>_000000.vtu`, the collection to `<directory>/<collection>.pvd`.
-  VtkSeries(const std::filesystem::path& directory, std::string collection, std::string frame,
+  VtkSeries(const std::filesystem::path& directory, const std::string& collection, std::string frame,
             const VtkCells& cells);
 
   void add_frame(double time, const pbd::Points& x, const pbd::Points& v);

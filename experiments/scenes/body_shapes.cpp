@@ -22,7 +22,7 @@ pbd::TriangleMesh revolved(const Profile& profile) {
   const auto node = [](int ring, int side) { return 1 + ring * sides + side % sides; };
   for (int ring = 0; ring < rings; ++ring)
     for (int side = 0; side < sides; ++side) {
-      const auto& point = profile[static_cast<std::size_t>(ring + 1)];
+      const auto& point = profile[static_cast<std::size_t>(ring) + 1];
       const double angle = 2 * pi * side / sides;
       mesh.x.col(node(ring, side)) =
           pbd::Vec3(point.x() * std::cos(angle), point.x() * std::sin(angle), point.y());

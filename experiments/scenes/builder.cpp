@@ -196,7 +196,7 @@ std::optional<Course> read_course(Keys& keys) {
 }
 
 std::string read_name(Keys& keys, std::string_view key) {
-  const std::string name = keys.text(key);
+  std::string name = keys.text(key);
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::islower(c) || std::isdigit(c) || c == '_';
   });

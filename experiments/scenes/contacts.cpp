@@ -63,7 +63,7 @@ int BodyScene::ground(double angle, int material) {
 
 void BodyScene::materials(int count, const ContactLaw& all) {
   contact_.materials = count;
-  contact_.law.assign(static_cast<std::size_t>(count * count), all);
+  contact_.law.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(count), all);
 }
 
 void BodyScene::law(int first, int second, const ContactLaw& law) {

@@ -121,8 +121,8 @@ Scene four_bars(int loops, int extra) {
   }
   for (int i = 0; i < extra; ++i) {
     const auto k = static_cast<std::size_t>(i % loops);
-    hinges.add(legs[k], couplers[k],
-               in_plane(static_cast<double>(k), 1) + 0.1 * (1 + i / loops) * out_of_plane);
+    const int layer = 1 + i / loops;
+    hinges.add(legs[k], couplers[k], in_plane(static_cast<double>(k), 1) + 0.1 * layer * out_of_plane);
   }
   hinges.put(scene);
   return scene;

@@ -32,7 +32,7 @@ int touching_body(Keys& keys, const SceneFile& file, std::string_view key) {
 /// The bodies of `body` and `other`, if the latter is there; returns the name of them.
 std::string read_touching(Keys& keys, const SceneFile& file, Probe& probe) {
   probe.body = touching_body(keys, file, "body");
-  const auto name = file.bodies[static_cast<std::size_t>(probe.body)].name;
+  auto name = file.bodies[static_cast<std::size_t>(probe.body)].name;
   if (!keys.has("other")) return name;
   probe.other = touching_body(keys, file, "other");
   if (probe.other == probe.body) keys.refuse("other", "`" + name + "` twice", "another body");

@@ -75,7 +75,7 @@ Inertia read_shape_inertia(Keys& keys, const Shape& shape, bool held) {
   auto found = located(mesh_name(keys), [&] { return shape_properties(shape, density); });
   if (heavy) found = pbd::with_mass(found, keys.number("mass_kg", Range::positive));
   require_inertia(keys, found.mass, found.inertia.diagonal());
-  const Inertia inertia{found.mass, found.centre, pbd::principal_inertia(found.inertia)};
+  Inertia inertia{found.mass, found.centre, pbd::principal_inertia(found.inertia)};
   require_inertia(keys, found.mass, inertia.principal.moments);
   return inertia;
 }

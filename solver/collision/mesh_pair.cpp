@@ -72,11 +72,11 @@ void MeshPair::nodes_inside() const {
   }
 }
 
-double MeshPair::depth_in_a(const Vec3& x, double limit_) const {
+double MeshPair::depth_in_a(const Vec3& x, double farthest) const {
   MeshPlace place{};
   if (mesh_a != nullptr) {
     const Vec3 own = writer.frame_a.rotation.transpose() * (x - writer.frame_a.origin);
-    return nearest_of_mesh(*mesh_a, own, limit_, place) ? -place.distance : -infinity;
+    return nearest_of_mesh(*mesh_a, own, farthest, place) ? -place.distance : -infinity;
   }
   double depth = a.face_count() > 0 ? infinity : -infinity;
   for (int f = 0; f < a.face_count(); ++f) depth = std::min(depth, a.offset[f] - a.face_normal(f).dot(x));

@@ -41,8 +41,8 @@ struct MeshPair {
   void nodes_of_mesh() const;
 
  private:
-  /// Of x in a (m), if it has a volume: negative outside, and less than -limit where it is farther.
-  double depth_in_a(const Vec3& x, double limit_) const;
+  /// Of x in a (m), if it has a volume: negative outside, and less than -farthest where it is farther.
+  double depth_in_a(const Vec3& x, double farthest) const;
   /// Edges i and j where their distance has a minimum. Inside, the edges' own faces must be the nearest ones
   /// to where they cross.
   void crossing(int i, int j) const;

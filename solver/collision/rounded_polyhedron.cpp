@@ -67,11 +67,11 @@ void RoundedPolyhedron::place(const Polyhedron& polyhedron, const Vec3& scale, d
   }
 }
 
-bool RoundedPolyhedron::above(int f, const Vec3& point_, double slack) const {
+bool RoundedPolyhedron::above(int f, const Vec3& x, double slack) const {
   for (std::size_t i = 0; i < corners(f); ++i) {
     const int e = side(f, i);
     const Vec3 direction = along[e] * (edge(e).face[0] == f ? 1.0 : -1.0);
-    if (direction.cross(face_normal(f)).dot(point_ - node(corner(f, i))) > slack) return false;
+    if (direction.cross(face_normal(f)).dot(x - node(corner(f, i))) > slack) return false;
   }
   return true;
 }

@@ -1,5 +1,7 @@
 #include "outer/outer.h"
 
+#include <array>
+
 #include "names.h"
 
 namespace pbd {
@@ -39,28 +41,28 @@ struct Outer {
   OuterIteration (*make)(StepSystem& system);
 };
 
-const std::vector<Outer>& outers() {
-  static const std::vector<Outer> list{
-      {"auto", true, make<Automatic>},           {"plain", true, make<Plain>},
-      {"proximal", true, make<Proximal>},        {"quasi_newton", true, make<QuasiNewton>},
-      {"incremental", false, make<Incremental>}, {"frozen", false, make<Frozen>}};
-  return list;
-}
+constexpr auto outers = std::to_array<Outer>({{"auto", true, make<Automatic>},
+                                              {"plain", true, make<Plain>},
+                                              {"proximal", true, make<Proximal>},
+                                              {"quasi_newton", true, make<QuasiNewton>},
+                                              {"incremental", false, make<Incremental>},
+                                              {"frozen", false, make<Frozen>}});
+static_assert(outers.size() == std::variant_size_v<OuterIteration>, "an outer iteration without its name");
 
 }  // namespace
 
 std::vector<OuterName> outer_names() {
   std::vector<OuterName> all;
-  for (const Outer& outer : outers()) all.push_back({outer.name, outer.solves_step});
+  for (const Outer& outer : outers) all.push_back({outer.name, outer.solves_step});
   return all;
 }
 
 void require_outer(std::string_view name) {
-  find_named(outers(), "outer", name);
+  find_named(outers, "outer", name);
 }
 
 OuterIteration make_outer(std::string_view name, StepSystem& system) {
-  return find_named(outers(), "outer", name).make(system);
+  return find_named(outers, "outer", name).make(system);
 }
 
 // What an iteration does not state it does not need.

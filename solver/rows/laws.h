@@ -114,8 +114,7 @@ AllowedDerivative<Block> allowed_derivative(const Block& block, Friction law, st
                                             const typename Block::Value& p,
                                             const typename Block::Value& change) {
   using Square = typename Block::Square;
-  const AllowedDerivative<Block> held{Square::Zero(), Square::Zero()},
-      free{Square::Identity(), Square::Identity()};
+  AllowedDerivative<Block> held{Square::Zero(), Square::Zero()}, free{Square::Identity(), Square::Identity()};
   if (!block.bounded() || block.bounds[i].freedom == Freedom::free) return free;
   if (block.bounds[i].freedom == Freedom::held) return held;
   if constexpr (Block::rows == 1) {

@@ -13,7 +13,7 @@ BlockList::~BlockList() = default;
 
 template <class Block>
 void BlockList::add(Block&& block) {
-  push_back(AnyBlock(std::move(block)));
+  push_back(AnyBlock(std::forward<Block>(block)));
 }
 template void BlockList::add(RowBlock<3, 1>&&);
 template void BlockList::add(RowBlock<1, 2>&&);

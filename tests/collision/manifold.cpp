@@ -34,7 +34,7 @@ std::vector<Plane> common_corners(const std::array<Plane, 4>& a, const std::arra
     for (std::size_t j = 0; j < 4; ++j) {
       const Plane u = a[(i + 1) % 4] - a[i], v = b[(j + 1) % 4] - b[j], apart = b[j] - a[i];
       const double s = cross(apart, v) / cross(u, v), t = cross(apart, u) / cross(u, v);
-      if (s > 0 && s < 1 && t > 0 && t < 1) found.push_back(a[i] + s * u);
+      if (s > 0 && s < 1 && t > 0 && t < 1) found.emplace_back(a[i] + s * u);
     }
   return found;
 }

@@ -30,8 +30,8 @@ struct Scaled {
 /// All over b, and every other time with a's origin (of capsules and cylinders, the axis) next to a node of b
 /// or to b's axis: at distances from 1e-14 m to 1e-4 m.
 Vec3 place_near(const Shape& b, int number, Random& random) {
-  const Vec3 far = random.uniform(0, 1.6) * random.vector().normalized();
-  const Vec3 near = std::pow(10, random.uniform(-14, -4)) * random.vector().normalized();
+  Vec3 far = random.uniform(0, 1.6) * random.vector().normalized();
+  Vec3 near = std::pow(10, random.uniform(-14, -4)) * random.vector().normalized();
   if (number % 2 == 0) return far;
   if (const auto* mesh = std::get_if<ClosedMesh>(&b)) return mesh->surface.x.col(number % 6) + near;
   return near;

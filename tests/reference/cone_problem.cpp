@@ -22,7 +22,7 @@ constexpr std::array frictions{0.0, 0.1, 0.7, 1.0, 3.0};
 std::vector<Vector3d> points() {
   std::vector<Vector3d> all{Vector3d::Zero(), {1, 0, 0}, {-1, 0, 0}, {0.01, 1, 0}, {0.02, 0, -2}};
   for (int k = 0; k < 40; ++k)
-    all.push_back(2 * Vector3d(std::sin(1 + 2.3 * k), std::sin(2 + 1.7 * k), std::sin(3 + 3.1 * k)));
+    all.emplace_back(2 * Vector3d(std::sin(1 + 2.3 * k), std::sin(2 + 1.7 * k), std::sin(3 + 3.1 * k)));
   return all;
 }
 

@@ -63,7 +63,7 @@ Scene sheet() {
 }
 
 Trajectory solved_ode(const Scene& scene, const std::vector<double>& times) {
-  const Trajectory trajectory = ode(scene, times, {tolerance});
+  Trajectory trajectory = ode(scene, times, {tolerance});
   INFO(trajectory.reason);
   REQUIRE(trajectory.outcome == Outcome::ok);
   REQUIRE(trajectory.samples.size() == times.size());

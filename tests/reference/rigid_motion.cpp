@@ -22,7 +22,7 @@ using pbdcheck::four_bars;
 namespace {
 
 Trajectory solved_motion(const Scene& scene, const std::vector<double>& times) {
-  const Trajectory trajectory = ode(scene, times);
+  Trajectory trajectory = ode(scene, times);
   INFO(trajectory.reason);
   REQUIRE(trajectory.outcome == Outcome::ok);
   REQUIRE(trajectory.samples.size() == times.size());

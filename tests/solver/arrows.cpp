@@ -1,4 +1,5 @@
-// Arrows between the folders of solver/ run one way, and no file includes itself through others.
+// Arrows between the folders of solver/ run one way, no file includes itself through others, and none is left
+// out.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -68,6 +69,19 @@ TEST_CASE("folders of the solver include one way") {
       CHECK_FALSE(apart(folder(file), folder(other)));
     }
   }
+}
+
+TEST_CASE("every header of the solver is included by another file than its own source") {
+  std::set<std::string> included{"model/boundary.h", "model/mass_properties.h"};  // for who builds scenes
+  const auto all = sources();
+  for (const auto& [file, others] : all)
+    for (const auto& other : others)
+      if (fs::path(file).replace_extension() != fs::path(other).replace_extension()) included.insert(other);
+  for (const auto& [file, others] : all)
+    if (file.ends_with(".h")) {
+      INFO(file);
+      CHECK(included.contains(file));
+    }
 }
 
 TEST_CASE("no file of the solver includes itself through others") {

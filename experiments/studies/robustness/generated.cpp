@@ -91,7 +91,7 @@ void add_anchors(Random& random, Scene& scene) {
   for (int node = 0; node < scene.nodes(); ++node)
     if (random.happens(0.2) && std::isfinite(scene.mass[static_cast<std::size_t>(node)])) {
       effect.node.push_back(node);
-      effect.target.push_back(scene.initial.x.col(node) + random.vector(0.1));
+      effect.target.emplace_back(scene.initial.x.col(node) + random.vector(0.1));
       effect.compliance.push_back(compliance(random));
     }
   scene.effects.emplace_back(std::move(effect));

@@ -23,7 +23,7 @@ PointFrontier frontier_of(const HardCase& each, const Method& method, bool full)
   PointFrontier frontier;
   const Watch watch{full ? 20 : 10, full ? 500 : 150, 1};
   const auto run = [&](const Method& tried, double h) {
-    const auto simulated = simulate(each, tried, h, watch);
+    auto simulated = simulate(each, tried, h, watch);
     ++frontier.tried;
     frontier.passed += simulated.all_hold();
     return simulated;

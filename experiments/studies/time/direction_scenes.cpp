@@ -22,7 +22,7 @@ std::vector<Scheme> position_schemes(std::string_view outer) {
                                           {"implicit_euler", 0.75},
                                           {"implicit_euler", 1.0},
                                           {"symplectic_euler", 0.0}}) {
-    Method& method = all.emplace_back("position").method;
+    Method& method = all.emplace_back(Scheme{"position"}).method;
     method.integrator = integrator;
     method.outer = outer;
     method.relaxation = "direct";

@@ -1,4 +1,6 @@
 // The commands that README.md shows do what they say.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -41,8 +43,9 @@ TEST_CASE("every quick command of the README ends well") {
   const auto all = commands();
   std::ptrdiff_t left_out = 0;
   for (std::string command : all) {
-    if (std::any_of(slow.begin(), slow.end(),
-                    [&](const auto& each) { return command.starts_with(program + " " + each + " "); })) {
+    if (std::any_of(slow.begin(), slow.end(), [&](const auto& each) {
+          return command.starts_with(fmt::format("{} {} ", program, each));
+        })) {
       ++left_out;
       continue;
     }
@@ -50,8 +53,8 @@ TEST_CASE("every quick command of the README ends well") {
     const TemporaryFolder folder;
     replace_all(command, " -o out", " -o '" + folder.path.string() + "'");
     command.replace(0, program.size(), "'" + tested_program() + "'");
-    command = "cd '" + pbdcheck::source_root().string() + "' && (" + command + "\n) >'" +
-              (folder.path / "log").string() + "' 2>&1";
+    command = fmt::format("cd '{}' && ({}\n) >'{}' 2>&1", pbdcheck::source_root().string(), command,
+                          (folder.path / "log").string());
     const int status = std::system(command.c_str());
     INFO(read_text(folder.path / "log"));
     CHECK(status == 0);

@@ -1,9 +1,11 @@
 // The rooms of experiments/ include each other one way only, as experiments/README.md lists them.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <regex>
 #include <string_view>
 
 #include "program.h"
+#include "studies/experiments.h"
 
 using namespace pbdcheck::test;
 
@@ -53,4 +55,20 @@ TEST_CASE("rooms include downwards only") {
     }
   }
   CHECK(seen > 100);
+}
+
+TEST_CASE("every experiment that is declared is in the list") {
+  std::ifstream in(experiments_folder / "studies" / "experiments.h");
+  const std::regex declaration("void (\\w+)\\(Context& context\\);");
+  std::size_t declared = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch name;
+    if (!std::regex_match(line, name, declaration)) continue;
+    INFO(line);
+    ++declared;
+    const auto& list = pbdcheck::experiments();
+    CHECK(
+        std::any_of(list.begin(), list.end(), [&](const auto& each) { return each.name == name[1].str(); }));
+  }
+  CHECK(declared == pbdcheck::experiments().size());
 }

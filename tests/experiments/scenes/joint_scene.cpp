@@ -1,4 +1,6 @@
 // Joints of scene files: what is read, and forces that statics tells.
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
@@ -27,26 +29,28 @@ TEST_CASE("every joint is met where it starts, by as many equations as its kind 
   const std::string axis = "axis = [1, 2, -2]\n", soft = "compliance_m_per_n = 0.5\n";
   const std::string soft_angles = "stiffness_n_m_per_rad = 8\ndamping_s = 0.125\n";
   struct Kind {
-    std::string text;
+    std::string name, keys;
     std::int64_t lengths, angles;
   };
-  for (const auto& [text, lengths, angles] :
-       std::vector<Kind>{{"kind = \"ball\"\n" + at, 3, 0},
-                         {"kind = \"hinge\"\n" + at + axis, 3, 2},
-                         {"kind = \"weld\"\n" + at, 3, 3},
-                         {"kind = \"slider\"\n" + at + axis, 2, 3},
-                         {"kind = \"universal\"\nsecond_axis = [2, 1, 2]\n" + at + axis, 3, 1},
-                         {"kind = \"distance\"\n" + pair, 1, 0},
-                         {"kind = \"angle\"\n" + axis, 0, 1},
-                         {"kind = \"slide\"\n" + pair + axis, 1, 0}}) {
+  const std::vector<Kind> kinds{{"ball", at, 3, 0},
+                                {"hinge", at + axis, 3, 2},
+                                {"weld", at, 3, 3},
+                                {"slider", at + axis, 2, 3},
+                                {"universal", "second_axis = [2, 1, 2]\n" + at + axis, 3, 1},
+                                {"distance", pair, 1, 0},
+                                {"angle", axis, 0, 1},
+                                {"slide", pair + axis, 1, 0}};
+  for (const Kind& kind : kinds) {
+    const std::string text = fmt::format("kind = \"{}\"\n{}", kind.name, kind.keys);
     INFO(text);
     const auto hard = joined_pair(text);
     std::int64_t rows = 0;
     for (const auto& cost : pbd::Workspace(hard.scene, {}).costs()) rows += cost.rows;
-    CHECK(rows == lengths + angles);
+    CHECK(rows == kind.lengths + kind.angles);
     for (const auto& effect : hard.scene.effects)
       CHECK(constraint_error(hard.scene, effect, hard.scene.initial) < 1e-14);
-    const auto compliant = joined_pair(text + (lengths > 0 ? soft : "") + (angles > 0 ? soft_angles : ""));
+    const auto compliant =
+        joined_pair(text + (kind.lengths > 0 ? soft : "") + (kind.angles > 0 ? soft_angles : ""));
     for (const auto& effect : compliant.scene.effects)
       std::visit(
           [&]<class E>(const E& typed) {
@@ -55,7 +59,7 @@ TEST_CASE("every joint is met where it starts, by as many equations as its kind 
                   std::is_same_v<E, pbd::AxisJoint> || std::is_same_v<E, pbd::AngleJoint> ||
                   std::is_same_v<E, pbd::RotationJoint> || std::is_same_v<E, pbd::PerpendicularJoint>;
               CHECK(typed.compliance == std::vector<double>{of_angles ? 0.125 : 0.5});
-              CHECK(typed.damping == (angles > 0 ? std::vector<double>{0.125} : std::vector<double>{}));
+              CHECK(typed.damping == (kind.angles > 0 ? std::vector<double>{0.125} : std::vector<double>{}));
             }
           },
           effect);

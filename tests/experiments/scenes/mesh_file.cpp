@@ -68,7 +68,8 @@ $EndElements
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const auto at = text.find(what);
   REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), with);
+  text.replace(at, what.size(), with);
+  return text;
 }
 
 }  // namespace

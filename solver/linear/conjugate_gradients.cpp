@@ -13,7 +13,7 @@ void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
   last_.assign(direction_.size(), 0.0);
   free_.assign(direction_.size(), Free::all);
   velocity_.setZero(3, v.cols());
-  last_product_ = 0;
+  last_product_ = square_ = 0;
 }
 
 /// Takes impulses that their law would move along the surface of what it allows there, or to nothing, and

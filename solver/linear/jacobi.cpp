@@ -31,7 +31,7 @@ PBD_FLATTEN Sweep Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   v.swap(next_);
   const double residual = std::sqrt(squared);
   constexpr double rounding = 1e-9, slower = 0.9;
-  if (residual > (1 + rounding) * last_residual_) omega_ = std::max(least_omega_, slower * omega_);
+  if (residual > (1 - rounding) * last_residual_) omega_ = std::max(least_omega_, slower * omega_);
   constexpr double unstable = 10;
   const bool grown = residual > unstable * lowest_residual_;
   if (grown) caution_ /= 2, omega_ /= 2, least_omega_ /= 2;

@@ -6,9 +6,9 @@
 namespace pbd {
 
 /// Damped block Jacobi: dp_i = -omega N_ii^-1 r_i with omega = min(1, 2/bound). The residual cannot grow
-/// while omega <= 2/(largest eigenvalue): where it does, the bound was too low and omega is reduced by a
-/// tenth, at most to half of itself: under Coulomb's law it may grow with any omega. Where it grows tenfold,
-/// all of these are halved for the rest of the step.
+/// while omega <= 2/(largest eigenvalue), and falls while it is less: where it does not, omega is reduced by
+/// a tenth, at most to half of itself: under Coulomb's law it may grow with any omega. Where it grows
+/// tenfold, all of these are halved for the rest of the step.
 class Jacobi {
  public:
   static constexpr std::string_view name = "jacobi";

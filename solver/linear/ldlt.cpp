@@ -74,6 +74,9 @@ void Ldlt::assemble(const Rows& rows, Put&& put) const {
 }
 
 void Ldlt::analyse(const Rows& rows) {
+  slot_.clear();
+  impulse_column_.clear();
+  held_.clear();
   system_.begin(rows);
   system_.entries.clear();  // the slots below take their place
   const int velocities = system_.size;
@@ -102,7 +105,8 @@ void Ldlt::analyse(const Rows& rows) {
 }
 
 void Ldlt::begin(Rows& rows, const Points&, bool) {
-  if (slot_.empty()) analyse(rows);
+  if (slot_.empty() || generation_ != rows.generation) analyse(rows);
+  generation_ = rows.generation;
   factorise(rows);
 }
 

@@ -40,6 +40,7 @@ class Ldlt {
   SparseMatrix matrix_;                           // lower triangle
   SparseLdlt factor_;
   bool factored_ = false;
+  int generation_ = 0;  // of the rows
   Eigen::VectorXd right_, solution_;
   Points changed_;
   double last_residual_ = 0;

@@ -104,6 +104,7 @@ void SemismoothNewton::find_step(const Rows& rows, const Points& v) {
 bool SemismoothNewton::descend(Rows& rows, Points& v, double below) {
   constexpr double shortest = 0.1;  // step: other means gain more than shorter ones
   assemble(rows, v);
+  if (right_.size() == 0) return false;  // nothing can move
   if (!factor_.factorise(matrix_)) return false;
   find_step(rows, v);
   for (double length = 1; length > shortest; length /= 2) {

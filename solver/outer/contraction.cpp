@@ -12,15 +12,24 @@ ContractionEstimate::ContractionEstimate(const StepSystem& system)
   kept_.reserve(2 * row_count(system.rows));
 }
 
+namespace {
+
+/// Of the scene, m.
+double extent(const Problem& problem) {
+  const Points& x = problem.map.x0;
+  return std::max((x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff(),
+                  problem.bodies.largest_radius());
+}
+
+}  // namespace
+
 /// What one plain iteration makes of a small error at v, with the rows linearised at v: the impulses push
 /// along turned directions, and the rows miss what their value does beyond J.
 std::int64_t ContractionEstimate::apply_plain(StepSystem& system, Points& error) {
   constexpr double turned = 1e-6;  // of the scene's extent: about the cube root of rounding
   const Problem& problem = system.problem;
   const StepMap& map = problem.map;
-  const double extent = std::max((map.x0.rowwise().maxCoeff() - map.x0.rowwise().minCoeff()).maxCoeff(),
-                                 problem.bodies.largest_radius());
-  const double scale = turned * extent / (map.d * error.colwise().norm().maxCoeff());
+  const double scale = turned * extent(problem) / (map.d * error.colwise().norm().maxCoeff());
   turned_x_ = map.x0 + map.d * (system.at.v + scale * error);
   const Configuration turned_here = placed(problem, turned_x_, turned_poses_, problem.x_time);
   const Configuration* const where = directions_for(system, turned_x_);
@@ -71,6 +80,7 @@ void ContractionEstimate::update(StepSystem& system, bool bound_alone, Progress&
   if (system.problem.direction_blend != 1) return forget();
   const double tension = mass_.update(system, 1);
   value_ = std::max(tension, mass_.update(system, -1));
+  if (!(extent(system.problem) > 0)) return forget();
   if (bound_alone || !(value_ > slow_contraction)) return;
   if (!mode_known_) begin_anywhere(system.problem);
   const int count = mode_known_ ? fewest : most;

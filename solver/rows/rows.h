@@ -165,7 +165,7 @@ struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one a column (bodies.h); 0 for infinite mass
   BlockList blocks;                  // in the scene's order; those of contacts may be empty
   bool contacts = false;             // some blocks are those of contacts
-  int generation = 0;                // raised with each other set of contacts
+  int generation = 0;                // raised with each other set of contacts or compliances
 };
 
 /// Entry k of a start vector that no symmetry of a scene leaves out a mode of; in [-1, 1].

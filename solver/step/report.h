@@ -29,10 +29,10 @@ struct Report {
   std::string_view linear_part;       // the linear solver, of `direct` the part, that worked last; empty if
                                       // nothing was relaxed
 
-  /// Largest residual relative to `scale`; 0 if both vanish.
+  /// Largest residual relative to `scale`; 0 if that vanishes and what is left is rounding.
   double residual() const {
     const double largest = larger(primal, dual);
-    return largest == 0 ? 0 : largest / scale;
+    return scale == 0 && status == Status::ok ? 0.0 : largest / scale;
   }
 };
 

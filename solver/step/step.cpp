@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "error.h"
 #include "step/workspace.h"
 
 namespace pbd {
@@ -191,6 +193,7 @@ void StepRun::end(double h, State& state) {
   }
   if (report.status == Status::diverged) {
     clear_impulses(system.rows);
+    forget(system.solver);
     w.contraction.forget();
     w.history.forget();
   } else {
@@ -209,9 +212,28 @@ void StepRun::end(double h, State& state) {
   report.linear_part = progress.linear_part;
 }
 
+void require_step(const Scene& scene, double h, const State& state) {
+  if (!(h > 0 && std::isfinite(h))) throw SetupError("h", std::to_string(h), "a finite step above 0 s");
+  const auto require_count = [](const char* what, std::ptrdiff_t found, std::ptrdiff_t wanted) {
+    if (found != wanted)
+      throw SetupError(what, std::to_string(found) + " entries",
+                       "as many as the scene has, " + std::to_string(wanted));
+  };
+  require_count("state.x", state.x.cols(), scene.nodes());
+  require_count("state.v", state.v.cols(), scene.nodes());
+  require_count("state.orientation", std::ssize(state.orientation), std::ssize(scene.bodies));
+  require_count("state.spin", state.spin.cols(), std::ssize(scene.bodies));
+  constexpr double written = 1e-6;  // what is left out of a quaternion written with seven digits
+  for (std::size_t b = 0; b < state.orientation.size(); ++b)
+    if (const double norm = state.orientation[b].norm(); !(std::abs(norm - 1) < written))
+      throw SetupError("state.orientation[" + std::to_string(b) + "]",
+                       "a quaternion of norm " + std::to_string(norm), "one of norm 1");
+}
+
 }  // namespace
 
 Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
+  require_step(workspace.scene(), h, state);
   StepRun run{*workspace.data_};
   run.begin(h, state);
   run.solve(observer);

@@ -45,8 +45,9 @@ class Workspace {
 
   /// Replaces effect `index` between two steps: other forces, rates, rest values, compliances or moduli of
   /// the same constraints. Throws SetupError, and changes nothing, if the scene would not be valid, if the
-  /// effect is of another kind, connects others, has limits or damping where it had none (or the other way
-  /// round), or hard constraints where they gave way (or the other way round); contact cannot be changed.
+  /// effect is of another kind, has constraints of others, has limits or damping where it had none (or the
+  /// other way round), or hard constraints where they gave way (or the other way round); contact cannot be
+  /// changed.
   void change(std::size_t index, const Effect& effect);
 
   /// What each effect with rows cost, in the scene's order.
@@ -69,8 +70,9 @@ class Workspace {
   friend Report step(Workspace&, double, State&, const Observer&);
 };
 
-/// Advances `state` by h seconds. Throws only what the observer throws, and leaves `state` as it was then:
-/// what went wrong stands in the report. A diverged step leaves `state` as it was, too.
+/// Advances `state` by h seconds. Throws SetupError for a step that is not finite and above 0 and for a state
+/// of another scene's size or with orientations that are none, and what the observer throws; `state` is as it
+/// was then. What else goes wrong stands in the report. A diverged step leaves `state` as it was, too.
 Report step(Workspace& workspace, double h, State& state, const Observer& observer = {});
 
 }  // namespace pbd

@@ -49,6 +49,21 @@ StepSystem system_of(const Scene& scene, const Method& method) {
   return system;
 }
 
+/// True if the same constraints of both effects, which are of one kind, are hard.
+bool same_hard(const Effect& a, const Effect& b) {
+  return std::visit(
+      [&]<class E>(const E& one) {
+        if constexpr (requires { one.compliance; }) {
+          const auto& own = one.compliance;
+          const auto& other = std::get<E>(b).compliance;
+          return std::equal(own.begin(), own.end(), other.begin(), other.end(),
+                            [](double x, double y) { return (x == 0) == (y == 0); });
+        }
+        return true;
+      },
+      a);
+}
+
 /// True if the rows of both effects, which are of one kind, have the same Sigma; of strains it is a matter of
 /// much, and false.
 bool same_stiffness(const Effect& a, const Effect& b) {
@@ -128,7 +143,7 @@ void Workspace::change(std::size_t index, const Effect& effect) {
         implicit_gyroscopic(data_->scene, data_->history.integrator());
     if (slot == slots.end()) return;
     const auto source = make_source(data_->scene, effects[index], Friction::coulomb);
-    if (source->kind() != slot->source->kind() ||
+    if (source->kind() != slot->source->kind() || !same_hard(before, effect) ||
         !same_rows(*source, data_->history.integrator().explicit_forces, slot->view(data_->system.rows)))
       throw SetupError(
           where, name,
@@ -138,6 +153,7 @@ void Workspace::change(std::size_t index, const Effect& effect) {
     throw;
   }
   if (same_stiffness(before, effect)) return;
+  ++data_->system.rows.generation;
   forget(data_->system.solver);
   if (slot->eliminated) forget_stiffness(data_->outer);
 }
@@ -170,6 +186,7 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
 
 std::vector<double> Workspace::forces(std::size_t index) const {
   std::vector<double> flat;
+  const double s = data_->system.problem.map.s;  // 0 before the first step
   for (const Slot& slot : data_->system.slots)
     if (slot.effect == index)
       flat.assign(slot.source->kind().constraints * slot.source->kind().rows_of_each, std::nan(""));
@@ -177,7 +194,7 @@ std::vector<double> Workspace::forces(std::size_t index) const {
     if (flat.empty()) return;
     for (std::size_t i = 0; i < block.size(); ++i)
       for (int r = 0; r < Block::rows; ++r)
-        flat[Block::rows * block.entry(i) + r] = block.impulse[i][r] / data_->system.problem.map.s;
+        flat[Block::rows * block.entry(i) + r] = s > 0 ? block.impulse[i][r] / s : 0.0;
   });
   return flat;
 }

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "error.h"
+#include "step/integrators.h"
 #include "step/step.h"
 
 using namespace pbd;
@@ -59,6 +60,28 @@ TEST_CASE("a limit stops a hinge, pushes only while it is reached, and holds the
       // At rest against the limit: torque m g l/2 cos(angle) = -gamma.
       CHECK(workspace.impulses(5)[0] / h == Approx(-2 * 9.81 * 0.5 * std::cos(0.6)).epsilon(1e-8));
     }
+}
+
+TEST_CASE("a slack rope does nothing, compliant or not, whatever the integrator starts with") {
+  const double compliance = GENERATE(0.0, 1e-3);
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3(1, 0, 0), 1, Vec3::Ones());
+  scene.effects.emplace_back(BodyDistance{.body = {{0, 1}},
+                                          .point = {{Vec3::Zero(), Vec3::Zero()}},
+                                          .rest_length = {2},
+                                          .compliance = {compliance},
+                                          .bounds = {{-infinity, 0}}});
+  for (const Integrator& integrator : integrators()) {
+    INFO(integrator.name);
+    Method method;
+    method.integrator = integrator.name;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    for (int k = 0; k < 3; ++k) CHECK(step(workspace, 0.01, state).status == Status::ok);
+    CHECK(state.x == scene.initial.x);
+    CHECK(state.v.isZero(0));
+  }
 }
 
 TEST_CASE("quasi_newton refuses limits") {

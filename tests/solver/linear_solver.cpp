@@ -243,3 +243,35 @@ TEST_CASE("Nesterov's momentum survives a linearisation that changes nothing") {
   const Points once = run(false);
   CHECK((run(true) - once).norm() < 1e-12 * once.norm());
 }
+
+TEST_CASE(
+    "jacobi solves rows that are there twice, whose largest eigenvalue is exactly the count at a node") {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3::UnitX(), 1);
+  const Distance link{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}};
+  scene.effects = {Gravity{Vec3(9.81, 0, 0)}, link, link};
+  Method method;
+  method.relaxation = "jacobi";
+  method.max_sweeps = 1000;
+  State state = scene.initial;
+  CHECK(one_step(scene, method, 0.01, state).status == Status::ok);
+  CHECK(state.x(0, 1) == Approx(1));
+}
+
+TEST_CASE("a step from a place without extent leaves no solver unable to solve the next") {
+  Scene scene;
+  for (int k = 0; k < 2; ++k) add_node(scene, Vec3::Zero(), k == 0 ? infinity : 1);
+  scene.effects = {Gravity{}, Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}}};
+  for (const auto relaxation : general_solver_names()) {
+    INFO(relaxation);
+    Method method;
+    method.relaxation = relaxation;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    step(workspace, 0.01, state);
+    state = scene.initial;
+    state.x.col(1) = Vec3(0, 0, -1);
+    for (int k = 0; k < 5; ++k) CHECK(step(workspace, 0.01, state).status == Status::ok);
+  }
+}

@@ -90,11 +90,11 @@ class Output {
   std::optional<BodySurfaces> surfaces_;
 };
 
-/// The worst step, which may have no residual.
+/// The worst step, which may have no finite residual.
 std::string worst_text(const Totals& totals) {
   return std::isfinite(totals.worst_residual)
              ? fmt::format("the worst with {:.3g} (step {})", totals.worst_residual, totals.worst_step)
-             : fmt::format("step {} diverged", totals.worst_step);
+             : fmt::format("step {} without a finite residual", totals.worst_step);
 }
 
 nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& workspace) {

@@ -29,7 +29,8 @@
 // iteration a step the first two were seen to blow up with more damping of their own, too. midpoint meets
 // constraints in the middle of a step, not at its end. symplectic_euler is stable below h = 2/w alone, w the
 // stiffest compliant mode; damping, implicit elsewhere, narrows that. bdf2 with changing steps is stable
-// while one is at most 2.4 times the one before.
+// while one is at most 2.4 times the one before; with damping it takes a rest value that is changed between
+// steps for a rate.
 #pragma once
 
 #include <string_view>

@@ -172,7 +172,7 @@ VectorXd run(const ConeProblem& scaled, const char* barrier, int& iterations) {
   return program->found;
 }
 
-/// The law `cone`. Some problems stop Ipopt short in one form or with one barrier, hardly any in all.
+/// The law `cone`. Where one form or barrier stops short of the tolerance the next is tried.
 ConeSolution minimum(const ConeProblem& problem, double tolerance) {
   EquilibratedCone scaled = equilibrate(problem);
   const double size = scaled.problem.free_velocity.cwiseAbs().maxCoeff();

@@ -15,6 +15,12 @@ std::string number(double value) {
   return text;
 }
 
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
 }  // namespace known
 
 const std::vector<KnownAnswer>& known_answers() {

@@ -1,8 +1,10 @@
 // The families of known answers, one source each, and what they share.
 #pragma once
 
+#include <initializer_list>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include "known_answers.h"
 
@@ -15,6 +17,9 @@ inline constexpr double g = 9.81;  // m/s^2
 
 /// Decimal without trailing zeros, for statements.
 std::string number(double value);
+
+/// One text of its parts.
+std::string joined(std::initializer_list<std::string_view> parts);
 
 void oscillators(Rows& rows);
 void particles(Rows& rows);

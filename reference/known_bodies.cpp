@@ -101,9 +101,9 @@ void tops(Rows& rows) {
     const auto unbalanced = [&top, s = spin](double w) { return unbalanced_torque(top, pi / 6, s, w); };
     const double between = std::sqrt(found.slow * found.fast);
     const std::string at = " precession at 30 deg, spin " + number(spin) + " rad/s";
-    rows.push_back({"heavy_top", of + "slow" + at, "rad/s", found.slow, slow,
+    rows.push_back({"heavy_top", joined({of, "slow", at}), "rad/s", found.slow, slow,
                     find_root(unbalanced, found.slow / 2, between)});
-    rows.push_back({"heavy_top", of + "fast" + at, "rad/s", found.fast, fast,
+    rows.push_back({"heavy_top", joined({of, "fast", at}), "rad/s", found.fast, fast,
                     find_root(unbalanced, between, 2 * found.fast)});
   }
 }
@@ -133,12 +133,12 @@ void four_bars(Rows& rows) {
     const Direction crank = circling_pendulum(length, g, 1, at.time);
     const Eigen::VectorXd y = solve_ode(slope, Eigen::Vector2d(pi / 2, -1), {at.time}).states.back();
     const std::string after = " after " + number(at.time) + " s";
-    rows.push_back({"four_bar", of + ": x" + after, "m", -crank.sine, at.x, std::cos(y(0))});
-    rows.push_back({"four_bar", of + ": y" + after, "m", -crank.cosine, at.y, std::sin(y(0))});
+    rows.push_back({"four_bar", joined({of, ": x", after}), "m", -crank.sine, at.x, std::cos(y(0))});
+    rows.push_back({"four_bar", joined({of, ": y", after}), "m", -crank.cosine, at.y, std::sin(y(0))});
     if (!at.vx) continue;
-    rows.push_back({"four_bar", of + ": speed along x" + after, "m/s", -crank.rate * crank.cosine, at.vx,
-                    -y(1) * std::sin(y(0))});
-    rows.push_back({"four_bar", of + ": speed along y" + after, "m/s", crank.rate * crank.sine, at.vy,
+    rows.push_back({"four_bar", joined({of, ": speed along x", after}), "m/s", -crank.rate * crank.cosine,
+                    at.vx, -y(1) * std::sin(y(0))});
+    rows.push_back({"four_bar", joined({of, ": speed along y", after}), "m/s", crank.rate * crank.sine, at.vy,
                     y(1) * std::cos(y(0))});
   }
 }

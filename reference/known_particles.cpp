@@ -169,12 +169,12 @@ void orbits(Rows& rows) {
     const PlanarState at = kepler_orbit(1, 1, 0.6, time);
     const Eigen::VectorXd integrated = solve_ode(slope, Eigen::Vector4d(0.4, 0, 0, 2), {time}).states.back();
     const std::string when = " after " + number(time) + " s";
-    rows.push_back({"kepler", orbit + "x" + when, "m", at.x, x, integrated(0)});
-    rows.push_back({"kepler", orbit + "y" + when, "m", at.y, y, integrated(1)});
-    rows.push_back({"kepler", orbit + "energy" + when, "J/kg",
+    rows.push_back({"kepler", joined({orbit, "x", when}), "m", at.x, x, integrated(0)});
+    rows.push_back({"kepler", joined({orbit, "y", when}), "m", at.y, y, integrated(1)});
+    rows.push_back({"kepler", joined({orbit, "energy", when}), "J/kg",
                     (at.vx * at.vx + at.vy * at.vy) / 2 - 1 / std::hypot(at.x, at.y), "-0.5", std::nullopt});
-    rows.push_back({"kepler", orbit + "angular momentum" + when, "m^2/s", at.x * at.vy - at.y * at.vx, "0.8",
-                    std::nullopt});
+    rows.push_back({"kepler", joined({orbit, "angular momentum", when}), "m^2/s", at.x * at.vy - at.y * at.vx,
+                    "0.8", std::nullopt});
   }
 }
 

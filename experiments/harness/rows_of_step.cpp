@@ -40,42 +40,53 @@ void stir(Scene& scene) {
 }
 
 StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law)
-    : scene_(scene), h_(h), slots_(make_slots(scene, law, false, rows_)), bodies_(scene), time_(state.time) {
+    : scene_(scene),
+      slots_(make_slots(scene, law, false, rows_)),
+      bodies_(scene),
+      map_{.x0 = {}, .v_free = {}, .d = h, .s = h, .h = h},
+      coefficients_{h, h},
+      time_(state.time) {
   Points acceleration;
-  bodies_.begin(state, start_x_, start_v_);
-  bodies_.place(start_x_, start_poses_);
+  bodies_.begin(state, map_.x0, start_v_);
+  bodies_.place(map_.x0, start_poses_);
   set_given_accelerations(scene, {bodies_, start_poses_, start_v_, false}, acceleration);
-  v_free_ = start_v_ + h * acceleration;
-  const Configuration start{start_x_, start_poses_, time_};
-  const StepMap begun = map(v_free_);
-  const StepCoefficients euler{h, h};
-  const Points no_acceleration;
-  const StepBegin begin{
-      bodies_, begun, euler, start, start, start, start_v_, no_acceleration, rows_.inverse_mass, false};
+  map_.v_free = start_v_ + h * acceleration;
+  const Configuration at = start();
+  const StepBegin begin = step_begin(at);
   for (Slot& slot : slots_)
     if (slot.source->kind().contacts) slot.source->begin_step(begin, slot.blocks(rows_));
 }
 
+StepBegin StepRows::step_begin(const Configuration& start) const {
+  return {.bodies = bodies_,
+          .map = map_,
+          .coefficients = coefficients_,
+          .at = start,
+          .ahead = start,
+          .behind = start,
+          .v = start_v_,
+          .a = no_acceleration_,
+          .inverse_mass = rows_.inverse_mass,
+          .warm_start = false};
+}
+
 void StepRows::linearise(const Points& v) {
-  const StepMap begun = map(v_free_);
-  const Points x = start_x_ + h_ * v, no_acceleration;
-  const Configuration start{start_x_, start_poses_, time_};
-  const StepCoefficients euler{h_, h_};
-  const StepBegin begin{
-      bodies_, begun, euler, start, start, start, start_v_, no_acceleration, rows_.inverse_mass, true};
+  const Points x = map_.x0 + map_.d * v;
+  const Configuration begun = start();
+  const StepBegin begin = step_begin(begun);
   for (Slot& slot : slots_) slot.source->widen(begin, x, slot.blocks(rows_));
   bodies_.place(x, poses_);
-  const Configuration at{x, poses_, time_ + h_};
+  const Configuration at{x, poses_, time_ + map_.h};
   clear_impulses(rows_);
   RowResidual unused;
   for (Slot& slot : slots_)
-    slot.source->linearise({begun, at, nullptr, v, rows_.inverse_mass, 1}, slot.blocks(rows_), unused);
+    slot.source->linearise({map_, at, nullptr, v, rows_.inverse_mass, 1}, slot.blocks(rows_), unused);
 }
 
 State StepRows::end(const Points& v) const {
   State state = scene_.initial;
-  state.time = time_ + h_;
-  bodies_.end(start_x_ + h_ * v, v, state);
+  state.time = time_ + map_.h;
+  bodies_.end(map_.x0 + map_.d * v, v, state);
   return state;
 }
 

@@ -20,21 +20,23 @@ class StepRows {
   void linearise(const pbd::Points& v);
 
   const pbd::Rows& rows() const { return rows_; }
-  const pbd::Points& v_free() const { return v_free_; }
+  const pbd::Points& v_free() const { return map_.v_free; }
 
   /// Where velocities v lead.
   pbd::State end(const pbd::Points& v) const;
 
  private:
-  pbd::StepMap map(const pbd::Points& v_free) const { return {start_x_, v_free, h_, h_, h_}; }
+  pbd::Configuration start() const { return {map_.x0, start_poses_, time_}; }
+  pbd::StepBegin step_begin(const pbd::Configuration& start) const;
 
   const pbd::Scene& scene_;
-  double h_;
   pbd::Rows rows_;
   std::vector<pbd::Slot> slots_;
   pbd::Bodies bodies_;
   std::vector<pbd::Pose> start_poses_, poses_;
-  pbd::Points start_x_, start_v_, v_free_;
+  pbd::StepMap map_;
+  pbd::StepCoefficients coefficients_;
+  pbd::Points start_v_, no_acceleration_;
   double time_;
 };
 

@@ -56,8 +56,7 @@ void RoundedPolyhedron::place(const Polyhedron& polyhedron, const Vec3& scale, d
   }
   size = (high - low).norm();
   for (const auto& face : solid->faces) {
-    normal.push_back(at.rotation *
-                     face.normal);  // a cube's stay as they are when it is stretched along its axes
+    normal.emplace_back(at.rotation * face.normal);  // a cube's stay when it is stretched along its axes
     offset.push_back(normal.back().dot(node(solid->corners[face.first])));
   }
   for (const auto& each : solid->edges) {

@@ -1,3 +1,4 @@
+// Conjugate gradients on the dual problem, with the impulses that bounds and laws leave free.
 #pragma once
 
 #include "linear/sweeps.h"

@@ -1,3 +1,4 @@
+// Block Gauss-Seidel: one constraint after the other.
 #pragma once
 
 #include "linear/sweeps.h"

@@ -1,3 +1,4 @@
+// Damped block Jacobi: all constraints at once.
 #pragma once
 
 #include "linear/spectral_bound.h"

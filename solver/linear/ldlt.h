@@ -1,3 +1,4 @@
+// Sparse LDL^T of the quasi-definite system of velocities and hard impulses.
 #pragma once
 
 #include "linear/sparse_factor.h"
@@ -15,8 +16,8 @@ namespace pbd {
 /// rows solvable and is removed by the refinement. Rows whose impulse has bounds are kept; those that a step
 /// of block Jacobi would leave at a bound are held there, and each sweep with another set of them begins with
 /// another factorisation (the primal-dual active sets of hintermueller2003primal, which are not proven to
-/// end). Which constraints are eliminated is decided at the first linearisation. Not for contacts. Allocates
-/// in Eigen's factorisation and solves.
+/// end). Which constraints are eliminated is decided when the rows' generation changes. Not for contacts.
+/// Allocates in Eigen's factorisation and solves.
 class Ldlt {
  public:
   static constexpr std::string_view name = "ldlt";

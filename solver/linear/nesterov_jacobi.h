@@ -1,3 +1,4 @@
+// Block Jacobi with Nesterov's momentum.
 #pragma once
 
 #include "linear/spectral_bound.h"

@@ -1,3 +1,4 @@
+// How large a step block Jacobi may take: a bound of the largest eigenvalue.
 #pragma once
 
 #include <algorithm>

@@ -21,10 +21,9 @@ namespace pbd {
 /// Seconds spent on each block; a null pointer takes no time.
 using BlockSeconds = std::vector<double>*;
 
-/// What a sweep met: the residual sqrt(sum_i r_i^T N_ii^-1 r_i) (sqrt(J)), or what bounds and laws leave of
-/// it
-/// (`squared_residual` in rows/laws.h), each r_i taken when its constraint was visited. `exhausted`: the
-/// solver has nothing left to gain, solved or not.
+/// What a sweep met: the residual sqrt(sum_i r_i^T N_ii^-1 r_i) (sqrt(J)), each r_i taken when its constraint
+/// was visited; of bounds and laws what they leave of it (`squared_residual` in rows/laws.h). `exhausted`:
+/// the solver has nothing left to gain, solved or not.
 struct Sweep {
   double residual = 0;
   bool exhausted = false;

@@ -93,4 +93,18 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.effects.size(); ++i) validate_effect(scene, i);
 }
 
+void validate(const Scene& scene, double h, const State& state) {
+  REQUIRE(h > 0 && std::isfinite(h), "h", text(h), "a finite step above 0 s");
+  const auto require_count = [](const char* what, std::ptrdiff_t found, std::ptrdiff_t wanted) {
+    REQUIRE(found == wanted, what, text(found) + " entries", "as many as the scene has, " + text(wanted));
+  };
+  require_count("state.x", state.x.cols(), scene.nodes());
+  require_count("state.v", state.v.cols(), scene.nodes());
+  require_count("state.orientation", std::ssize(state.orientation), std::ssize(scene.bodies));
+  require_count("state.spin", state.spin.cols(), std::ssize(scene.bodies));
+  for (std::size_t b = 0; b < state.orientation.size(); ++b)
+    REQUIRE(is_unit(state.orientation[b]), "state.orientation[" + text(b) + "]",
+            norm_of(state.orientation[b]), "norm 1");
+}
+
 }  // namespace pbd

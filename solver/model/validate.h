@@ -28,6 +28,10 @@ inline constexpr double most_mass_ratio = 1e15;
 /// these).
 void validate(const Scene& scene);
 
+/// Throws SetupError for a step of `scene` that is not finite and above 0 s, for a state of another size, and
+/// for orientations that are none. Numbers that are not finite pass: a step from them ends as diverged.
+void validate(const Scene& scene, double h, const State& state);
+
 /// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume
 /// (or a rest triangle an area) above rounding: 1e-12 of its longest edge cubed (squared).
 void require_proper(const Eigen::Matrix<double, 3, 4>& rest, std::string_view what, std::size_t index);

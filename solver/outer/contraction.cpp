@@ -80,8 +80,7 @@ void ContractionEstimate::update(StepSystem& system, bool bound_alone, Progress&
   if (system.problem.direction_blend != 1) return forget();
   const double tension = mass_.update(system, 1);
   value_ = std::max(tension, mass_.update(system, -1));
-  if (!(extent(system.problem) > 0)) return forget();
-  if (bound_alone || !(value_ > slow_contraction)) return;
+  if (bound_alone || !(value_ > slow_contraction) || !(extent(system.problem) > 0)) return;
   if (!mode_known_) begin_anywhere(system.problem);
   const int count = mode_known_ ? fewest : most;
   Small projected = Small::Zero(count, count);

@@ -5,6 +5,7 @@
 #include "rows/mass_norm.h"
 
 namespace pbd {
+
 void Lbfgs::learn(const Points& step, const Points& change) {
   const double curvature = dot(step, change);
   constexpr double least = 1e-12;  // of the product of lengths: no curvature is known below

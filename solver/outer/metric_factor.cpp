@@ -38,7 +38,7 @@ std::vector<Eigen::Matrix<double, B, B>> assemble(const FactorPattern& pattern,
 template <int B>
 void factorise(const FactorPattern& pattern, std::vector<Eigen::Matrix<double, B, B>>& lower) {
   using Block = Eigen::Matrix<double, B, B>;
-  const auto& [node_column, start, row] = pattern;
+  const std::vector<int>&start = pattern.start, &row = pattern.row;
   std::vector<int> waiting(pattern.columns(), -1), next(waiting), at(waiting), slot(waiting);
   const auto wait = [&](int column, int position) {
     at[column] = position;
@@ -127,7 +127,7 @@ double pivot_ratio(const FactorPattern& pattern, const std::vector<Eigen::Matrix
 template <int B, class Real>
 void MetricFactor<B, Real>::solve(const FactorPattern& pattern, Points& x) const {
   using Part = Eigen::Matrix<double, B, 3 / B>;  // of one column of L: a vector, or x, y and z side by side
-  const auto& [node_column, start, row] = pattern;
+  const std::vector<int>&start = pattern.start, &row = pattern.row;
   const auto part = [&](int column) { return Eigen::Map<Part>(x.col(column).data()); };
   const auto block = [&](int k) { return lower[k].template cast<double>(); };
   for (int j = 0; j < pattern.columns(); ++j) {

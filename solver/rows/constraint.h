@@ -1,8 +1,8 @@
-// What every effect with rows states: Constraint<Effect> gives the value c(x) of constraint i, its Jacobian J
-// = dc/dx and its compliance A, at the positions of the constraint's K nodes; the retardation time T of its
-// damping, asked for where the effect lists any; and a bound B (N s/m, one a
-// node) of the geometric stiffness of its impulses p:
-//   -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
+// What every effect with rows states. At the positions of constraint i's K nodes Constraint<Effect> gives
+//   its value c(x), its Jacobian J = dc/dx and its compliance A,
+//   the retardation time T of its damping, asked for where the effect lists any,
+//   and a bound B (N s/m, one a node) of the geometric stiffness of its impulses p:
+//     -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
 // depends on a rest shape states its positions, rest(effect, i).
 #pragma once
@@ -21,8 +21,7 @@ template <int R, int K>
 struct ConstraintShape {
   static constexpr int rows = R;
   static constexpr int nodes = K;
-  static constexpr bool fills_space =
-      false;  // its rows are stiff in every direction, as those of a solid are
+  static constexpr bool fills_space = false;         // stiff in every direction, as a solid's rows are
   static constexpr bool one_material = false;        // T is the same for all its constraints
   using Positions = Eigen::Matrix<double, 3, K>;     // one column a node, m
   using Value = Eigen::Matrix<double, R, 1>;         // c

@@ -21,9 +21,8 @@ Eigen::Matrix<double, 6, 1> solve_definite(const Matrix6d& a, const Eigen::Matri
   return a.llt().solve(c);
 }
 
-void solve_definite_in_place(
-    const Eigen::Ref<const Eigen::MatrixXd>& a,
-    Eigen::Ref<Eigen::MatrixXd> b) {  // NOLINT(performance-unnecessary-value-param): written to
+// NOLINTNEXTLINE(performance-unnecessary-value-param): b is written to
+void solve_definite_in_place(const Eigen::Ref<const Eigen::MatrixXd>& a, Eigen::Ref<Eigen::MatrixXd> b) {
   const Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> factor(a);
   factor.solveInPlace(b);
 }

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "rows/effect_constraint.h"
 #include "rows/row_operations.h"

@@ -4,6 +4,7 @@
 // interface, once: in the effect's own file.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -16,13 +17,15 @@
 
 namespace pbd {
 
-/// Squared dual residual of rows, sum_i r_i^T N_ii^-1 r_i with r = c(x)/d + Sigma p (of bounds and laws of
-/// friction what they leave of it, `squared_residual` in rows/laws.h), and the same of the
-/// rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along each row of J; and
-/// what the rows' impulses p do each alone, sum_i |W J_i^T p_i|_M^2. All in J.
+/// Sums over rows, J.
 struct RowResidual {
+  /// sum_i r_i^T N_ii^-1 r_i of the dual residual r = c(x)/d + Sigma p; of bounds and laws of friction what
+  /// they leave of it (`squared_residual` in rows/laws.h).
   double squared = 0;
+  /// The same of the rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along
+  /// each row of J.
   double rounding_squared = 0;
+  /// sum_i |W J_i^T p_i|_M^2: what each constraint's impulse does alone.
   double impulses_squared = 0;
 
   RowResidual& operator+=(const RowResidual& other) {

@@ -91,6 +91,32 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
   v_ = problem.start_v;
 }
 
+StepBegin History::step_begin(const Problem& problem, const Configuration& start, const Configuration& ahead,
+                              const Configuration& behind) const {
+  return {.bodies = problem.bodies,
+          .map = problem.map,
+          .coefficients = problem.coefficients,
+          .at = start,
+          .ahead = ahead,
+          .behind = behind,
+          .v = problem.start_v,
+          .a = a_,
+          .inverse_mass = problem.inverse_mass,
+          .warm_start = problem.method.warm_start};
+}
+
+bool History::widen(StepSystem& system) const {
+  const Configuration start = system.problem.start();
+  const StepBegin begin = step_begin(system.problem, start, start, start);
+  bool widened = false;
+  for (Slot& slot : system.slots) {
+    const Widened found = slot.source->widen(begin, system.at.x, slot.blocks(system.rows));
+    widened |= found != Widened::no;
+    if (found == Widened::others) ++system.rows.generation;
+  }
+  return widened;
+}
+
 /// Gets the sources ready for the step of the system's map; true if their rows are others than before.
 bool History::begin_sources(StepSystem& system) {
   const Problem& problem = system.problem;
@@ -101,16 +127,7 @@ bool History::begin_sources(StepSystem& system) {
   const Configuration start = problem.start(),
                       ahead = placed(problem, ahead_x_, ahead_poses_, problem.start_time),
                       behind = placed(problem, behind_x_, behind_poses_, problem.start_time);
-  const StepBegin begin{.bodies = problem.bodies,
-                        .map = problem.map,
-                        .coefficients = problem.coefficients,
-                        .at = start,
-                        .ahead = ahead,
-                        .behind = behind,
-                        .v = problem.start_v,
-                        .a = a_,
-                        .inverse_mass = problem.inverse_mass,
-                        .warm_start = problem.method.warm_start};
+  const StepBegin begin = step_begin(problem, start, ahead, behind);
   bool others = false;
   for (Slot& slot : system.slots) others |= slot.source->begin_step(begin, slot.blocks(system.rows));
   return others;

@@ -15,6 +15,10 @@ class History {
   /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
+  /// Lets sources find rows anew where the solved iterate went farther than they searched: true if one did,
+  /// perhaps the same rows.
+  bool widen(StepSystem& system) const;
+
   /// Carries the solved map on to the step's end.
   void end_step(double h, const StepSystem& system, State& state);
 
@@ -28,6 +32,8 @@ class History {
   void carry_on(double h, bool goes_on, StepSystem& system);
   void set_map(double h, bool goes_on, Problem& problem);
   bool begin_sources(StepSystem& system);
+  StepBegin step_begin(const Problem& problem, const Configuration& start, const Configuration& ahead,
+                       const Configuration& behind) const;
 
   const Integrator* integrator_;
   double h_ = 0;               // s, of the last step; 0 if there is none

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <string_view>
 
-#include "error.h"
 #include "step/workspace.h"
+#include "validate.h"
 
 namespace pbd {
 namespace {
@@ -65,30 +65,6 @@ void keep_if_best(const StepSystem& system, const Progress& progress, BestIterat
 /// Takes note of what the iterate's impulses say of the contacts.
 void note_impulses(StepSystem& system) {
   for (Slot& slot : system.slots) slot.source->note_impulses(slot.view(system.rows));
-}
-
-/// True if the solved iterate went farther than was searched: contacts have been found anew, perhaps the
-/// same ones.
-bool widen(StepSystem& system) {
-  const Problem& problem = system.problem;
-  const Configuration start = problem.start();
-  const StepBegin begin{.bodies = problem.bodies,
-                        .map = problem.map,
-                        .coefficients = problem.coefficients,
-                        .at = start,
-                        .ahead = start,
-                        .behind = start,
-                        .v = problem.start_v,
-                        .a = {},
-                        .inverse_mass = problem.inverse_mass,
-                        .warm_start = true};
-  bool widened = false;
-  for (Slot& slot : system.slots) {
-    const Widened found = slot.source->widen(begin, system.at.x, slot.blocks(system.rows));
-    widened |= found != Widened::no;
-    if (found == Widened::others) ++system.rows.generation;
-  }
-  return widened;
 }
 
 /// One step in the making.
@@ -164,7 +140,7 @@ void StepRun::solve(const Observer& observer) {
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
     const bool stalled = stalls();
     const bool ended = finished(w.method, levels, progress, report);
-    if (ended && (report.status != Status::ok || !widen(system))) break;
+    if (ended && (report.status != Status::ok || !w.history.widen(system))) break;
     if (ended) {
       forget(w.outer);
       w.best.residual = infinity;
@@ -212,28 +188,10 @@ void StepRun::end(double h, State& state) {
   report.linear_part = progress.linear_part;
 }
 
-void require_step(const Scene& scene, double h, const State& state) {
-  if (!(h > 0 && std::isfinite(h))) throw SetupError("h", std::to_string(h), "a finite step above 0 s");
-  const auto require_count = [](const char* what, std::ptrdiff_t found, std::ptrdiff_t wanted) {
-    if (found != wanted)
-      throw SetupError(what, std::to_string(found) + " entries",
-                       "as many as the scene has, " + std::to_string(wanted));
-  };
-  require_count("state.x", state.x.cols(), scene.nodes());
-  require_count("state.v", state.v.cols(), scene.nodes());
-  require_count("state.orientation", std::ssize(state.orientation), std::ssize(scene.bodies));
-  require_count("state.spin", state.spin.cols(), std::ssize(scene.bodies));
-  constexpr double written = 1e-6;  // what is left out of a quaternion written with seven digits
-  for (std::size_t b = 0; b < state.orientation.size(); ++b)
-    if (const double norm = state.orientation[b].norm(); !(std::abs(norm - 1) < written))
-      throw SetupError("state.orientation[" + std::to_string(b) + "]",
-                       "a quaternion of norm " + std::to_string(norm), "one of norm 1");
-}
-
 }  // namespace
 
 Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
-  require_step(workspace.scene(), h, state);
+  validate(workspace.scene(), h, state);
   StepRun run{*workspace.data_};
   run.begin(h, state);
   run.solve(observer);

@@ -13,9 +13,9 @@
 // N_ii^-1 r_i) with r the dual residual (m/s for lengths) and N_ii = J_i W J_i^T + Sigma_i; of bounds and
 // laws, what is left by them of a step -N_ii^-1 r_i of p (`squared_residual` in rows/laws.h). They are
 // compared with scale = |v - v_l|_M + |v_free - v_l|_M, v_l being the velocity at the step's start and the
-// first iterate. What rounding makes of x
-// in a constraint's value counts as solved (RowResidual in rows/source.h); where impulses balance each other
-// to half of the digits, so that next to nothing moves, what it makes of their velocities does, too.
+// first iterate. What rounding makes of x in a constraint's value counts as solved (RowResidual in
+// rows/source.h). Where impulses balance each other to half of the digits, so that next to nothing moves, the
+// rounding of their velocities counts as solved, too.
 #pragma once
 
 #include <memory>

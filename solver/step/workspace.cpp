@@ -64,8 +64,8 @@ bool same_hard(const Effect& a, const Effect& b) {
       a);
 }
 
-/// True if the rows of both effects, which are of one kind, have the same Sigma; of strains it is a matter of
-/// much, and false.
+/// True if the rows of both effects, which are of one kind, have the same Sigma. False of strains, whose
+/// materials are not compared.
 bool same_stiffness(const Effect& a, const Effect& b) {
   return std::visit(
       [&]<class E>(const E& one) {

@@ -9,8 +9,6 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double proof_accuracy = 1e-10;  // m, of shapes of 1 m
-
 struct Worst {
   double proof = 0, a = 0, b = 0, normal = 0;  // m
   int apart = 0, missed = 0, overlapping = 0, unproved = 0, shallow = 0, ghosts = 0;
@@ -24,7 +22,7 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
   bool swapped = false;
   for (const auto& contact : found) {
     const Touching t = touch(contact, at_a, at_b);
-    worst.normal = std::max(worst.normal, std::abs(t.normal.norm() - 1));
+    worst.normal = larger(worst.normal, std::abs(t.normal.norm() - 1));
     if (t.gap >= nearest.gap) continue;
     nearest = t;
     swapped = contact.swapped;
@@ -32,13 +30,13 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
   double seen = -infinity;  // a lower bound of the distance
   for (const auto& contact : found) {
     const Vec3 n = touch(contact, at_a, at_b).normal;
-    seen = std::max(seen, apart_along(a, at_a, b, at_b, contact.swapped ? Vec3(-n) : n));
+    seen = larger(seen, apart_along(a, at_a, b, at_b, contact.swapped ? Vec3(-n) : n));
   }
   for (int k = 0; k < 30; ++k)
-    seen = std::max(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
+    seen = larger(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
   if (found.empty()) {
     for (int k = 0; k < 3000 && seen < 0.9; ++k)  // enough to tell that shapes are 1 m apart
-      seen = std::max(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
+      seen = larger(seen, apart_along(a, at_a, b, at_b, random.vector().normalized()));
     if (seen < 0.9) ++worst.missed;
     return;
   }
@@ -46,14 +44,14 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
   const double proved = apart_along(a, at_a, b, at_b, normal);
   if (nearest.gap > 0) {
     ++worst.apart;
-    worst.proof = std::max(worst.proof, std::abs(nearest.gap - proved));
-    worst.a = std::max(worst.a, outside(a, at_a, swapped ? nearest.point_b : nearest.point_a));
-    worst.b = std::max(worst.b, outside(b, at_b, swapped ? nearest.point_a : nearest.point_b));
+    worst.proof = larger(worst.proof, std::abs(nearest.gap - proved));
+    worst.a = larger(worst.a, outside(a, at_a, swapped ? nearest.point_b : nearest.point_a));
+    worst.b = larger(worst.b, outside(b, at_b, swapped ? nearest.point_a : nearest.point_b));
   } else {
     ++worst.overlapping;
-    if (std::abs(nearest.gap - proved) > proof_accuracy) ++worst.unproved;
-    if (seen > nearest.gap + proof_accuracy) ++worst.shallow;
-    if (seen > proof_accuracy) ++worst.ghosts;
+    if (!(std::abs(nearest.gap - proved) <= accuracy)) ++worst.unproved;
+    if (!(seen <= nearest.gap + accuracy)) ++worst.shallow;
+    if (!(seen <= accuracy)) ++worst.ghosts;
   }
 }
 
@@ -81,9 +79,9 @@ TEST_CASE("contacts of cylinders are nearest points, with a proof") {
             << worst.a << " " << worst.b << " missed " << worst.missed);
   CHECK(worst.apart > 1000);
   CHECK(worst.missed == 0);
-  CHECK(worst.proof < proof_accuracy);
-  CHECK(worst.a < proof_accuracy);
-  CHECK(worst.b < proof_accuracy);
+  CHECK(worst.proof < accuracy);
+  CHECK(worst.a < accuracy);
+  CHECK(worst.b < accuracy);
   CHECK(worst.normal < 1e-12);
   CHECK(worst.ghosts == 0);
   if (kind != "mesh") CHECK(worst.unproved == 0);
@@ -107,14 +105,14 @@ TEST_CASE("the least gap over a half space is the height of the lowest point") {
     for (const auto& contact : contacts(shape, at, HalfSpace{}, ground, margin)) {
       const Touching t = touch(contact, at, ground);
       least = std::min(least, t.gap);
-      worst = std::max(worst, std::abs(t.gap - ground.rotation.col(2).dot(t.point_a - ground.origin)));
+      worst = larger(worst, std::abs(t.gap - ground.rotation.col(2).dot(t.point_a - ground.origin)));
     }
     if (expected >= margin) {
       ghosts += least < infinity;
       continue;
     }
     missed += !(least < infinity);
-    worst = std::max(worst, std::abs(least - expected));
+    worst = larger(worst, std::abs(least - expected));
   }
   INFO(kind << " off by " << worst);
   CHECK(missed == 0);

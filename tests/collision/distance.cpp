@@ -7,8 +7,6 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double distance_accuracy = 1e-10;  // m, of shapes of 1 m
-
 /// All over the other, apart or overlapping; every fourth pose has axes along the other's.
 Frame random_pose(Random& random, int number) {
   Frame at;
@@ -39,14 +37,14 @@ TEST_CASE("the least gap of convex pairs is their signed distance") {
       const Touching t = touch(contact, at_a, at_b);
       if (!(t.gap < margin)) ++ghosts;
       least = std::min(least, t.gap);
-      worst_normal = std::max(worst_normal, std::abs(t.normal.norm() - 1));
+      worst_normal = larger(worst_normal, std::abs(t.normal.norm() - 1));
       const Convex point_a{{contact.swapped ? t.point_b : t.point_a}, {}, 0};
       const Convex point_b{{contact.swapped ? t.point_a : t.point_b}, {}, 0};
-      worst_a = std::max(worst_a, signed_distance(point_a, of_a));
-      worst_b = std::max(worst_b, signed_distance(point_b, of_b));
-      if (t.gap > expected + distance_accuracy) continue;
-      worst_a = std::max(worst_a, std::abs(signed_distance(point_a, of_a)));
-      worst_b = std::max(worst_b, std::abs(signed_distance(point_b, of_b)));
+      worst_a = larger(worst_a, signed_distance(point_a, of_a));
+      worst_b = larger(worst_b, signed_distance(point_b, of_b));
+      if (t.gap > expected + accuracy) continue;
+      worst_a = larger(worst_a, std::abs(signed_distance(point_a, of_a)));
+      worst_b = larger(worst_b, std::abs(signed_distance(point_b, of_b)));
     }
     if (expected >= margin) {
       ++beyond;
@@ -57,15 +55,15 @@ TEST_CASE("the least gap of convex pairs is their signed distance") {
     if (least == infinity)
       ++missed;
     else
-      worst = std::max(worst, std::abs(least - expected));
-    if (std::abs(least - expected) > distance_accuracy && missed + ghosts < 1)
+      worst = larger(worst, std::abs(least - expected));
+    if (std::abs(least - expected) > accuracy && missed + ghosts < 1)
       UNSCOPED_INFO("pose " << number << " least " << least << " expected " << expected);
   }
   INFO(kind << " " << other << " overlapping " << overlapping << " apart " << apart << " beyond " << beyond
             << " off by " << worst << " points " << worst_a << " " << worst_b << " normal " << worst_normal);
   CHECK(missed == 0);
   CHECK(ghosts == 0);
-  CHECK(worst < distance_accuracy);
+  CHECK(worst < accuracy);
   CHECK(worst_normal < 1e-14);
   CHECK(worst_a < 1e-8);
   CHECK(worst_b < 1e-8);

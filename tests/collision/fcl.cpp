@@ -56,7 +56,7 @@ TEST_CASE("FCL finds the same distances") {
     if (!(least > 0.01)) continue;  // well apart: of overlaps FCL's depth is another quantity
     const fcl::CollisionObjectd one = placed_at(a, at_a), two = placed_at(b, at_b);
     fcl::DistanceResultd result;
-    worst = std::max(worst, std::abs(fcl::distance(&one, &two, request, result) - least));
+    worst = larger(worst, std::abs(fcl::distance(&one, &two, request, result) - least));
     ++compared;
   }
   INFO(kind << " " << other << " off by " << worst << " of " << compared);

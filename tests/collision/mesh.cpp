@@ -36,17 +36,17 @@ TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
       if (least == infinity)
         ++missed;
       else
-        worst = std::max(worst, std::abs(least - expected));
+        worst = larger(worst, std::abs(least - expected));
     } else if (expected > -0.05) {
       ++overlaps;
       if (!(least < 0)) ++unseen;
       double by_faces = -infinity;
       for (const Convex* of : {&of_a, &of_mesh})
         for (const auto& t : of->triangles)
-          by_faces = std::max(by_faces, apart_along(of_a, of_mesh, of->normal(t)));
-      if (by_faces > 0 || kind == "capsule" || least >= by_faces - 1e-10) continue;
+          by_faces = larger(by_faces, apart_along(of_a, of_mesh, of->normal(t)));
+      if (by_faces > 0 || kind == "capsule" || least >= by_faces - accuracy) continue;
       ++deeper;
-      deepest = std::max(deepest, least / by_faces);
+      deepest = larger(deepest, least / by_faces);
     }
   }
   INFO(kind << " apart " << apart << " inside " << inside << " overlaps " << overlaps << " unseen " << unseen
@@ -55,7 +55,7 @@ TEST_CASE("the least gap of a convex mesh that is apart is its distance") {
   CHECK(unseen == 0);
   CHECK(apart > 500);
   CHECK(missed == 0);
-  CHECK(worst < 1e-10);
+  CHECK(worst < accuracy);
 }
 
 TEST_CASE("a closed mesh of a box is as far from other shapes as the box is") {
@@ -82,12 +82,12 @@ TEST_CASE("a closed mesh of a box is as far from other shapes as the box is") {
     if ((of_mesh < 0) != (of_box < 0)) ++differ;
     if (!(of_box > 0 && of_box < 1)) continue;
     ++apart;
-    worst = std::max(worst, std::abs(of_mesh - of_box));
+    worst = larger(worst, std::abs(of_mesh - of_box));
   }
   INFO(kind << " apart " << apart << " off by " << worst);
   CHECK(apart > 500);
   CHECK(differ == 0);
-  CHECK(worst < 1e-10);
+  CHECK(worst < accuracy);
 }
 
 TEST_CASE("edges within a flat side of a mesh are not felt") {

@@ -1,4 +1,5 @@
 // Contact of cloth with itself and with other cloth.
+#include "body_scenes.h"
 #include "contact_runs.h"
 #include "mesh.h"
 
@@ -141,5 +142,31 @@ TEST_CASE("deformable surfaces rest on each other") {
     CHECK(gap >= -1e-10);
     CHECK(carried > gravity);
     CHECK(std::abs(end.x(2, upper) - thickness) <= 1e-8);
+  }
+}
+
+TEST_CASE("contacts that nothing can move have no impulse and leave the others theirs") {
+  for (const std::string_view relaxation : general_solver_names()) {
+    INFO(relaxation);
+    Sheets sheets;
+    TriangleMesh lower = grid_sheet({2, 2}, {0.4, 0.4}), upper = lower;
+    upper.x.row(2).array() += thickness / 2;  // they overlap, and both are fixed
+    upper.x = (Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix() * upper.x).eval();
+    sheets.add(lower, true);
+    sheets.add(upper, true);
+    sheets.contact.collider.push_back({HalfSpace{}, add_world(sheets.scene)});
+    const int ball = add_body(sheets.scene, Vec3(-1, 0, 0.1), 1, Vec3::Ones());
+    sheets.contact.collider.push_back({Sphere{0.1}, ball});
+    const Scene scene = sheets.finish();
+    Workspace workspace(scene, contact_method(relaxation));
+    State state = scene.initial;
+    REQUIRE(step(workspace, 0.01, state).status == Status::ok);
+    int fixed = 0;
+    for (const ContactForce& contact : workspace.contacts()) {
+      CHECK(contact.force.allFinite());
+      fixed += contact.gap < 0;
+    }
+    CHECK(fixed > 0);
+    CHECK(ground_force(workspace).z() == Approx(weight(scene)));
   }
 }

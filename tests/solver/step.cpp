@@ -185,6 +185,26 @@ TEST_CASE("a diverged step leaves nothing behind in the workspace") {
   CHECK(after.v == expected.v);
 }
 
+TEST_CASE("a step that makes no sense is refused, and the state kept") {
+  Scene scene = chain(2);
+  add_body(scene, Vec3::Zero(), 1, Vec3::Ones());
+  Workspace workspace(scene, Method{});
+  for (const double h : {0.0, -1e-9, infinity, std::nan("")}) {
+    State state = scene.initial;
+    CHECK_THROWS_WITH(step(workspace, h, state), Catch::Contains("h") && Catch::Contains("above 0 s"));
+  }
+  State state = scene.initial;
+  CHECK_THROWS_WITH(step(workspace, -1e-9, state), Catch::Contains("e-"));
+  state.orientation[0].coeffs() *= 1 + 1e-8;
+  const State before = state;
+  CHECK_THROWS_WITH(step(workspace, 0.01, state),
+                    Catch::Contains("state.orientation[0]") && Catch::Contains("1.00000000"));
+  CHECK(state.x == before.x);
+  state = scene.initial;
+  state.v.conservativeResize(3, 2);
+  CHECK_THROWS_WITH(step(workspace, 0.01, state), Catch::Contains("state.v") && Catch::Contains("2 entries"));
+}
+
 TEST_CASE("a scene that makes no sense is refused before anything is computed") {
   Scene scene = pendulum();
   SECTION("a mass of zero") {

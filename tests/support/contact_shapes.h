@@ -8,6 +8,8 @@
 
 namespace pbd::test {
 
+inline constexpr double accuracy = 1e-10;  // m, of distances of shapes of 1 m
+
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}

@@ -35,7 +35,7 @@ std::vector<Scheme> position_schemes(std::string_view outer) {
 std::vector<Scheme> velocity_schemes() {
   std::vector<Scheme> all;
   for (const double share : {0.0, 0.2, 1.0}) {
-    Method& method = all.emplace_back("velocity").method;
+    Method& method = all.emplace_back(Scheme{"velocity"}).method;
     method.outer = "frozen";
     method.relaxation = "direct";
     method.max_outer = 1;

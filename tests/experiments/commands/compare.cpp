@@ -6,8 +6,6 @@
 
 using namespace pbdcheck::test;
 
-namespace {}  // namespace
-
 TEST_CASE("compare writes the reference's row and every iterate of every method, with errors that fall") {
   const TemporaryFolder folder;
   const auto ran = run_program({"compare", scenes / "pendulum.toml", "--at-step", "30", "--method",

@@ -10,8 +10,6 @@
 using namespace pbdcheck;
 using namespace pbdcheck::test;
 
-namespace {}  // namespace
-
 TEST_CASE("every scene that comes with the program is read, and says what it shows") {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(scenes)) {

@@ -11,8 +11,6 @@ using namespace pbdcheck;
 using namespace pbdcheck::test;
 using pbd::Vec3;
 
-namespace {}  // namespace
-
 // With the crank at the angle 4 rad/s t, the pin is where circles of 1 m about the crank's end and the
 // rocker's pivot meet above the line between them.
 TEST_CASE("the linkage goes through the places of a four-bar chain") {

@@ -5,13 +5,12 @@
 namespace pbd {
 namespace {
 
-/// Of features of the shape asked for first and of the second one. Their numbers fill 64 bits, of which the
-/// product with 2^64 over the golden ratio spreads what differs over the upper ones (knuth1998sorting, 6.4).
-std::uint32_t hashed(Feature first, int i, Feature second, int j) {
-  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
-  std::uint64_t bits = (static_cast<std::uint64_t>(first) << 3 | static_cast<std::uint64_t>(second)) << 58;
-  bits |= static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 29 ^ static_cast<std::uint32_t>(j);
-  return static_cast<std::uint32_t>(bits * golden >> 32);
+/// Of features of the shape asked for first and of the second one.
+std::uint64_t named(Feature first, int i, Feature second, int j) {
+  constexpr int kind_bits = 3, number_bits = 29;
+  std::uint64_t key = static_cast<std::uint64_t>(first) << kind_bits | static_cast<std::uint64_t>(second);
+  key = key << number_bits | static_cast<std::uint64_t>(i);
+  return key << number_bits | static_cast<std::uint64_t>(j);
 }
 
 ContactPoint contact_point(ContactPoint::Kind kind, const Vec3& point_a, double radius_a, const Vec3& point_b,
@@ -27,11 +26,11 @@ ContactPoint contact_point(ContactPoint::Kind kind, const Vec3& point_a, double 
 
 }  // namespace
 
-std::uint32_t ContactWriter::key(Feature of_a, int i, Feature of_b, int j) const {
-  return swapped ? hashed(of_b, j, of_a, i) : hashed(of_a, i, of_b, j);
+std::uint64_t ContactWriter::key(Feature of_a, int i, Feature of_b, int j) const {
+  return swapped ? named(of_b, j, of_a, i) : named(of_a, i, of_b, j);
 }
 
-void ContactWriter::write(ContactPoint contact, std::uint32_t key, double gap) const {
+void ContactWriter::write(ContactPoint contact, std::uint64_t key, double gap) const {
   const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto same = [&](const ContactPoint& other) { return other.key == key; };
   if (!(gap < margin) || std::any_of(from, out.end(), same)) return;
@@ -44,7 +43,7 @@ void ContactWriter::write(ContactPoint contact, std::uint32_t key, double gap) c
   out.push_back(contact);
 }
 
-void ContactWriter::rewrite(const ContactPoint& contact, std::uint32_t key, double gap) const {
+void ContactWriter::rewrite(const ContactPoint& contact, std::uint64_t key, double gap) const {
   const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto same = [&](const ContactPoint& other) { return other.key == key; };
   out.erase(std::remove_if(from, out.end(), same), out.end());

@@ -6,8 +6,8 @@
 
 namespace pbd {
 
-/// What a feature is: the upper bits of a key.
-enum class Feature : std::uint32_t { node, edge, face, rim, axis, cap };
+/// What a feature is.
+enum class Feature : std::uint8_t { node, edge, face, rim, axis, cap };
 
 /// Two shapes in the roles a and b of a contact; `swapped` if a is the one asked for second.
 struct ContactWriter {
@@ -20,15 +20,16 @@ struct ContactWriter {
 
   ContactWriter exchanged() const { return {frame_b, frame_a, !swapped, margin, out, begin}; }
 
-  /// The same number for the same pair of features, whichever shape is a.
-  std::uint32_t key(Feature of_a, int i, Feature of_b, int j) const;
+  /// The same number for the same pair of features, whichever shape is a, and another one for each pair of
+  /// numbers i and j below 2^29.
+  std::uint64_t key(Feature of_a, int i, Feature of_b, int j) const;
 
   /// Features in the frame that the writer's frames are placed in. Nothing is written twice, nor what is not
   /// below the margin.
-  void write(ContactPoint contact, std::uint32_t key, double gap) const;
+  void write(ContactPoint contact, std::uint64_t key, double gap) const;
 
   /// In the place of what has the key already.
-  void rewrite(const ContactPoint& contact, std::uint32_t key, double gap) const;
+  void rewrite(const ContactPoint& contact, std::uint64_t key, double gap) const;
 
   /// The least gap (m) of what is written; infinite if nothing is.
   double least() const;

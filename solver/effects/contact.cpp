@@ -1,7 +1,6 @@
 #include "effects/contact.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "effects/contact_stiffness.h"
 #include "rows/row_operations.h"

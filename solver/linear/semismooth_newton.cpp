@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "linear/natural_residual.h"
 #include "rows/dense.h"

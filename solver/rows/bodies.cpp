@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rows/dense.h"
 #include "rows/symmetric_eigen.h"

@@ -14,9 +14,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include "rows/rows.h"
 

@@ -11,7 +11,6 @@
 // singular; with friction one number for the three rows, 3/trace(N_ii), so that projections remain Euclidean.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>

@@ -60,7 +60,7 @@ Step ready_quasi_newton(const Scene& scene) {
   method.tolerance = rival_tolerance;
   method.max_outer = 2000;
   const auto workspace = std::make_shared<Workspace>(scene, method);
-  return [&scene, method, workspace](State& state, const RivalWatch& watch) {
+  return [workspace](State& state, const RivalWatch& watch) {
     return step(*workspace, rival_step_s, state,
                 [&](const Iterate& iterate) { watch(iterate.outer_iteration, iterate.x); });
   };

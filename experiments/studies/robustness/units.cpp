@@ -6,6 +6,16 @@ using namespace pbd;
 
 namespace {
 
+template <class S>
+Shape scaled(S shape, double length) {
+  if constexpr (requires { shape.radius; }) shape.radius *= length;
+  if constexpr (requires { shape.length; }) shape.length *= length;
+  if constexpr (requires { shape.size; }) shape.size *= length;
+  if constexpr (requires { shape.surface; })
+    return S(TriangleMesh{shape.surface.x * length, shape.surface.triangles});
+  return shape;
+}
+
 struct Units {
   double length, mass;
 
@@ -27,11 +37,11 @@ struct Units {
   void operator()(TriangleStrain& e) const {
     for (auto& rest : e.rest) rest *= length;
     e.thickness *= length;
-    e.material.young *= mass / length;
+    moduli(e);
   }
   void operator()(TetStrain& e) const {
     for (auto& rest : e.rest) rest *= length;
-    e.material.young *= mass / length;
+    moduli(e);
   }
   void operator()(ExternalTorque& e) const {
     for (auto& torque : e.torque) torque *= mass * length * length;
@@ -64,8 +74,7 @@ struct Units {
   void operator()(Contact& e) const {
     for (auto& collider : e.collider) {
       collider.frame.origin *= length;
-      collider.shape =
-          std::visit([this](const auto& shape) -> Shape { return scaled(shape); }, collider.shape);
+      collider.shape = std::visit([&](const auto& shape) { return scaled(shape, length); }, collider.shape);
     }
     for (auto& radius : e.radius) radius *= length;
     for (auto& law : e.law) law.compliance /= mass;
@@ -75,14 +84,10 @@ struct Units {
   }
 
  private:
-  template <class S>
-  S scaled(S shape) const {
-    if constexpr (requires { shape.radius; }) shape.radius *= length;
-    if constexpr (requires { shape.length; }) shape.length *= length;
-    if constexpr (requires { shape.size; }) shape.size *= length;
-    if constexpr (requires { shape.surface; })
-      return S(TriangleMesh{shape.surface.x * length, shape.surface.triangles});
-    return shape;
+  template <class Strain>
+  void moduli(Strain& e) const {
+    e.material.young *= mass / length;
+    if (e.damping) e.damping->young *= mass / length;
   }
   template <class Joint>
   static void bounds(Joint& e, double unit) {

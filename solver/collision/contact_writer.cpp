@@ -33,7 +33,7 @@ std::uint64_t ContactWriter::key(Feature of_a, int i, Feature of_b, int j) const
 void ContactWriter::write(ContactPoint contact, std::uint64_t key, double gap) const {
   const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto same = [&](const ContactPoint& other) { return other.key == key; };
-  if (!(gap < margin) || std::any_of(from, out.end(), same)) return;
+  if (!(gap < reach.margin) || std::any_of(from, out.end(), same)) return;
   contact.swapped = swapped;
   contact.key = key;
   contact.point_a = frame_a.rotation.transpose() * (contact.point_a - frame_a.origin);

@@ -9,23 +9,30 @@ namespace pbd {
 /// What a feature is.
 enum class Feature : std::uint8_t { node, edge, face, rim, axis, cap };
 
+/// How far shapes may come to meet: gaps below `margin` count, and what lies lowest when they have turned
+/// against each other by `turn`.
+struct Reach {
+  double margin;    // m
+  double turn = 0;  // rad
+};
+
 /// Two shapes in the roles a and b of a contact; `swapped` if a is the one asked for second.
 struct ContactWriter {
   const Frame& frame_a;
   const Frame& frame_b;
   bool swapped;
-  double margin;  // m
+  Reach reach;
   std::vector<ContactPoint>& out;
   std::size_t begin;  // of this pair's contacts in `out`
 
-  ContactWriter exchanged() const { return {frame_b, frame_a, !swapped, margin, out, begin}; }
+  ContactWriter exchanged() const { return {frame_b, frame_a, !swapped, reach, out, begin}; }
 
   /// The same number for the same pair of features, whichever shape is a, and another one for each pair of
   /// numbers i and j below 2^29.
   std::uint64_t key(Feature of_a, int i, Feature of_b, int j) const;
 
   /// Features in the frame that the writer's frames are placed in. Nothing is written twice, nor what is not
-  /// below the margin.
+  /// within reach.
   void write(ContactPoint contact, std::uint64_t key, double gap) const;
 
   /// In the place of what has the key already.

@@ -72,7 +72,8 @@ struct PolyhedronPair {
   const RoundedPolyhedron& b;
   const ContactWriter& writer;
   CollisionScratch& scratch;
-  double radii = a.radius + b.radius, limit = writer.margin + radii, tiny = rounding * (a.size + b.size);
+  double radii = a.radius + b.radius, limit = writer.reach.margin + radii,
+         tiny = rounding * (a.size + b.size);
 
   Segment segment(const RoundedPolyhedron& core, int e) const {
     return {core.node(core.edge(e).node[0]), core.along[e], core.length[e]};

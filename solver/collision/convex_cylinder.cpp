@@ -24,7 +24,7 @@ struct CylinderPair {
   const RoundedPolyhedron& a;
   const PlacedCylinder& b;
   const ContactWriter& writer;
-  double limit = writer.margin + a.radius, tiny = rounding * (a.size + b.size());
+  double limit = writer.reach.margin + a.radius, tiny = rounding * (a.size + b.size());
 
   double lowest(const Vec3& normal) const {
     double low = infinity;

@@ -35,11 +35,11 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   const double sine = cross.norm();
   const bool crossed = sine >= crossing_sine;
   Vec3 normal = sine >= parallel ? cross : inside ? axes.apart : Vec3(apart - apart.dot(b.axis) * b.axis);
-  normal = normal.norm() > 0 ? Vec3(normal / normal.norm()) : b.axis.unitOrthogonal();
+  normal = normal.norm() > 0 ? Vec3(normal / normal.norm()) : b.across;
   if (normal.dot(apart) < 0) normal = -normal;
   const double beside = normal.dot(apart) - a.support(normal) - b.support(normal);
   const double most = std::max({over_a, over_b, beside});
-  if (most >= writer.margin) return;
+  if (most >= writer.reach.margin) return;
   rims_on_cylinder(a, b, most - tiny, writer);
   rims_on_cylinder(b, a, most - tiny, writer.exchanged());
   const Vec3 y_a = from_a + axes.s * a.axis;

@@ -20,7 +20,7 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   const PlacedCylinder::Place at = cylinder.place(all.at(arc));
   if (at.distance <= 0) return true;
   const auto lowest = [&](const Vec3& apart) {
-    return minimum(edge, along, -apart, [&](int f) { return mesh.solid.faces[f].normal; });
+    return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
@@ -37,7 +37,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
   const MeshPair side{scratch.a, b, writer, scratch};
   side.edges();
   side.nodes_of_mesh();
-  const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.margin);
+  const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.reach.margin);
   const ContactWriter exchanged = writer.exchanged();
   double shallowest = -infinity;  // of the faces whose edges go through the cylinder
   int cut = -1;
@@ -53,7 +53,8 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     for (const int node : nodes) {
       const Vec3 y = b.surface.x.col(node);
       const PlacedCylinder::Place at = a.place(y);
-      if (at.part != PlacedCylinder::Part::side && lowest_about(b, node, at.normal, flat_slope))
+      if (at.part != PlacedCylinder::Part::side &&
+          lowest_about(b, node, at.normal, flat_slope + (at.distance > 0 ? writer.reach.turn : 0)))
         write_point(y, 0, Feature::node, node, a, exchanged);
     }
     for (std::size_t k = 0; k < 3; ++k)
@@ -67,7 +68,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
   if (cut >= 0)
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,
                       Feature::face, cut, writer);
-  else if (nearest_of_mesh(b, a.centre, writer.margin, place) && place.distance <= 0)
+  else if (nearest_of_mesh(b, a.centre, writer.reach.margin, place) && place.distance <= 0)
     write_deepest_rim(a, place.nearest, place.normal.normalized(), Feature::face, -1, writer);
 }
 

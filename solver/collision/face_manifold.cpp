@@ -142,7 +142,7 @@ void face_manifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, int f
   const Manifold manifold{a, b, normal, f, facing, radii, slack, writer};
   for (const Corner& corner : scratch.polygon) {
     const double gap = normal.dot(corner.x) - offset - radii;
-    if (!(gap < writer.margin) || gap < floor) continue;
+    if (!(gap < writer.reach.margin) || gap < floor) continue;
     if (corner.feature == Feature::node)
       manifold.write_node(corner, gap);
     else if (corner.feature == Feature::edge)

@@ -29,7 +29,7 @@ struct Pairs {
   const Frame& at_a;
   const Frame& at_b;
   bool swapped;
-  double margin;  // m
+  const Reach& reach;
   CollisionScratch& scratch;
   std::vector<ContactPoint>& found;
 
@@ -69,7 +69,7 @@ struct Pairs {
 
  private:
   ContactWriter writer(const Frame& a, const Frame& b, bool exchanged) const {
-    return {a, b, exchanged, margin, found, found.size()};
+    return {a, b, exchanged, reach, found, found.size()};
   }
   ContactWriter in_world() const { return writer(at_a, at_b, swapped); }
 
@@ -86,15 +86,15 @@ concept Listed = requires(const Pairs& pairs, const A& a, const B& b) {
 
 }  // namespace
 
-void generate(const Shape& shape_a, const Frame& at_a, const Shape& shape_b, const Frame& at_b, double margin,
-              CollisionScratch& scratch, std::vector<ContactPoint>& found) {
+void generate(const Shape& shape_a, const Frame& at_a, const Shape& shape_b, const Frame& at_b,
+              const Reach& reach, CollisionScratch& scratch, std::vector<ContactPoint>& found) {
   std::visit(
       [&]<class A, class B>(const A& a, const B& b) {
         static_assert(Listed<A, B> || Listed<B, A>, "a pair of shapes that the table `Pairs` does not list");
         if constexpr (Listed<A, B>)
-          Pairs{at_a, at_b, false, margin, scratch, found}(a, b);
+          Pairs{at_a, at_b, false, reach, scratch, found}(a, b);
         else if constexpr (Listed<B, A>)
-          Pairs{at_b, at_a, true, margin, scratch, found}(b, a);
+          Pairs{at_b, at_a, true, reach, scratch, found}(b, a);
       },
       shape_a, shape_b);
 }

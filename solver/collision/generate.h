@@ -27,9 +27,9 @@
 
 namespace pbd {
 
-/// Appends the contact points of shapes a and b, placed in the world by their frames, whose gap is below
-/// `margin` (m). Features are given in the shapes' own frames; `swapped` where the contact's a is b's.
-void generate(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, double margin,
+/// Appends the contact points of shapes a and b, placed in the world by their frames, that are within reach.
+/// Features are given in the shapes' own frames; `swapped` where the contact's a is b's.
+void generate(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, const Reach& reach,
               CollisionScratch& scratch, std::vector<ContactPoint>& found);
 
 }  // namespace pbd

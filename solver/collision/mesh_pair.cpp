@@ -49,7 +49,7 @@ bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double s
 void MeshPair::nodes() const {
   const auto write = [&](int i, const MeshPlace& at) {
     const Vec3 apart = writer.frame_a.rotation.transpose() * direction(b, at, a.node(i));
-    if (mesh_a == nullptr || lowest_about(*mesh_a, i, apart, tilted))
+    if (mesh_a == nullptr || lowest_about(*mesh_a, i, apart, tilted + turn))
       write_place(a.node(i), a.radius, i, b, at, writer);
   };
   for (int i = 0; i < a.node_count(); ++i) {
@@ -102,8 +102,10 @@ void MeshPair::crossing(int i, int j) const {
   if (!crossed && distance <= tiny) return;
   Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
-  if (!minimum(of_b, along_b, normal, normal_b) || !minimum(of_a, along_a, -normal, normal_a)) return;
   const bool inside = normal.dot(at.apart) < 0;
+  const double slope = inside ? 0 : turn;
+  if (!minimum(of_b, along_b, normal, slope, normal_b)) return;
+  if (!minimum(of_a, along_a, -normal, slope, normal_a)) return;
   if (inside) {
     const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
       return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
@@ -163,7 +165,7 @@ void MeshPair::over_faces(const Vec3& y, int node, const ContactWriter& exchange
     best = f;
   }
   if (best < 0 || apart >= limit || (apart > 0 && !a.above(best, y, tiny))) return;
-  if (!lowest_about(b, node, a.face_normal(best), flat_slope)) return;
+  if (!lowest_about(b, node, a.face_normal(best), flat_slope + (apart > 0 ? turn : 0))) return;
   exchanged.write(on_face(y, 0, a.node(a.corner(best, 0)), a.face_normal(best), a.radius),
                   exchanged.key(Feature::node, node, Feature::face, best), apart - a.radius);
 }
@@ -173,7 +175,7 @@ void MeshPair::beside(const Vec3& y, int node, int e, const ContactWriter& excha
   const double arc = along.dot(y - from), length = a.length[e];
   const Vec3 y_a = from + arc * along, apart = y - y_a;
   if (arc <= 0 || arc >= length || apart.dot(b.node_normals.col(node)) >= 0 || apart.norm() >= limit) return;
-  if (!minimum(a.edge(e), along, apart, [&](int f) -> const Vec3& { return a.face_normal(f); })) return;
+  if (!minimum(a.edge(e), along, apart, turn, [&](int f) -> const Vec3& { return a.face_normal(f); })) return;
   MeshPlace nearest{};  // of the surface, the node must be nearest to the edge's point
   const double distance = apart.norm();
   if (a.radius == 0 && distance <= tiny) return;

@@ -11,16 +11,19 @@ namespace pbd {
 /// (rad).
 inline constexpr double flat_slope = 0.014;
 
-/// That the surface rises from its node along the normal, or falls less than by `slope`: nodes within a flat
-/// region do not feel faces that are oblique to it.
+/// That the surface rises from its node along the normal, or falls less than by `slope` (sine): nodes within
+/// a flat region do not feel faces that are oblique to it.
 bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double slope);
 
-/// That the distance does not fall from an edge into its faces, `apart` from the edge to the other shape.
+/// That the distance does not fall from an edge into its faces by more than `slope` (sine), `apart` from the
+/// edge to the other shape.
 template <class Normal>
-bool minimum(const Polyhedron::Edge& edge, const Vec3& along, const Vec3& apart, Normal&& normal) {
+bool minimum(const Polyhedron::Edge& edge, const Vec3& along, const Vec3& apart, double slope,
+             Normal&& normal) {
+  const double most = slope * apart.norm();
   for (const std::size_t side : {0U, 1U}) {
     if (edge.face[side] < 0) continue;
-    if ((side == 0 ? 1 : -1) * normal(edge.face[side]).cross(along).dot(apart) > 0) return false;
+    if ((side == 0 ? 1 : -1) * normal(edge.face[side]).cross(along).dot(apart) > most) return false;
   }
   return true;
 }
@@ -31,7 +34,7 @@ struct MeshPair {
   const ContactWriter& writer;
   CollisionScratch& scratch;
   const ClosedMesh* mesh_a = nullptr;  // if a is one
-  double limit = writer.margin + a.radius, tiny = rounding * a.size;
+  double limit = writer.reach.margin + a.radius, tiny = rounding * a.size, turn = writer.reach.turn;
 
   /// Of a mesh, those that are lowest about themselves.
   void nodes() const;

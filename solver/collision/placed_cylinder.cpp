@@ -9,8 +9,7 @@
 namespace pbd {
 
 Vec3 PlacedCylinder::on_rim(int end, double angle) const {
-  const Vec3 first = axis.unitOrthogonal();
-  return cap(end) + radius * (std::cos(angle) * first + std::sin(angle) * axis.cross(first));
+  return cap(end) + radius * (std::cos(angle) * across + std::sin(angle) * axis.cross(across));
 }
 
 double PlacedCylinder::support(const Vec3& n) const {
@@ -19,10 +18,10 @@ double PlacedCylinder::support(const Vec3& n) const {
 
 PlacedCylinder::Place PlacedCylinder::place(const Vec3& x) const {
   const double z = axis.dot(x - centre);
-  const Vec3 across = x - centre - z * axis;
-  const double from_axis = across.norm(), above = std::abs(z) - half, outside = from_axis - radius;
+  const Vec3 aside = x - centre - z * axis;
+  const double from_axis = aside.norm(), above = std::abs(z) - half, outside = from_axis - radius;
   const int end = z < 0 ? -1 : 1;
-  const Vec3 radial = from_axis > 0 ? Vec3(across / from_axis) : axis.unitOrthogonal();
+  const Vec3 radial = from_axis > 0 ? Vec3(aside / from_axis) : across;
   if (above > 0 && outside > 0) {
     const Vec3 nearest = cap(end) + radius * radial;
     const double distance = std::hypot(above, outside);

@@ -17,11 +17,15 @@ struct PlacedCylinder {
     int end;  // 1 or -1: which cap or rim
   };
 
-  Vec3 centre, axis;    // axis: unit
-  double radius, half;  // m
+  Vec3 centre, axis, across;  // axis and across: unit; `across` turns with the cylinder
+  double radius, half;        // m
 
   PlacedCylinder(const Cylinder& cylinder, const Frame& at)
-      : centre(at.origin), axis(at.rotation.col(2)), radius(cylinder.radius), half(cylinder.length / 2) {}
+      : centre(at.origin),
+        axis(at.rotation.col(2)),
+        across(at.rotation.col(0)),
+        radius(cylinder.radius),
+        half(cylinder.length / 2) {}
 
   double size() const { return 2 * (radius + half); }  // m, at least the diameter
   Vec3 cap(int end) const { return centre + end * half * axis; }

@@ -167,15 +167,14 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
     for (std::size_t i = 0; i < block.size(); ++i) {
       typename Full::Jacobian jacobian = Full::Jacobian::Zero();
       const Touching found = evaluate<Full>(contacts[i], at, jacobian);
-      const Directions<3> directions = directions_in<Full>(contacts[i], jacobian);
       std::array<int, 2> collider = contacts[i].collider;
       for (int& own : collider) own += contacts[i].of_surfaces ? first_node : 0;
-      Vec3 impulse = Vec3::Zero();
-      impulse.head<Block::rows>() = block.impulse[i];
-      Vec3 slip = jacobian * block.gather(v, i);
-      slip[0] = 0;
-      forces.push_back({collider, place_of(contacts[i], found), found.normal,
-                        directions.transpose() * impulse / map.h, directions.transpose() * slip, found.gap});
+      const auto acting = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
+      const Vec3 normal = acting.row(0);
+      Vec3 slip = directions_in<Full>(contacts[i], jacobian).transpose() * (jacobian * block.gather(v, i));
+      slip -= normal.dot(slip) * normal;
+      forces.push_back({collider, place_of(contacts[i], found), normal,
+                        acting.transpose() * block.impulse[i] / map.h, slip, found.gap});
     }
   });
 }
@@ -200,7 +199,8 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   auto& jacobian = block.jacobian[i];
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
-  contact.target = std::min(0.0, gap + effect_.recovery * begin.map.h);
+  const double from = gap + (jacobian * block.gather(shifts.own, i))[0];  // at x0
+  contact.target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
 
   const double closing = (jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
@@ -208,7 +208,7 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.restitution = closing < 0 && ahead < 0 ? contact.law.restitution : 0.0;
   const double share = 1 / (1 + contact.law.damping / begin.map.d);
   contact.compliance = share * contact.law.compliance;
-  contact.offset = (1 - share) * (gap - contact.target + (jacobian * block.gather(shifts.own, i))[0]);
+  contact.offset = (1 - share) * (std::min(from, 0.0) - contact.target);  // the damper is met with the shape
 
   const Seed wanted{contact.collider, contact.features.key, {}};
   const auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), wanted,

@@ -1,8 +1,10 @@
 // Rows of contacts: one source among others. Which contacts a step has is found where it begins
 // (contact_search.h); gap and normal n follow the iterates. Rows of a contact, with the velocities v of the
 // map x(v) (integrators.h):
-//   normal      (g(x) - min(0, g_l + recovery h)) / d, g the gap (m), g_l where the step begins; soft ones
-//               with Sigma = A/(h d), and offset by their damping;
+//   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l that where the step
+//   begins
+//               and g_0 that at x0: what overlaps parts at `recovery` at most, and gets no deeper. Soft ones
+//               with Sigma = A/(h d), and offset by a damper that begins where the shapes touch;
 //               or, where shapes collide with restitution e in this step, by their free motion or as an
 //               iterate has found, n . (u(v) + e u(v_l)), u the relative velocity of what touches (the
 //               smaller of the two where they did not approach each other): with newmark and alpha = 1/2

@@ -1,6 +1,7 @@
 #include "effects/contact_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pbd {
 
@@ -12,20 +13,35 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect
         [&]<class E>(const E& joint) {
           if constexpr (requires { joint.body[0][1]; })
             apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
+          if constexpr (std::same_as<E, Attachment>)
+            for (std::size_t i = 0; i < joint.node.size(); ++i)
+              attached_.push_back({joint.node[i], joint.body[i]});
         },
         other);
   for (auto& pair : apart_)
     if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
   std::sort(apart_.begin(), apart_.end());
+  std::sort(attached_.begin(), attached_.end());
 }
 
-double ContactSearch::displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
-                                   const Points& to) const {
+ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
+                                                        const Configuration& start, const Points& to) {
   const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
-  if (motion.is_node) return shift(motion.carrier).norm();
-  const Pose& pose = start.pose[static_cast<std::size_t>(motion.carrier)];
-  const double turn = (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm();
-  return shift(bodies.node(motion.carrier)).norm() + motion.radius * turn;
+  if (motion.is_node) return {shift(motion.carrier).norm(), 0};
+  const Pose& pose = start.pose[motion.carrier];
+  return {shift(bodies.node(motion.carrier)).norm(),
+          (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm()};
+}
+
+/// Of the points of the collider; of a half space, of its body's centre.
+double ContactSearch::travel(const Motion& motion, const Displacement& moved) {
+  return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
+}
+
+/// Of the points that the other one may reach.
+double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
+  if (std::isfinite(motion.radius)) return motion.travel;
+  return motion.travel + motion.turn * ((other.centre - motion.centre).norm() + other.radius + other.travel);
 }
 
 void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& start,
@@ -40,8 +56,8 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
     motion.frame = {pose.x + pose.rotation * collider.frame.origin, pose.rotation * collider.frame.rotation};
     motion.carrier = collider.body;
     motion.moves = moves(bodies.node(collider.body)) || moves(bodies.column(collider.body));
-    const double radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
-    motion.radius = std::isfinite(radius) ? radius : 0.0;
+    motion.centre = pose.x;
+    motion.radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
   }
   for (std::size_t k = 0; k < effect_.node.size(); ++k) {
     Motion& motion = motions_[effect_.collider.size() + k];
@@ -49,6 +65,8 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
     motion.shape = &motion.node_shape;
     motion.frame = {start.x.col(effect_.node[k]), Eigen::Matrix3d::Identity()};
     motion.carrier = effect_.node[k];
+    motion.centre = motion.frame.origin;
+    motion.radius = effect_.radius[k];
     motion.is_node = true;
     motion.moves = moves(effect_.node[k]);
   }
@@ -80,10 +98,14 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   if (!one.is_node && !two.is_node) {
     const std::array<int, 2> bodies{std::min(one.carrier, two.carrier), std::max(one.carrier, two.carrier)};
     if (std::binary_search(apart_.begin(), apart_.end(), bodies)) return;
+  } else {  // of which one is a body's
+    const std::array<int, 2> pair =
+        one.is_node ? std::array{one.carrier, two.carrier} : std::array{two.carrier, one.carrier};
+    if (std::binary_search(attached_.begin(), attached_.end(), pair)) return;
   }
   found_.clear();
-  generate(*one.shape, one.frame, *two.shape, two.frame, effect_.margin + one.travel + two.travel, scratch_,
-           found_);
+  const Reach reach{effect_.margin + travel_near(one, two) + travel_near(two, one), one.turn + two.turn};
+  generate(*one.shape, one.frame, *two.shape, two.frame, reach, scratch_, found_);
   const auto local = [&](int collider) {
     return motions_[collider].is_node ? Frame{} : effect_.collider[collider].frame;
   };
@@ -108,7 +130,11 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
 void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,
                           const std::vector<double>& inverse_mass) {
   place_colliders(bodies, start, inverse_mass);
-  for (Motion& motion : motions_) motion.travel = displacement(motion, bodies, start, free);
+  for (Motion& motion : motions_) {
+    const Displacement moved = displacement(motion, bodies, start, free);
+    motion.travel = travel(motion, moved);
+    motion.turn = motion.radius > 0 ? std::max(moved.turn, motion.travel / motion.radius) : moved.turn;
+  }
   if (!surfaces_) return;
   travel_.assign(bodies.nodes(), 0.0);
   for (const int node : surfaces_->nodes()) travel_[node] = (free.col(node) - start.x.col(node)).norm();
@@ -116,13 +142,17 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
 
 bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
   bool farther = false;
-  const auto extend = [&](double& travel, double reached) {
+  const auto extend = [&](double& searched, double reached) {
     constexpr double rounding = 1e-9, room = 2;  // a second widening is rare
-    if (!(reached > (1 + rounding) * travel)) return;
-    travel = room * reached;
+    if (!(reached > (1 + rounding) * searched)) return;
+    searched = room * reached;
     farther = true;
   };
-  for (Motion& motion : motions_) extend(motion.travel, displacement(motion, bodies, start, x));
+  for (Motion& motion : motions_) {
+    const Displacement moved = displacement(motion, bodies, start, x);
+    extend(motion.travel, travel(motion, moved));
+    extend(motion.turn, moved.turn);
+  }
   if (surfaces_)
     for (const int node : surfaces_->nodes()) extend(travel_[node], (x.col(node) - start.x.col(node)).norm());
   return farther;

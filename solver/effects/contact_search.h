@@ -1,6 +1,13 @@
 // Which contacts a step has. Where it begins, the shapes that may touch in it give contact points
 // (collision/), each a pair of features carried by a body or a node. Shapes take part that are nearer than
 // their motions go: to the free motion's end, and where a solved iterate went farther, twice as far as that.
+//
+// Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
+// chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel, and
+// what is generated is every feature whose gap is less. A half space has no r: its travel is that of its
+// points within the other's reach. Which features lie lowest changes as bodies turn: generators are told by
+// how much. A body that is stopped on one side turns although it goes no farther: it is expected to turn by
+// its travel over r at least.
 #pragma once
 
 #include <array>
@@ -48,19 +55,27 @@ class ContactSearch {
     int carrier = -1;    // body or node
     bool is_node = false;
     bool moves = false;  // by impulses
-    double radius = 0;   // m, of the farthest point about the body's centre
-    double travel = 0;   // m, that its points move at most
+    Vec3 centre;         // m, of the body
+    double radius = 0;   // m, of the farthest point about it; infinite for a half space
+    double travel = 0;   // m, that its points move at most; of a half space, its centre
+    double turn = 0;     // rad, that it turns at most
+  };
+  struct Displacement {
+    double shift, turn;  // m, rad
   };
 
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
-  double displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
-                      const Points& to) const;
+  static Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
+                                   const Points& to);
+  static double travel(const Motion& motion, const Displacement& moved);
+  static double travel_near(const Motion& motion, const Motion& other);
   void add_surfaces(const Points& x, ContactLists& contacts);
   void add_pair(int first, int second, ContactLists& contacts);
 
   const Contact& effect_;
-  std::vector<std::array<int, 2>> apart_;  // bodies that joints connect, or the effect names
+  std::vector<std::array<int, 2>> apart_;     // bodies that joints connect, or the effect names
+  std::vector<std::array<int, 2>> attached_;  // nodes and the bodies that carry them
   std::vector<Motion> motions_;
   std::vector<ContactPoint> found_;
   std::vector<MovingBox> boxes_;

@@ -21,7 +21,49 @@ void validate_laws(const EffectCheck& check, const Contact& effect) {
             "0 to 1");
     check.not_negative({law.compliance}, "compliance");
     check.not_negative({law.damping}, "damping");
+    const std::size_t row = i / materials, column = i % materials;
+    REQUIRE(law == effect.law[column * materials + row], check.at(i, "law"), "another one than its mirror's",
+            "a symmetric table");
   }
+}
+
+/// What lengths of a shape may be. Meshes and hulls have been checked as they were made.
+struct Lengths {
+  const std::string where;
+
+  void operator()(std::monostate) const {}
+  void operator()(const HalfSpace&) const {}
+  void operator()(const Sphere& shape) const { length("radius", shape.radius); }
+  void operator()(const Box& shape) const {
+    for (const double size : shape.size) length("size", size);
+  }
+  void operator()(const Cylinder& shape) const {
+    length("radius", shape.radius), length("length", shape.length);
+  }
+  void operator()(const Capsule& shape) const {
+    length("radius", shape.radius), length("length", shape.length);
+  }
+  void operator()(const ClosedMesh& shape) const { points(shape.surface); }
+  void operator()(const ConvexHull& shape) const { points(shape.surface); }
+
+ private:
+  void length(const char* field, double value) const {
+    REQUIRE(value > 0 && std::isfinite(value), where + " " + field, text(value), "a finite number > 0, m");
+  }
+  void points(const TriangleMesh& surface) const {
+    REQUIRE(surface.x.allFinite(), where, "points that are not finite", "finite numbers");
+  }
+};
+
+void validate_collider(const EffectCheck& check, const Collider& collider, std::size_t i) {
+  check.body_index(collider.body, i);
+  std::visit(Lengths{check.at(i, "shape")}, collider.shape);
+  const auto& [origin, rotation] = collider.frame;
+  REQUIRE(origin.allFinite(), check.at(i, "frame origin"), text(origin), "finite numbers");
+  const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  REQUIRE(rotation.allFinite() && off <= unit_slack && rotation.determinant() > 0,
+          check.at(i, "frame rotation"), "a matrix of determinant " + text(rotation.determinant()),
+          "a rotation: columns of length 1 at right angles");
 }
 
 }  // namespace
@@ -33,7 +75,7 @@ void validate(const EffectCheck& check, const Contact& effect) {
             "a material from 0 to " + text(effect.materials - 1));
   };
   for (std::size_t i = 0; i < effect.collider.size(); ++i) {
-    check.body_index(effect.collider[i].body, i);
+    validate_collider(check, effect.collider[i], i);
     material_index(effect.collider[i].material, i, "collider material");
   }
   check.same_size(effect.node.size(), effect.radius, "radius");

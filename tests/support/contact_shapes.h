@@ -130,7 +130,7 @@ inline std::vector<ContactPoint> contacts(const Shape& a, const Frame& at_a, con
                                           const Frame& at_b, double margin) {
   CollisionScratch scratch;
   std::vector<ContactPoint> found;
-  generate(a, at_a, b, at_b, margin, scratch, found);
+  generate(a, at_a, b, at_b, Reach{margin}, scratch, found);
   return found;
 }
 

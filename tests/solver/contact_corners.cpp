@@ -1,0 +1,248 @@
+// Contacts that are easily lost, or made of nothing: what lies lowest only once it has turned, ground that
+// turns, dampers before they are met, overlaps that part.
+#include "body_scenes.h"
+#include "contact_runs.h"
+#include "contact_shapes.h"
+#include "mesh.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using pbdcheck::BodyScene;
+
+namespace {
+
+/// Of a unit cube's corners, the lowest one's height over the plane through `origin` across `up`, m.
+double lowest_corner(const State& state, int body, Eigen::Index node, const Vec3& up = Vec3::UnitZ()) {
+  const Points corners = box_surface(Vec3::Ones()).x;
+  double low = infinity;
+  for (Eigen::Index i = 0; i < corners.cols(); ++i)
+    low = std::min(low, up.dot(state.x.col(node) +
+                               state.orientation[static_cast<std::size_t>(body)] * Vec3(corners.col(i))));
+  return low;
+}
+
+Shape unit_cube(const std::string& kind) {
+  if (kind == "mesh") return ClosedMesh(box_surface(Vec3::Ones()));
+  if (kind == "hull") return ConvexHull(box_surface(Vec3::Ones()));
+  return Box{Vec3::Ones()};
+}
+
+/// Its top is at z = 0.
+Shape slab(const std::string& kind, Frame& frame) {
+  const Vec3 size(8, 8, 2);
+  if (kind == "half space") return HalfSpace{};
+  frame.origin = Vec3(0, 0, -1);
+  if (kind == "mesh") return ClosedMesh(box_surface(size));
+  if (kind == "hull") return ConvexHull(box_surface(size));
+  return Box{size};
+}
+
+}  // namespace
+
+TEST_CASE("a cube that lands almost flat moves as a box on a half space, whatever both are made of") {
+  const auto cube = GENERATE(as<std::string>(), "box", "hull", "mesh");
+  const auto ground = GENERATE(as<std::string>(), "half space", "box", "hull", "mesh");
+  for (const auto& [tilt, speed] : {std::pair{0.02, 4.0}, {0.03, 3.0}, {0.05, 12.0}, {0.12, 25.0}}) {
+    const auto landing = [t = tilt, v = speed](const std::string& upper, const std::string& lower) {
+      Scene scene;
+      const int fixed = add_world(scene);
+      const Eigen::Quaterniond turned(Eigen::AngleAxisd(t, Vec3::UnitY()));
+      const int body = add_body(scene, Vec3::Zero(), 1, Vec3::Constant(1.0 / 6), turned, Vec3(0, 0, -v));
+      scene.initial.x(2, 1) = 1e-4 - lowest_corner(scene.initial, body, 1);
+      Contact contact;
+      Frame below;
+      const Shape shape = slab(lower, below);
+      contact.collider = {{shape, fixed, below}, {unit_cube(upper), body}};
+      scene.effects = {Gravity{}, Gyroscopic{}, contact};
+      return scene;
+    };
+    const Method method = contact_method("direct");
+    const Scene scene = landing(cube, ground), usual = landing("box", "half space");
+    Workspace own(scene, method), expected(usual, method);
+    State state = scene.initial, other = usual.initial;
+    INFO(cube << " on " << ground << " tilt " << tilt << " speed " << speed);
+    for (int k = 0; k < 20; ++k) {
+      REQUIRE(step(own, 0.01, state).status == Status::ok);
+      REQUIRE(step(expected, 0.01, other).status == Status::ok);
+      CHECK(lowest_corner(state, 1, 1) >= -1e-9);
+      CHECK((state.x - other.x).norm() <= 1e-8);
+    }
+  }
+}
+
+TEST_CASE("ground that turns meets what lies far from its centre") {
+  const bool endless = GENERATE(true, false);
+  Scene scene;
+  const int ground = add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity),
+                              Eigen::Quaterniond::Identity(), Vec3::Zero(), Vec3(0, -1, 0));
+  const int box = add_body(scene, Vec3(10, 0, 0.5 + 0.05), 1, Vec3::Constant(1.0 / 6));
+  Contact contact;
+  Frame below;
+  if (!endless) below.origin = Vec3(0, 0, -1);
+  const Shape shape = endless ? Shape(HalfSpace{}) : Shape(Box{Vec3(40, 4, 2)});
+  contact.collider = {{shape, ground, below}, {Box{Vec3::Ones()}, box}};
+  scene.effects = {contact};
+  const Method method = contact_method("direct");
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  for (int k = 0; k < 4; ++k) {
+    REQUIRE(step(workspace, 0.01, state).status == Status::ok);
+    const Vec3 up = state.orientation[static_cast<std::size_t>(ground)] * Vec3::UnitZ();
+    CHECK(lowest_corner(state, box, 1, up) >= -1e-9);
+  }
+}
+
+TEST_CASE("a contact's damper is met with the shape, not before") {
+  for (const double h : {0.02, 0.005, 0.001})
+    for (const double retardation : {0.0, 0.1}) {
+      BodyScene build({.friction = 0, .restitution = 0, .compliance = 1e-5, .damping = retardation}, 0);
+      build.ground();
+      const int ball =
+          build.ball(0.3, 1, {Vec3(0, 0, 0.4005), Eigen::Quaterniond::Identity(), Vec3(0, 0, -3)});
+      const Scene scene = build.finish();
+      const Method method = contact_method("direct");
+      Workspace workspace(scene, method);
+      State state = scene.initial;
+      bool pushed = false;
+      for (int k = 0; k * h < 0.2; ++k) {
+        REQUIRE(step(workspace, h, state).status == Status::ok);
+        for (const ContactForce& contact : workspace.contacts())
+          if (contact.force.z() > 0) {
+            pushed = true;
+            CHECK(contact.gap <= 0);
+          }
+      }
+      CHECK(pushed);
+      CHECK(state.v(2, ball) > -3);
+    }
+}
+
+TEST_CASE("an overlap at rest parts at the speed it is told, under every integrator with contact") {
+  for (const std::string integrator : {"implicit_euler", "newmark", "symplectic_euler"})
+    for (const double alpha : {0.5, 1.0}) {
+      INFO(integrator << " alpha " << alpha);
+      BodyScene build({.friction = 0}, 0);
+      build.ground();
+      build.box(Vec3::Constant(0.2), 1, {Vec3(0, 0, 0.1 - 1e-2)});
+      build.contact().recovery = 0.1;
+      const Scene scene = build.finish();
+      Method method = contact_method("direct");
+      method.integrator = integrator;
+      if (integrator == "newmark") method.alpha = alpha;
+      Workspace workspace(scene, method);
+      State state = scene.initial;
+      for (int k = 0; k < 5; ++k) {
+        REQUIRE(step(workspace, 0.01, state).status == Status::ok);
+        CHECK(state.v(2, 1) == Approx(0.1));
+      }
+    }
+}
+
+TEST_CASE("contacts report the impulses that acted, wherever their directions were taken") {
+  for (const bool at_start : {false, true})
+    for (const std::string integrator : {"implicit_euler", "symplectic_euler"}) {
+      INFO(integrator << (at_start ? " directions at the start" : ""));
+      constexpr double h = 0.02;
+      BodyScene build({.friction = 0.3});
+      build.fixed(Sphere{0.5}, {Vec3::Zero()});
+      build.ball(0.5, 1, {Vec3(0, 0, 1), Eigen::Quaterniond::Identity(), Vec3(3, 0, -3)});
+      const Scene scene = build.finish();
+      Method method = contact_method("direct");
+      method.integrator = integrator;
+      if (at_start) method.direction_blend = 0;
+      Workspace workspace(scene, method);
+      State state = scene.initial;
+      REQUIRE(step(workspace, h, state).status == Status::ok);
+      const Vec3 gained = state.v.col(1) - scene.initial.v.col(1) + h * gravity * Vec3::UnitZ();
+      Vec3 impulse = Vec3::Zero();
+      for (const ContactForce& contact : workspace.contacts()) {
+        impulse += h * (contact.collider[0] == 1 ? contact.force : Vec3(-contact.force));
+        CHECK(std::abs(contact.normal.dot(contact.slip)) <= 1e-12);
+      }
+      CHECK((impulse - gained).norm() <= 1e-12 * gained.norm());
+    }
+}
+
+TEST_CASE("a node does not touch the body that it is attached to") {
+  BodyScene build({.friction = 0.3});
+  build.ground();
+  const int box = build.box(Vec3::Constant(0.2), 1, {Vec3(0, 0, 0.1)});
+  Scene scene = build.finish();
+  const int node = add_node(scene, Vec3(0, 0, 0.15), 0.1);  // within the box
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.node = {node};
+  contact.radius = {0.01};
+  contact.node_material = {0};
+  scene.effects.emplace_back(
+      Attachment{.body = {box}, .node = {node}, .point = {Vec3(0, 0, 0.05)}, .compliance = {0}});
+  const State end = run(scene, contact_method("direct"), 0.01, 20);
+  CHECK((end.x.col(node) - scene.initial.x.col(node)).norm() <= 1e-9);
+}
+
+TEST_CASE("no contact is lost to the numbering of a mesh") {
+  // Two slabs of many nodes with three spikes between them: the upper one stands on the spikes' tips.
+  constexpr int lower_side = 19, upper_side = 31;
+  constexpr double length = 0.1;
+  const auto slab_of = [](int side, double size, double low, double high) {
+    TriangleMesh mesh;
+    mesh.x.resize(3, 2 * side * side);
+    for (int k = 0; k < 2; ++k)
+      for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i)
+          mesh.x.col(i + side * (j + side * k)) =
+              Vec3(size * (i / (side - 1.0) - 0.5), size * (j / (side - 1.0) - 0.5), k == 1 ? high : low);
+    const auto id = [&](int i, int j, int k) { return i + side * (j + side * k); };
+    const auto quad = [&](int a, int b, int c, int d) {
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    };
+    for (int i = 0; i + 1 < side; ++i) {
+      for (int j = 0; j + 1 < side; ++j) {
+        quad(id(i, j, 1), id(i + 1, j, 1), id(i + 1, j + 1, 1), id(i, j + 1, 1));
+        quad(id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i + 1, j, 0), id(i, j, 0));
+      }
+      quad(id(i, 0, 0), id(i + 1, 0, 0), id(i + 1, 0, 1), id(i, 0, 1));
+      quad(id(i + 1, side - 1, 0), id(i, side - 1, 0), id(i, side - 1, 1), id(i + 1, side - 1, 1));
+      quad(id(0, i + 1, 0), id(0, i, 0), id(0, i, 1), id(0, i + 1, 1));
+      quad(id(side - 1, i, 0), id(side - 1, i + 1, 0), id(side - 1, i + 1, 1), id(side - 1, i, 1));
+    }
+    return mesh;
+  };
+  TriangleMesh lower = slab_of(lower_side, 2.1, -0.2, 0), upper = slab_of(upper_side, 2.0, 0, 0.2);
+  const auto node_near = [](const TriangleMesh& mesh, const Vec3& place) {
+    Eigen::Index nearest = 0;
+    (mesh.x.colwise() - place).colwise().norm().minCoeff(&nearest);
+    return nearest;
+  };
+  const auto rename = [](TriangleMesh& mesh, int a, int b) {
+    mesh.x.col(a).swap(mesh.x.col(b));
+    for (auto& triangle : mesh.triangles)
+      for (int& node : triangle) node = node == a ? b : node == b ? a : node;
+  };
+  lower.x(2, node_near(lower, {0.55, 0.12, 0})) = length;
+  upper.x(2, node_near(upper, {-0.52, -0.41, 0})) = -length;
+  upper.x(2, node_near(upper, {-0.52, 0.41, 0})) = -length;
+  Random random(3);
+  CollisionScratch scratch;
+  std::vector<ContactPoint> found;
+  const auto count = [&] {
+    found.clear();
+    const Frame above{Vec3(0, 0, length - 1e-4), Eigen::Matrix3d::Identity()};
+    generate(ClosedMesh(lower), Frame{}, ClosedMesh(upper), above, Reach{1e-3}, scratch, found);
+    return found.size();
+  };
+  const std::size_t expected = count();
+  CHECK(expected == 3);
+  for (int k = 0; k < 20; ++k) {
+    const auto any = [&](const TriangleMesh& mesh) {
+      return static_cast<int>(random.uniform(0, static_cast<double>(mesh.x.cols())));
+    };
+    for (int swaps = 0; swaps < 1000; ++swaps) {
+      rename(lower, any(lower), any(lower));
+      rename(upper, any(upper), any(upper));
+    }
+    std::rotate(lower.triangles.begin(), lower.triangles.begin() + any(lower), lower.triangles.end());
+    CHECK(count() == expected);
+  }
+}

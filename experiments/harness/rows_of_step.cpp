@@ -74,9 +74,9 @@ void StepRows::linearise(const Points& v) {
   const Points x = map_.x0 + map_.d * v;
   const Configuration begun = start();
   const StepBegin begin = step_begin(begun);
-  for (Slot& slot : slots_) slot.source->widen(begin, x, slot.blocks(rows_));
   bodies_.place(x, poses_);
   const Configuration at{x, poses_, time_ + map_.h};
+  for (Slot& slot : slots_) slot.source->widen(begin, at, slot.blocks(rows_));
   clear_impulses(rows_);
   RowResidual unused;
   for (Slot& slot : slots_)

@@ -48,6 +48,15 @@ double bounding_radius(const Shape& shape) {
   return std::visit(Radius{}, shape);
 }
 
+double round_radius(const Shape& shape) {
+  return std::visit(
+      []<class S>(const S& own) {
+        if constexpr (requires { own.radius; }) return own.radius;
+        return Radius{}(own);
+      },
+      shape);
+}
+
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at) {
   const Vec3 half = std::visit(HalfSize{at.rotation}, shape);
   return {at.origin - half, at.origin + half};

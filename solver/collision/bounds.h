@@ -11,6 +11,9 @@ namespace pbd {
 /// space.
 double bounding_radius(const Shape& shape);
 
+/// Radius of what of the shape is round (m); of one that is not its bounding radius.
+double round_radius(const Shape& shape);
+
 /// A box along the world's axes that holds the shape; infinite for a half space.
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at);
 

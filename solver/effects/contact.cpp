@@ -27,13 +27,10 @@ typename Block::Value rates(const ActiveContact& contact, const typename Block::
                             const typename Block::Velocities& v) {
   typename Block::Value rate = jacobian * v;
   const double apart = (gap - contact.target - contact.offset) / map.d;
-  if (contact.restitution > 0) {
+  if (contact.restitution > 0)
     rate[0] += contact.restitution * (jacobian * start_v)[0];
-    if (contact.closing) return rate;
-    rate[0] = std::min(rate[0], apart);
-  } else {
+  else
     rate[0] = apart;
-  }
   return rate;
 }
 
@@ -110,17 +107,27 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   return fill(begin, blocks);
 }
 
-Widened ContactRows::widen(const StepBegin& begin, const Points& x, BlockSpan blocks) {
-  if (blocks.empty() || !search_.extend(begin.bodies, begin.at, x)) return Widened::no;
+Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) {
+  if (blocks.empty()) return Widened::no;
+  if (!search_.extend(begin.bodies, begin.at, reached.x) && !search_.look_again(begin.at, reached, contacts_))
+    return Widened::no;
   keep_impulses(blocks);
   return fill(begin, blocks) ? Widened::others : Widened::alike;
 }
 
-void ContactRows::note_impulses(ConstBlockSpan blocks) {
-  with_contacts(blocks, contacts_, [](const auto& block, auto& contacts) {
-    for (std::size_t i = 0; i < block.size(); ++i)
-      if (block.impulse[i][0] > 0) contacts[i].restitution = contacts[i].law.restitution;
+bool ContactRows::collide(ConstBlockSpan blocks) {
+  constexpr double pushed = 1e-6;  // of the closing speed: less than that is the solver's tolerance
+  bool any = false;
+  with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      ActiveContact& contact = contacts[i];
+      const double gained = block.impulse[i][0] / block.inverse_diagonal[i](0, 0);
+      if (contact.restitution > 0 || !(contact.closing > 0 && gained > pushed * contact.closing)) continue;
+      contact.restitution = contact.law.restitution;
+      any |= contact.restitution > 0;
+    }
   });
+  return any;
 }
 
 void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
@@ -200,12 +207,11 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];  // at x0
-  contact.target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  contact.target = contact.late ? 0 : std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
 
-  const double closing = (jacobian * block.gather(start_v_, i))[0];
+  contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  contact.closing = closing < 0;
-  contact.restitution = closing < 0 && ahead < 0 ? contact.law.restitution : 0.0;
+  contact.restitution = contact.closing > 0 && ahead < 0 ? contact.law.restitution : 0.0;
   const double share = 1 / (1 + contact.law.damping / begin.map.d);
   contact.compliance = share * contact.law.compliance;
   contact.offset = (1 - share) * (std::min(from, 0.0) - contact.target);  // the damper is met with the shape

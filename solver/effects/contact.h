@@ -5,10 +5,8 @@
 //   begins
 //               and g_0 that at x0: what overlaps parts at `recovery` at most, and gets no deeper. Soft ones
 //               with Sigma = A/(h d), and offset by a damper that begins where the shapes touch;
-//               or, where shapes collide with restitution e in this step, by their free motion or as an
-//               iterate has found, n . (u(v) + e u(v_l)), u the relative velocity of what touches (the
-//               smaller of the two where they did not approach each other): with newmark and alpha = 1/2
-//               energy is then kept for e = 1
+//               or, where shapes collide with restitution e in this step, n . (u(v) + e u(v_l)), u the
+//               relative velocity of what touches: with newmark and alpha = 1/2 energy is kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
@@ -19,8 +17,11 @@
 // begins. What overlaps from the start stays on the wrong side; a node that comes over an edge or a corner
 // within a step is held by whatever else is near. `thickness` should be well below the shortest edge; a
 // crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
-// converge. Restitution is Newton's: each pair that collides in this step, by its free motion or as an
-// iterate has found, returns its speed by e.
+// converge.
+//
+// Restitution is Newton's. What approaches each other where the step begins collides if its free motion
+// meets, or if it is pushed in the solved step: such are let collide, and the step is solved again, until
+// there are no more. So what collides depends on solved steps alone, not on a solver's way to them.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,8 @@ class ContactRows final : public Source {
 
   void allocate(bool hard_alone, BlockList& blocks) override;
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
-  Widened widen(const StepBegin& begin, const Points& x, BlockSpan blocks) override;
-  void note_impulses(ConstBlockSpan blocks) override;
+  Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
+  bool collide(ConstBlockSpan blocks) override;
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;

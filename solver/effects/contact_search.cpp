@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace pbd {
-
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect_(effect) {
   if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
   apart_ = effect.apart;
@@ -44,6 +43,14 @@ double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
   return motion.travel + motion.turn * ((other.centre - motion.centre).norm() + other.radius + other.travel);
 }
 
+Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {
+  const Motion& motion = motions_[collider];
+  if (motion.is_node) return {at.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
+  const Pose& pose = at.pose[motion.carrier];
+  const Frame& own = effect_.collider[collider].frame;
+  return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
+}
+
 void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& start,
                                     const std::vector<double>& inverse_mass) {
   motions_.resize(effect_.collider.size() + effect_.node.size());
@@ -53,18 +60,19 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
     const Pose& pose = start.pose[collider.body];
     Motion& motion = motions_[k];
     motion.shape = &collider.shape;
-    motion.frame = {pose.x + pose.rotation * collider.frame.origin, pose.rotation * collider.frame.rotation};
     motion.carrier = collider.body;
+    motion.frame = placed_frame(static_cast<int>(k), start);
     motion.moves = moves(bodies.node(collider.body)) || moves(bodies.column(collider.body));
     motion.centre = pose.x;
     motion.radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
+    motion.round = round_radius(collider.shape);
   }
   for (std::size_t k = 0; k < effect_.node.size(); ++k) {
     Motion& motion = motions_[effect_.collider.size() + k];
     motion.node_shape = Sphere{effect_.radius[k]};
     motion.shape = &motion.node_shape;
-    motion.frame = {start.x.col(effect_.node[k]), Eigen::Matrix3d::Identity()};
     motion.carrier = effect_.node[k];
+    motion.frame = {start.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
     motion.centre = motion.frame.origin;
     motion.radius = effect_.radius[k];
     motion.is_node = true;
@@ -93,43 +101,66 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
   }
 }
 
-void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
+bool ContactSearch::may_touch(int first, int second) const {
   const Motion &one = motions_[first], &two = motions_[second];
   if (!one.is_node && !two.is_node) {
     const std::array<int, 2> bodies{std::min(one.carrier, two.carrier), std::max(one.carrier, two.carrier)};
-    if (std::binary_search(apart_.begin(), apart_.end(), bodies)) return;
-  } else {  // of which one is a body's
-    const std::array<int, 2> pair =
-        one.is_node ? std::array{one.carrier, two.carrier} : std::array{two.carrier, one.carrier};
-    if (std::binary_search(attached_.begin(), attached_.end(), pair)) return;
+    return !std::binary_search(apart_.begin(), apart_.end(), bodies);
   }
-  found_.clear();
-  const Reach reach{effect_.margin + travel_near(one, two) + travel_near(two, one), one.turn + two.turn};
-  generate(*one.shape, one.frame, *two.shape, two.frame, reach, scratch_, found_);
+  const bool node_first = one.is_node;  // the other is a body's
+  const std::array<int, 2> pair{(node_first ? one : two).carrier, (node_first ? two : one).carrier};
+  return !std::binary_search(attached_.begin(), attached_.end(), pair);
+}
+
+ActiveContact ContactSearch::active(const ContactPoint& point, int first, int second) const {
+  const std::array<int, 2> sides = point.swapped ? std::array{second, first} : std::array{first, second};
   const auto local = [&](int collider) {
     return motions_[collider].is_node ? Frame{} : effect_.collider[collider].frame;
   };
-  const ContactLaw& law = effect_.between(first, second);
-  for (const ContactPoint& point : found_) {
-    const std::array<int, 2> sides = point.swapped ? std::array{second, first} : std::array{first, second};
-    ActiveContact contact;
-    contact.features = placed(point, local(sides[0]), local(sides[1]));
-    contact.collider = sides;
-    for (const int side : {0, 1}) {
-      const Motion& own = motions_[sides[side]];
-      contact.carrier[side] = own.carrier;
-      if (own.is_node) contact.node_side = side;
-    }
-    contact.law = law;
-    const std::size_t group =
-        (contact.node_side < 0 ? bodies_rough : nodes_rough) + (law.friction > 0 ? 0 : 1);
-    contacts[group].push_back(contact);
+  ActiveContact contact;
+  contact.features = placed(point, local(sides[0]), local(sides[1]));
+  contact.collider = sides;
+  for (const int side : {0, 1}) {
+    const Motion& own = motions_[sides[side]];
+    contact.carrier[side] = own.carrier;
+    if (own.is_node) contact.node_side = side;
   }
+  contact.law = effect_.between(first, second);
+  return contact;
+}
+
+/// The smaller one, m; nodes touch by planes, and have none that counts.
+double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
+  const double first = one.is_node ? infinity : one.round, second = two.is_node ? infinity : two.round;
+  return std::min(first, second);
+}
+
+namespace {
+
+void add(const ActiveContact& contact, ContactLists& contacts) {
+  const std::size_t group =
+      (contact.node_side < 0 ? bodies_rough : nodes_rough) + (contact.law.friction > 0 ? 0 : 1);
+  contacts[group].push_back(contact);
+}
+
+}  // namespace
+
+void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
+  if (!may_touch(first, second)) return;
+  const Motion &one = motions_[first], &two = motions_[second];
+  const double travel = travel_near(one, two) + travel_near(two, one);
+  found_.clear();
+  const Reach reach{effect_.margin + travel, one.turn + two.turn};
+  generate(*one.shape, one.frame, *two.shape, two.frame, reach, scratch_, found_);
+  for (const ContactPoint& point : found_) add(active(point, first, second), contacts);
+  if (travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
+    far_.push_back({{first, second}});
 }
 
 void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,
                           const std::vector<double>& inverse_mass) {
   place_colliders(bodies, start, inverse_mass);
+  late_.clear();
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = travel(motion, moved);
@@ -160,6 +191,7 @@ bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, con
 
 void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
   for (auto& list : contacts) list.clear();
+  far_.clear();
   boxes_.clear();
   for (const Motion& motion : motions_) {
     const Eigen::AlignedBox3d box = bounds_of(*motion.shape, motion.frame);
@@ -168,7 +200,48 @@ void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
   for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, contacts);
+  for (const ActiveContact& contact : late_) add(contact, contacts);
   if (surfaces_) add_surfaces(start.x, contacts);
+}
+
+bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
+                               const ContactLists& contacts) {
+  if (far_.empty()) return false;
+  const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
+  std::sort(far_.begin(), far_.end(), in_order);
+  const auto of_pair = [](const ActiveContact& contact) {
+    return std::array{std::min(contact.collider[0], contact.collider[1]),
+                      std::max(contact.collider[0], contact.collider[1])};
+  };
+  for (const auto& list : contacts)
+    for (const ActiveContact& contact : list) {
+      if (contact.of_surfaces) continue;
+      const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{of_pair(contact)}, in_order);
+      if (pair == far_.end() || pair->collider != of_pair(contact)) continue;
+      const auto gap = [&](const Configuration& at) {
+        return touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at)).gap;
+      };
+      if (!contact.late) pair->least_start = std::min(pair->least_start, gap(start));
+      pair->least_end = std::min(pair->least_end, gap(end));
+    }
+  const std::size_t before = late_.size();
+  for (const Pair& pair : far_) {
+    const auto [first, second] = pair.collider;
+    const Motion &one = motions_[first], &two = motions_[second];
+    const double slack = overlooked * round_radius_of(one, two);
+    if (pair.least_start < -slack) continue;  // it overlaps from the start, and parts as its contacts tell
+    found_.clear();
+    const Frame at_first = placed_frame(first, end), at_second = placed_frame(second, end);
+    generate(*one.shape, at_first, *two.shape, at_second, Reach{0}, scratch_, found_);
+    for (const ContactPoint& point : found_) {
+      const bool swapped = point.swapped;
+      const double gap = touching(point, swapped ? at_second : at_first, swapped ? at_first : at_second).gap;
+      if (!(gap < std::min(pair.least_end, 0.0) - slack)) continue;
+      late_.push_back(active(point, first, second));
+      late_.back().late = true;
+    }
+  }
+  return late_.size() > before;
 }
 
 }  // namespace pbd

@@ -8,6 +8,11 @@
 // points within the other's reach. Which features lie lowest changes as bodies turn: generators are told by
 // how much. A body that is stopped on one side turns although it goes no farther: it is expected to turn by
 // its travel over r at least.
+//
+// What a contact's features miss as shapes pass each other's edges and corners is second order in their
+// travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
+// in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
+// step ends, and what overlaps there joins the step's contacts.
 #pragma once
 
 #include <array>
@@ -47,7 +52,13 @@ class ContactSearch {
   /// The contacts of what is as near as that.
   void find(const Configuration& start, ContactLists& contacts);
 
+  /// True if pairs that went far overlap at `end` as none of the contacts tells: `find` adds those that do.
+  bool look_again(const Configuration& start, const Configuration& end, const ContactLists& contacts);
+
  private:
+  /// How deep pairs may be that are not looked at again, of the radius of what is round of them.
+  static constexpr double overlooked = 1e-4;
+
   struct Motion {        // of a collider in this step
     Shape node_shape;    // of a node
     const Shape* shape;  // in `frame`
@@ -57,6 +68,7 @@ class ContactSearch {
     bool moves = false;  // by impulses
     Vec3 centre;         // m, of the body
     double radius = 0;   // m, of the farthest point about it; infinite for a half space
+    double round = 0;    // m, radius of what is round of the shape
     double travel = 0;   // m, that its points move at most; of a half space, its centre
     double turn = 0;     // rad, that it turns at most
   };
@@ -71,12 +83,22 @@ class ContactSearch {
   static double travel(const Motion& motion, const Displacement& moved);
   static double travel_near(const Motion& motion, const Motion& other);
   void add_surfaces(const Points& x, ContactLists& contacts);
+  static double round_radius_of(const Motion& one, const Motion& two);
+  bool may_touch(int first, int second) const;
   void add_pair(int first, int second, ContactLists& contacts);
+  ActiveContact active(const ContactPoint& point, int first, int second) const;
+  Frame placed_frame(int collider, const Configuration& at) const;
 
   const Contact& effect_;
   std::vector<std::array<int, 2>> apart_;     // bodies that joints connect, or the effect names
   std::vector<std::array<int, 2>> attached_;  // nodes and the bodies that carry them
   std::vector<Motion> motions_;
+  struct Pair {
+    std::array<int, 2> collider;
+    double least_start = infinity, least_end = infinity;  // m, gaps that its contacts tell of
+  };
+  std::vector<Pair> far_;  // those that go far in this step
+  std::vector<ActiveContact> late_;
   std::vector<ContactPoint> found_;
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;

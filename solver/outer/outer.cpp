@@ -136,4 +136,8 @@ bool on_potential(const OuterIteration& outer) {
   return std::holds_alternative<QuasiNewton>(outer);
 }
 
+bool solves_step(const OuterIteration& outer) {
+  return !std::holds_alternative<Incremental>(outer) && !std::holds_alternative<Frozen>(outer);
+}
+
 }  // namespace pbd

@@ -67,4 +67,7 @@ void unsettle(OuterIteration& outer, StepSystem& system);
 /// True if it works on a potential, where the bounds of the contraction are all that is asked for.
 bool on_potential(const OuterIteration& outer);
 
+/// True if its fixed points are the solutions of the step: an iterate of less residual is a better one.
+bool solves_step(const OuterIteration& outer);
+
 }  // namespace pbd

@@ -159,11 +159,13 @@ class Source {
 
   // Of contacts alone.
 
-  /// Takes note of an iterate's impulses: what has been pushed collides, and returns its speed.
-  virtual void note_impulses(ConstBlockSpan) {}
+  /// Lets what approached and is pushed in the solved step, but was not to collide, collide: true if there is
+  /// any.
+  virtual bool collide(ConstBlockSpan) { return false; }
 
-  /// Finds rows anew where x(v) goes farther than was thought of; they are to be linearised again then.
-  virtual Widened widen(const StepBegin&, const Points& /*x*/, BlockSpan) { return Widened::no; }
+  /// Finds rows anew where the solved step went farther than was thought of, or where something overlaps that
+  /// no row tells of; they are to be linearised again then.
+  virtual Widened widen(const StepBegin&, const Configuration& /*reached*/, BlockSpan) { return Widened::no; }
 
   virtual void add_contact_forces(const StepMap&, const Configuration&, const Points& /*v*/, ConstBlockSpan,
                                   std::vector<ContactForce>&) const {}

@@ -108,9 +108,10 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
 bool History::widen(StepSystem& system) const {
   const Configuration start = system.problem.start();
   const StepBegin begin = step_begin(system.problem, start, start, start);
+  const Configuration reached{system.at.x, system.at.poses, system.problem.x_time};
   bool widened = false;
   for (Slot& slot : system.slots) {
-    const Widened found = slot.source->widen(begin, system.at.x, slot.blocks(system.rows));
+    const Widened found = slot.source->widen(begin, reached, slot.blocks(system.rows));
     widened |= found != Widened::no;
     if (found == Widened::others) ++system.rows.generation;
   }

@@ -15,8 +15,7 @@ class History {
   /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
-  /// Lets sources find rows anew where the solved iterate went farther than they searched: true if one did,
-  /// perhaps the same rows.
+  /// Lets sources find rows anew that the solved iterate calls for: true if one did, perhaps the same rows.
   bool widen(StepSystem& system) const;
 
   /// Carries the solved map on to the step's end.

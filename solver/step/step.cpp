@@ -14,9 +14,10 @@ constexpr std::string_view not_finite = "not finite";
 
 /// What the residuals of a step are compared with.
 struct Levels {
-  double free_change = 0, free_speed = 0;               // |v_free - v_l|_M, |v_free|_M
-  double primal_rounding = 0, dual_rounding = 0;        // what rounding makes of the residuals
-  double first_residual = 0, last_residual = infinity;  // of this step
+  double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
+  double primal_rounding = 0, dual_rounding = 0;  // what rounding makes of the residuals
+  double first = 0;                               // the larger of residual and scale at the first iterate
+  double last_residual = infinity;                // of this step
 };
 
 /// Residuals, scale and rounding level of the iterate.
@@ -42,7 +43,7 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
              progress.dual <= std::max(method.tolerance * progress.scale, levels.dual_rounding)) {
     report.status = Status::ok;
     report.reason = "";
-  } else if (progress.residual() > blown_up * std::max(levels.first_residual, progress.scale)) {
+  } else if (progress.residual() > blown_up * levels.first) {
     report.status = Status::diverged;
     report.reason = "residual grew beyond 1e8 times its start";
   } else {
@@ -53,18 +54,19 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   return true;
 }
 
-/// Keeps the iterate if it is the best one from the tenth on; an easy step ends before.
+/// Keeps the iterate if it is the best one.
 void keep_if_best(const StepSystem& system, const Progress& progress, BestIterate& best) {
-  constexpr int first_kept = 10;
-  if (progress.outer_iterations < first_kept || !(progress.residual() < best.residual)) return;
+  if (!(progress.residual() < best.residual)) return;
   best.residual = progress.residual();
   best.v = system.at.v;
   keep_impulses_and_biases(system.rows, best.rows);
 }
 
-/// Takes note of what the iterate's impulses say of the contacts.
-void note_impulses(StepSystem& system) {
-  for (Slot& slot : system.slots) slot.source->note_impulses(slot.view(system.rows));
+/// True if something collides that was not to.
+bool collide(StepSystem& system) {
+  bool any = false;
+  for (Slot& slot : system.slots) any |= slot.source->collide(slot.view(system.rows));
+  return any;
 }
 
 /// One step in the making.
@@ -81,6 +83,7 @@ struct StepRun {
  private:
   bool settle_here(bool stalled);
   bool stalls();
+  bool goes_on();
   void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
 };
 
@@ -124,23 +127,28 @@ bool StepRun::settle_here(bool stalled) {
   return false;
 }
 
+/// True if the solved iterate asks for other rows.
+bool StepRun::goes_on() {
+  const bool widened = w.history.widen(w.system);
+  return collide(w.system) || widened;
+}
+
 void StepRun::solve(const Observer& observer) {
   StepSystem& system = w.system;
   Points& previous = w.previous;
   previous = system.at.v;
   for (;; ++progress.outer_iterations) {
-    if (progress.outer_iterations > 0) note_impulses(system);
     measure_here();
-    if (progress.outer_iterations == 0) levels.first_residual = progress.residual();
+    if (progress.outer_iterations == 0) levels.first = std::max(progress.residual(), progress.scale);
     if (observer)
       observer({progress.outer_iterations, progress.sweeps, progress.row_updates, progress.primal,
                 progress.dual, progress.scale, system.at.x, system.at.v});
-    keep_if_best(system, progress, w.best);
+    if (solves_step(w.outer)) keep_if_best(system, progress, w.best);
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
     const bool stalled = stalls();
     const bool ended = finished(w.method, levels, progress, report);
-    if (ended && (report.status != Status::ok || !w.history.widen(system))) break;
+    if (ended && (report.status != Status::ok || !goes_on())) break;
     if (ended) {
       forget(w.outer);
       w.best.residual = infinity;

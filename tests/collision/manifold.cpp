@@ -212,3 +212,20 @@ TEST_CASE("shapes that coincide have unit normals") {
     }
   }
 }
+
+TEST_CASE("no two pairs of features share a key, and the order of the shapes makes none") {
+  const Frame at;
+  std::vector<ContactPoint> found;
+  const ContactWriter writer{at, at, false, Reach{0}, found, 0};
+  std::vector<std::uint64_t> keys;
+  constexpr int side = 300;  // keys of 32 bits would have some twenty pairs in common
+  for (const Feature of_a : {Feature::node, Feature::face})
+    for (const Feature of_b : {Feature::edge, Feature::cap})
+      for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+          keys.push_back(writer.key(of_a, 1789 * i, of_b, 1789 * j));
+          if (writer.exchanged().key(of_b, 1789 * j, of_a, 1789 * i) != keys.back()) FAIL("other order");
+        }
+  std::sort(keys.begin(), keys.end());
+  CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
+}

@@ -2,7 +2,6 @@
 // turns, dampers before they are met, overlaps that part.
 #include "body_scenes.h"
 #include "contact_runs.h"
-#include "contact_shapes.h"
 #include "mesh.h"
 #include "scenes/contacts.h"
 
@@ -178,71 +177,4 @@ TEST_CASE("a node does not touch the body that it is attached to") {
       Attachment{.body = {box}, .node = {node}, .point = {Vec3(0, 0, 0.05)}, .compliance = {0}});
   const State end = run(scene, contact_method("direct"), 0.01, 20);
   CHECK((end.x.col(node) - scene.initial.x.col(node)).norm() <= 1e-9);
-}
-
-TEST_CASE("no contact is lost to the numbering of a mesh") {
-  // Two slabs of many nodes with three spikes between them: the upper one stands on the spikes' tips.
-  constexpr int lower_side = 19, upper_side = 31;
-  constexpr double length = 0.1;
-  const auto slab_of = [](int side, double size, double low, double high) {
-    TriangleMesh mesh;
-    mesh.x.resize(3, 2 * side * side);
-    for (int k = 0; k < 2; ++k)
-      for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i)
-          mesh.x.col(i + side * (j + side * k)) =
-              Vec3(size * (i / (side - 1.0) - 0.5), size * (j / (side - 1.0) - 0.5), k == 1 ? high : low);
-    const auto id = [&](int i, int j, int k) { return i + side * (j + side * k); };
-    const auto quad = [&](int a, int b, int c, int d) {
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
-    };
-    for (int i = 0; i + 1 < side; ++i) {
-      for (int j = 0; j + 1 < side; ++j) {
-        quad(id(i, j, 1), id(i + 1, j, 1), id(i + 1, j + 1, 1), id(i, j + 1, 1));
-        quad(id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i + 1, j, 0), id(i, j, 0));
-      }
-      quad(id(i, 0, 0), id(i + 1, 0, 0), id(i + 1, 0, 1), id(i, 0, 1));
-      quad(id(i + 1, side - 1, 0), id(i, side - 1, 0), id(i, side - 1, 1), id(i + 1, side - 1, 1));
-      quad(id(0, i + 1, 0), id(0, i, 0), id(0, i, 1), id(0, i + 1, 1));
-      quad(id(side - 1, i, 0), id(side - 1, i + 1, 0), id(side - 1, i + 1, 1), id(side - 1, i, 1));
-    }
-    return mesh;
-  };
-  TriangleMesh lower = slab_of(lower_side, 2.1, -0.2, 0), upper = slab_of(upper_side, 2.0, 0, 0.2);
-  const auto node_near = [](const TriangleMesh& mesh, const Vec3& place) {
-    Eigen::Index nearest = 0;
-    (mesh.x.colwise() - place).colwise().norm().minCoeff(&nearest);
-    return nearest;
-  };
-  const auto rename = [](TriangleMesh& mesh, int a, int b) {
-    mesh.x.col(a).swap(mesh.x.col(b));
-    for (auto& triangle : mesh.triangles)
-      for (int& node : triangle) node = node == a ? b : node == b ? a : node;
-  };
-  lower.x(2, node_near(lower, {0.55, 0.12, 0})) = length;
-  upper.x(2, node_near(upper, {-0.52, -0.41, 0})) = -length;
-  upper.x(2, node_near(upper, {-0.52, 0.41, 0})) = -length;
-  Random random(3);
-  CollisionScratch scratch;
-  std::vector<ContactPoint> found;
-  const auto count = [&] {
-    found.clear();
-    const Frame above{Vec3(0, 0, length - 1e-4), Eigen::Matrix3d::Identity()};
-    generate(ClosedMesh(lower), Frame{}, ClosedMesh(upper), above, Reach{1e-3}, scratch, found);
-    return found.size();
-  };
-  const std::size_t expected = count();
-  CHECK(expected == 3);
-  for (int k = 0; k < 20; ++k) {
-    const auto any = [&](const TriangleMesh& mesh) {
-      return static_cast<int>(random.uniform(0, static_cast<double>(mesh.x.cols())));
-    };
-    for (int swaps = 0; swaps < 1000; ++swaps) {
-      rename(lower, any(lower), any(lower));
-      rename(upper, any(upper), any(upper));
-    }
-    std::rotate(lower.triangles.begin(), lower.triangles.begin() + any(lower), lower.triangles.end());
-    CHECK(count() == expected);
-  }
 }

@@ -23,13 +23,24 @@ std::string status_of(const ConeSolution& solution) {
   return std::string(pbd::reference::outcome_names[static_cast<std::size_t>(solution.outcome)]);
 }
 
+/// What was asked, and what was found.
+struct Solved {
+  const ConeOptions& options;
+  const ConeFile& file;
+  ConeSolution solution;
+  double symmetric_residual;  // natural, of W's symmetric part
+};
+
 /// Numbers that are not finite become null.
-nlohmann::ordered_json solution_json(const ConeOptions& options, const ConeSolution& solution) {
+nlohmann::ordered_json solution_json(const Solved& solved) {
+  const auto& [options, file, solution, symmetric_residual] = solved;
   return {{"status", status_of(solution)},
           {"law", options.law},
           {"relaxation", options.relaxation},
           {"contacts", solution.impulse.size() / 3},
           {"natural_residual", solution.measures.natural_residual},
+          {"natural_residual_symmetric", symmetric_residual},
+          {"asymmetry", file.asymmetry},
           {"gap", solution.measures.gap},
           {"feasibility", solution.measures.feasibility()},
           {"objective", solution.measures.objective},
@@ -39,10 +50,15 @@ nlohmann::ordered_json solution_json(const ConeOptions& options, const ConeSolut
           {"impulse", list_of(solution.impulse)}};
 }
 
-void print_solution(const ConeOptions& options, const ConeSolution& solution) {
+void print_solution(const Solved& solved) {
+  const auto& [options, file, solution, symmetric_residual] = solved;
   const auto& m = solution.measures;
   fmt::print("{}  law {}, relaxation {}, {} contacts\n", status_of(solution), options.law, options.relaxation,
              solution.impulse.size() / 3);
+  fmt::print("{}\n", file.form);
+  if (file.asymmetry > 0)
+    fmt::print("W unsymmetric by {:.3g} of its size; natural residual of its symmetric part {:.3g}\n",
+               file.asymmetry, symmetric_residual);
   fmt::print(
       "natural residual {:.3g}\ngap              {:.3g}\nfeasibility      {:.3g}\nobjective        {:.10g} "
       "J\n",
@@ -64,22 +80,33 @@ int cone(const ConeOptions& options) {
     throw pbd::SetupError("-o", options.output.string(), "another file than the problem");
   const ConeSolver& solver = find_cone_solver(options.relaxation, options.law);
   const ConeFile file = read_cone_file(options.problem);
+  const auto law = friction_law(options.law);
+  const bool convex = law == pbd::reference::FrictionLaw::cone;
+  const std::string name = options.problem.string();
+  if (!file.semidefinite && convex)
+    throw pbd::SetupError(name, "W whose symmetric part is not positive semidefinite",
+                          "for the law cone a Delassus matrix, H^T M^-1 H");
+  if (!file.semidefinite) warn(name + ": W's symmetric part is not positive semidefinite");
+  const bool as_given = file.asymmetry > 1e-12 && !convex;
   if (file.asymmetry > 1e-12)
-    warn(fmt::format("{}: W is unsymmetric by {:.2g} of its size; solved with its symmetric part",
-                     options.problem.string(), file.asymmetry));
+    warn(fmt::format("{}: W is unsymmetric by {:.2g} of its size; {}", name, file.asymmetry,
+                     convex ? "solved with its symmetric part" : "solved as it is"));
+  const pbd::reference::ConeProblem symmetric_problem = symmetric(file.problem);
   const ConeSolution solution =
-      solver.solve({file.problem, friction_law(options.law), options.tolerance, most_sweeps});
+      as_given ? solve_as_given(solver, {file.problem, law, options.tolerance, most_sweeps})
+               : solver.solve({symmetric_problem, law, options.tolerance, most_sweeps});
+  const Solved found{options, file, solution,
+                     measure_cone(symmetric_problem, law, solution.impulse).natural_residual};
   const bool solved = solution.outcome == pbd::reference::Outcome::ok;
   if (solved && !options.output.empty()) write_cone_file(options.output, file.problem, solution);
   if (options.json) {
-    fmt::print("{}", json_text(solution_json(options, solution)));
+    fmt::print("{}", json_text(solution_json(found)));
   } else {
-    fmt::print("{}\n", file.form);
-    print_solution(options, solution);
+    print_solution(found);
   }
   if (solved) return exit_done;
   error_message(
-      fmt::format("{}: {}{}", options.problem.string(), solution.reason,
+      fmt::format("{}: {}{}", name, solution.reason,
                   options.output.empty() ? "" : "; " + options.output.string() + " is not written"));
   return exit_failed;
 }

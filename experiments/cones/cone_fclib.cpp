@@ -1,6 +1,7 @@
 // FCLIB's HDF5 layout: /fclib_local/{W, vectors/{q, mu}}, /fclib_global/{M, H, vectors/{f, w, mu}},
-// /solution/{u, r}. A matrix has m, n, nz, nzmax, p, i, x: nz >= 0 entries as triplets (p rows, i columns),
-// -1 by columns, -2 by rows.
+// /solution/{u, r}. A matrix has m, n, nz, nzmax, p, i, x: nz -1 by columns, -2 by rows, else nz triplets. Of
+// these fclib.h calls p rows and i columns, but programs write CSparse's arrays, p columns and i rows, as
+// they are: they are read so, or the header's way if only that fits.
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -98,7 +99,9 @@ class Reader {
     if (kind >= 0) {
       const auto count = static_cast<std::size_t>(kind);
       if (std::min({p.size(), i.size(), x.size()}) < count) wrong("fewer entries than nz");
-      for (std::size_t k = 0; k < count; ++k) add(p[k], i[k], k);
+      bool by_csparse = true;
+      for (std::size_t k = 0; k < count; ++k) by_csparse = by_csparse && i[k] < rows && p[k] < columns;
+      for (std::size_t k = 0; k < count; ++k) by_csparse ? add(i[k], p[k], k) : add(p[k], i[k], k);
     } else {
       const int lines = kind == -1 ? columns : rows;
       if (p.size() != static_cast<std::size_t>(lines) + 1 || p.front() != 0)

@@ -24,7 +24,7 @@ double asymmetry(const Sparse& w) {
   return size > 0 ? Sparse(w - Sparse(w.transpose())).norm() / size : 0;
 }
 
-Sparse symmetric(const Sparse& w) {
+Sparse symmetric_part(const Sparse& w) {
   return 0.5 * (w + Sparse(w.transpose()));
 }
 
@@ -35,7 +35,7 @@ bool semidefinite(const Sparse& w) {
   Sparse shift(w.rows(), w.cols());
   shift.setIdentity();
   shift *= (rounding + asymmetry(w)) * (size > 0 ? size : 1);
-  return Eigen::SimplicialLLT<Sparse>(Sparse(symmetric(w) + shift)).info() == Eigen::Success;
+  return Eigen::SimplicialLLT<Sparse>(Sparse(symmetric_part(w) + shift)).info() == Eigen::Success;
 }
 
 void require(bool holds, const std::filesystem::path& path, const std::string& got,
@@ -69,21 +69,20 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
 
   ConeFile file;
   file.form = stored.form;
-  bool fits = semidefinite(w);
+  file.semidefinite = semidefinite(w);
   if (stored.transposed.size() > 0) {  // both readings are possible
     const bool other = semidefinite(stored.transposed);
-    const bool rows = other && (!fits || asymmetry(stored.transposed) < 0.1 * asymmetry(w));
+    const bool rows = other && (!file.semidefinite || asymmetry(stored.transposed) < 0.1 * asymmetry(w));
     file.form += rows ? ", blocks read row by row" : ", blocks read column by column";
-    if (rows) stored.delassus = stored.transposed, fits = true;
+    if (rows) stored.delassus = stored.transposed, file.semidefinite = true;
   }
-  require(fits, path, "W whose symmetric part is not positive semidefinite", "a Delassus matrix, H^T M^-1 H");
   file.asymmetry = asymmetry(stored.delassus);
-  constexpr double most_asymmetry = 0.01;
-  require(file.asymmetry <= most_asymmetry, path,
-          fmt::format("W unsymmetric by {:.2g} of its size", file.asymmetry),
-          fmt::format("at most {}", most_asymmetry));
-  file.problem = {symmetric(stored.delassus), std::move(stored.free_velocity), std::move(stored.friction)};
+  file.problem = {std::move(stored.delassus), std::move(stored.free_velocity), std::move(stored.friction)};
   return file;
+}
+
+pbd::reference::ConeProblem symmetric(const pbd::reference::ConeProblem& problem) {
+  return {symmetric_part(problem.delassus), problem.free_velocity, problem.friction};
 }
 
 }  // namespace pbdcheck

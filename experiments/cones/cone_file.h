@@ -10,14 +10,14 @@
 namespace pbdcheck {
 
 struct ConeFile {
-  pbd::reference::ConeProblem problem;  // with the symmetric part of the stored W
+  pbd::reference::ConeProblem problem;  // with W as stored
   std::string form;                     // what the file was, and how it was read
-  double asymmetry = 0;                 // |W - W^T| / |W| (Frobenius) as stored
+  double asymmetry = 0;                 // |W - W^T| / |W| (Frobenius)
+  bool semidefinite = true;             // W's symmetric part, to 1e-10 or to its asymmetry
 };
 
 /// Global problems are condensed: W = H^T M^-1 H, q = w + H^T M^-1 f. Throws SetupError naming the file and
-/// what is allowed; W's symmetric part has to be positive semidefinite to 1e-10, or to its asymmetry,
-/// which may be 0.01 at most.
+/// what is allowed.
 ConeFile read_cone_file(const std::filesystem::path& path);
 
 /// The problem as FCLIB's local one with its solution (u, r), complete or not there.
@@ -27,6 +27,9 @@ void write_cone_file(const std::filesystem::path& path, const pbd::reference::Co
 // The parts, one source each.
 
 using Sparse = Eigen::SparseMatrix<double>;
+
+/// The problem with the symmetric part of W.
+pbd::reference::ConeProblem symmetric(const pbd::reference::ConeProblem& problem);
 
 /// Of a number in W and q, so that products do not overflow.
 inline constexpr double largest_in_cone = 1e100;

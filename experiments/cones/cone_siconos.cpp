@@ -1,5 +1,9 @@
-// Siconos' text: dimension, contacts, storage (0 dense, 1 blocks), rows, columns, W, q, mu. Dense W stands
-// column by column, and so do the numbers of a block, but files with blocks written row by row are about.
+// Siconos' text: dimension, contacts, storage, rows, columns, W, q, mu, and perhaps a flag and a solution.
+//   0 dense   rows and columns again, then W column by column
+//   1 blocks  by lists of their ends and places; the numbers of a block stand column by column, but files
+//   with
+//             blocks written row by row are about
+//   2 sparse  what CSparse prints of triplets (origin 1) or of compressed columns (2)
 #include <fmt/format.h>
 
 #include <cmath>
@@ -27,9 +31,9 @@ class Text {
     throw SetupError(line_ > 0 ? fmt::format("{}:{}", path_, line_) : path_, got, allowed);
   }
 
-  double number(const std::string& what) {
-    std::string word;
-    if (!next(word)) refuse("an end of the file where " + what + " should be", "the whole problem");
+  double number(const std::string& what) { return number(what, word(what)); }
+
+  double number(const std::string& what, const std::string& word) const {
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
     if (end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
@@ -40,7 +44,11 @@ class Text {
 
   /// An integer of the range, no larger than the file has characters.
   int integer(const std::string& what, long least, long most) {
-    const double value = number(what);
+    return integer(what, word(what), least, most);
+  }
+
+  int integer(const std::string& what, const std::string& word, long least, long most) const {
+    const double value = number(what, word);
     if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most) &&
           value == std::floor(value)))
       refuse(fmt::format("{} = {}", what, value),
@@ -57,9 +65,29 @@ class Text {
     return all;
   }
 
-  void require_end() {
-    std::string word;
-    if (next(word)) refuse("`" + word + "` after mu", "the end of the file");
+  std::string word(const std::string& what) {
+    std::string found;
+    if (!next(found)) refuse("an end of the file where " + what + " should be", "the whole problem");
+    return found;
+  }
+
+  void expect(const std::string& expected) {
+    const std::string found = word("`" + expected + "`");
+    if (found != expected) refuse("`" + found + "`", "`" + expected + "`, as CSparse prints it");
+  }
+
+  /// What may stand behind mu: a flag, and a solution of `rows` numbers, or of twice as many with velocities.
+  void skip_solution(long rows) {
+    std::string first, other;
+    if (!next(first)) return;
+    long count = 1;
+    while (next(other)) ++count;
+    const bool flagged = (first == "0" || first == "1") && (count - 1) % rows == 0;
+    if (!flagged && count % rows != 0) count = -count;
+    if (count < 0 || count > 2 * rows + 1)
+      refuse(fmt::format("{} numbers behind mu", std::abs(count)),
+             fmt::format("the end of the file, a flag 0 or 1, or a solution of {} or {} numbers", rows,
+                         2 * rows));
   }
 
   long characters() const { return characters_; }
@@ -82,48 +110,98 @@ class Text {
 };
 
 void read_dense(Text& text, int rows, StoredCone& stored) {
+  for (const char* what : {"the number of rows, again", "the number of columns, again"})
+    text.integer(what, rows, rows);
   if (static_cast<long>(rows) * rows > text.characters())
     text.refuse(fmt::format("{} x {} numbers of W in a file of {} characters", rows, rows, text.characters()),
                 "the whole problem");
   const VectorXd numbers = text.numbers("W", static_cast<Eigen::Index>(rows) * rows);
   stored.delassus = Eigen::Map<const Eigen::MatrixXd>(numbers.data(), rows, rows).sparseView();
-  stored.form = "Siconos text, dense";  // read row by row it has the same symmetric part
+  stored.form = "Siconos text, dense";
 }
 
-void read_blocks(Text& text, int contacts, StoredCone& stored) {
+/// The ends of blocks, each of which holds whole contacts.
+std::vector<int> read_ends(Text& text, int count, int rows) {
+  std::vector<int> ends{0};
+  for (int i = 0; i < count; ++i) {
+    ends.push_back(text.integer("the end of a block", ends.back() + 3L, rows));
+    if (ends.back() % 3 != 0)
+      text.refuse(fmt::format("a block that ends at {}", ends.back()), "whole contacts");
+  }
+  if (ends.back() != rows)
+    text.refuse(fmt::format("blocks of {} rows", ends.back()), fmt::format("{}", rows));
+  return ends;
+}
+
+void read_blocks(Text& text, int rows, StoredCone& stored) {
   const int blocks = text.integer("the number of blocks", 1, 1L << 31U);
-  for (const char* what : {"the number of rows of blocks", "the number of columns of blocks"})
-    text.integer(what, contacts, contacts);
-  for (int side = 0; side < 2; ++side)
-    for (int i = 0; i < contacts; ++i)
-      text.integer("the end of a block of 3 rows or columns", 3L * (i + 1), 3L * (i + 1));
-  text.integer("the length of the list of rows", contacts + 1, contacts + 1);
+  const int lines = text.integer("the number of rows of blocks", 1, rows / 3);
+  text.integer("the number of columns of blocks", lines, lines);
+  const std::vector<int> row_ends = read_ends(text, lines, rows), column_ends = read_ends(text, lines, rows);
+  text.integer("the length of the list of rows", lines + 1, lines + 1);
   text.integer("the length of the list of columns", blocks, blocks);
   std::vector<int> begin, column;
-  for (int i = 0; i <= contacts; ++i)
+  for (int i = 0; i <= lines; ++i)
     begin.push_back(text.integer("the first block of a row", i == 0 ? 0 : begin.back(), blocks));
   if (begin.front() != 0 || begin.back() != blocks)
     text.refuse("rows that do not hold all blocks", "all of them");
-  for (int k = 0; k < blocks; ++k) column.push_back(text.integer("the column of a block", 0, contacts - 1));
+  for (int k = 0; k < blocks; ++k) column.push_back(text.integer("the column of a block", 0, lines - 1));
   std::vector<Eigen::Triplet<double>> by_columns, by_rows;
-  std::vector<int> row_of_last(static_cast<std::size_t>(contacts), -1);  // with a block in each column
-  for (int i = 0; i < contacts; ++i)
-    for (int k = begin[static_cast<std::size_t>(i)]; k < begin[static_cast<std::size_t>(i) + 1]; ++k) {
+  std::vector<int> row_of_last(static_cast<std::size_t>(lines), -1);  // with a block in each column
+  for (int i = 0; i < lines; ++i)
+    for (int k = begin[i]; k < begin[i + 1]; ++k) {
       text.integer("the number of a block", k, k);
-      const int j = column[static_cast<std::size_t>(k)];
-      if (std::exchange(row_of_last[static_cast<std::size_t>(j)], i) == i)
+      const int j = column[k];
+      if (std::exchange(row_of_last[j], i) == i)
         text.refuse(fmt::format("two blocks in row {} and column {}", i, j), "one");
-      const VectorXd b = text.numbers("a block", 9);
-      for (int l = 0; l < 9; ++l) {
-        by_columns.emplace_back(3 * i + l % 3, 3 * j + l / 3, b(l));
-        by_rows.emplace_back(3 * i + l / 3, 3 * j + l % 3, b(l));
+      const int height = row_ends[i + 1] - row_ends[i], width = column_ends[j + 1] - column_ends[j];
+      for (int l = 0; l < height * width; ++l) {
+        const double number = text.number("a block");
+        by_columns.emplace_back(row_ends[i] + l % height, column_ends[j] + l / height, number);
+        by_rows.emplace_back(row_ends[i] + l / width, column_ends[j] + l % width, number);
       }
     }
-  stored.delassus.resize(3 * contacts, 3 * contacts);
+  stored.delassus.resize(rows, rows);
   stored.delassus.setFromTriplets(by_columns.begin(), by_columns.end());
-  stored.transposed.resize(3 * contacts, 3 * contacts);
+  stored.transposed.resize(rows, rows);
   stored.transposed.setFromTriplets(by_rows.begin(), by_rows.end());
   stored.form = "Siconos text";
+}
+
+void read_sparse(Text& text, int rows, StoredCone& stored) {
+  constexpr int triplets = 1, columns = 2;
+  const int origin = text.integer("the origin (1 triplets, 2 compressed columns)", triplets, columns);
+  while (text.word("CSparse's heading") != "nnz:") continue;
+  std::string number = text.word("the number of entries");
+  if (!number.empty() && number.back() == ',') number.pop_back();
+  const int count = text.integer("the number of entries", number, 0, static_cast<long>(rows) * rows);
+  std::vector<Eigen::Triplet<double>> entries;
+  if (origin == triplets) {
+    for (int k = 0; k < count; ++k) {
+      const int i = text.integer("a row", 0, rows - 1), j = text.integer("a column", 0, rows - 1);
+      text.expect(":");
+      entries.emplace_back(i, j, text.number("W"));
+    }
+  } else {
+    text.expect("1-norm:");
+    text.number("the norm");
+    for (int j = 0; j < rows; ++j) {
+      text.expect("col");
+      text.integer("a column", j, j);
+      for (const char* word : {":", "locations"}) text.expect(word);
+      const int first = text.integer("a column's first entry", 0, count);
+      text.expect("to");
+      const int last = text.integer("a column's last entry", first - 1L, count - 1L);
+      for (int k = first; k <= last; ++k) {
+        const int i = text.integer("a row", 0, rows - 1);
+        text.expect(":");
+        entries.emplace_back(i, j, text.number("W"));
+      }
+    }
+  }
+  stored.delassus.resize(rows, rows);
+  stored.delassus.setFromTriplets(entries.begin(), entries.end());
+  stored.form = "Siconos text, sparse";
 }
 
 }  // namespace
@@ -133,17 +211,19 @@ StoredCone read_siconos(const std::filesystem::path& path) {
   constexpr long most_contacts = 1000000;
   text.integer("the dimension", 3, 3);
   const int contacts = text.integer("the number of contacts", 1, most_contacts);
-  const int storage = text.integer("the storage (0 dense, 1 blocks)", 0, 1);
+  const int storage = text.integer("the storage (0 dense, 1 blocks, 2 sparse)", 0, 2);
   for (const char* what : {"the number of rows", "the number of columns"})
     text.integer(what, 3L * contacts, 3L * contacts);
   StoredCone stored;
   if (storage == 0)
     read_dense(text, 3 * contacts, stored);
+  else if (storage == 1)
+    read_blocks(text, 3 * contacts, stored);
   else
-    read_blocks(text, contacts, stored);
+    read_sparse(text, 3 * contacts, stored);
   stored.free_velocity = text.numbers("q", 3 * contacts);
   stored.friction = text.numbers("mu", contacts);
-  text.require_end();
+  text.skip_solution(3L * contacts);
   return stored;
 }
 

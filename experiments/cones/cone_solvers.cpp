@@ -43,6 +43,28 @@ const ConeSolver& find_cone_solver(const std::string& name, const std::string& l
   return solver;
 }
 
+ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task) {
+  constexpr int most_problems = 50;
+  constexpr double share = 0.1;  // of the tolerance, for each of them
+  ConeProblem near = symmetric(task.problem);
+  const SparseMatrix rest = task.problem.delassus - near.delassus;
+  ConeSolution found;
+  int sweeps = 0;
+  double seconds = 0;
+  for (int k = 0; k < most_problems; ++k) {
+    const ConeSolution next = solver.solve({near, task.law, share * task.tolerance, task.most_sweeps});
+    sweeps += next.iterations;
+    seconds += next.seconds;
+    found.impulse = next.impulse;
+    certify(task.problem, task.law, task.tolerance, found);
+    if (found.outcome == Outcome::ok || next.outcome != Outcome::ok) break;
+    near.free_velocity = task.problem.free_velocity + rest * found.impulse;
+  }
+  found.iterations = sweeps;
+  found.seconds = seconds;
+  return found;
+}
+
 FrictionLaw friction_law(const std::string& name) {
   require_name("--law", name, cone_laws());
   const auto& names = friction_law_names;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cones/cone_file.h"
 #include "cones/cone_relaxations.h"
 
 namespace pbdcheck {
@@ -27,6 +28,10 @@ std::vector<std::string> cone_laws();
 
 /// The solver of that name for that law. Throws SetupError naming those there are.
 const ConeSolver& find_cone_solver(const std::string& name, const std::string& law);
+
+/// Solves a problem whose W need not be symmetric, by problems with its symmetric part: the rest, times the
+/// last impulses, moves to q. Within the tolerance for W as it is, or not ok.
+pbd::reference::ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task);
 
 pbd::reference::FrictionLaw friction_law(const std::string& name);
 

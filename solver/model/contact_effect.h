@@ -29,11 +29,10 @@ struct Collider {
 
 /// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
 /// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`.
-/// Two colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch, nor
-/// does a node the body that it is attached to.
-/// `law` has an entry for each pair of materials, row by row of a symmetric table. Gaps g >= 0 at the end of
-/// each step; where one begins with overlap, the shapes part by at most `recovery` (m/s). Pairs take part
-/// that are nearer than their motions go, and `margin` (m).
+/// Two colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch,
+/// nor does a node the body that it is attached to. `law` has an entry for each pair of materials, row by row
+/// of a symmetric table. Gaps g >= 0 at the end of each step; where one begins with overlap, the shapes part
+/// by at most `recovery` (m/s). Pairs take part that are nearer than their motions go, and `margin` (m).
 struct Contact {
   static constexpr std::string_view name = "contact";
   std::vector<Collider> collider;

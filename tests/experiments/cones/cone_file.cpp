@@ -32,21 +32,40 @@ std::string text(const MatrixXd& numbers) {  // column by column
 }
 
 std::string dense(const MatrixXd& w, const VectorXd& q, const VectorXd& mu) {
-  return fmt::format("3\n{}\n0\n{}\n{}\n", mu.size(), w.rows(), w.cols()) + text(w) + text(q) + text(mu);
+  return fmt::format("3\n{0}\n0\n{1}\n{1}\n{1}\t{1}\n", mu.size(), w.rows()) + text(w) + text(q) + text(mu);
 }
 
-/// All blocks, each written column by column, or row by row.
-std::string blocks(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_rows) {
-  const auto n = mu.size();
-  std::string file = fmt::format("3\n{0}\n1\n{1}\n{1}\n{2}\n{0}\n{0}\n", n, 3 * n, n * n);
+/// As Siconos 4.4 and CSparse 3.2 print it.
+std::string sparse(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_columns) {
+  const auto rows = w.rows();
+  std::string file =
+      fmt::format("3\n{0}\n2\n{1}\n{1}\n{2}\nCSparse Version 3.2.0, Sept 12, 2017.  Copyright (c) ",
+                  mu.size(), rows, by_columns ? 2 : 1);
+  file += fmt::format("Timothy A. Davis\n{0}{1}-by-{1}, nzmax: {2} nnz: {2}",
+                      by_columns ? "" : "triplet: ", rows, rows * rows);
+  file += by_columns ? ", 1-norm: 3.5\n" : "\n";
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    if (by_columns) file += fmt::format("    col {} : locations {} to {}\n", j, j * rows, (j + 1) * rows - 1);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      file += by_columns ? fmt::format("      {} : {:.17g}\n", i, w(i, j))
+                         : fmt::format("    {} {} : {:.17g}\n", i, j, w(i, j));
+  }
+  return file + text(q) + text(mu);
+}
+
+/// All blocks of `size` rows, each written column by column, or row by row.
+std::string blocks(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_rows,
+                   Eigen::Index size = 3) {
+  const auto n = w.rows() / size;
+  std::string file = fmt::format("3\n{0}\n1\n{1}\n{1}\n{2}\n{3}\n{3}\n", mu.size(), w.rows(), n * n, n);
   for (int side = 0; side < 2; ++side)
-    for (Eigen::Index i = 1; i <= n; ++i) file += fmt::format("{} ", 3 * i);
+    for (Eigen::Index i = 1; i <= n; ++i) file += fmt::format("{} ", size * i);
   file += fmt::format("\n{}\n{}\n", n + 1, n * n);
   for (Eigen::Index i = 0; i <= n; ++i) file += fmt::format("{} ", i * n);
   for (Eigen::Index k = 0; k < n * n; ++k) file += fmt::format("{} ", k % n);
   for (Eigen::Index k = 0; k < n * n; ++k) {
-    const Eigen::Matrix3d block = w.block<3, 3>(3 * (k / n), 3 * (k % n));
-    file += fmt::format("{}\n", k) + text(by_rows ? Eigen::Matrix3d(block.transpose()) : block);
+    const MatrixXd block = w.block(size * (k / n), size * (k % n), size, size);
+    file += fmt::format("{}\n", k) + text(by_rows ? MatrixXd(block.transpose()) : block);
   }
   return file + text(q) + text(mu);
 }
@@ -78,13 +97,48 @@ TEST_CASE("a problem survives writing and reading in each form") {
   }
 }
 
-TEST_CASE("an unsymmetric W is replaced by its symmetric part, and its asymmetry told") {
+TEST_CASE("Siconos' sparse matrices and large blocks are read, and what may stand behind mu") {
   const TemporaryFolder folder;
-  MatrixXd w = MatrixXd::Identity(3, 3);
-  w(0, 1) = 2e-3;
-  const auto file = read_cone_file(folder.write("w.dat", dense(w, VectorXd::Ones(3), VectorXd::Ones(1))));
-  CHECK(std::abs(file.problem.delassus.coeff(1, 0) - 1e-3) < 1e-18);
-  CHECK(std::abs(file.asymmetry - 2e-3 * std::sqrt(2) / std::sqrt(3 + 4e-6)) < 1e-15);
+  const PlantedCone p = stack_problem();
+  const MatrixXd w = p.problem.delassus;
+  const VectorXd &q = p.problem.free_velocity, &mu = p.problem.friction;
+  for (const bool by_columns : {false, true})
+    check_same(read_cone_file(folder.write("s.dat", sparse(w, q, mu, by_columns))).problem, p.problem);
+  REQUIRE(mu.size() % 2 == 0);
+  check_same(read_cone_file(folder.write("b.dat", blocks(w, q, mu, false, 6))).problem, p.problem);
+  const std::string solution = text(p.impulse);
+  for (const std::string& tail : {std::string("0\n"), std::string("1\n") + solution, solution,
+                                  solution + solution, "1\n" + solution + solution})
+    check_same(read_cone_file(folder.write("t.dat", dense(w, q, mu) + tail)).problem, p.problem);
+}
+
+TEST_CASE(
+    "an unsymmetric W is solved as it is under Coulomb's law, by its symmetric part under the convex one") {
+  const TemporaryFolder folder;
+  const PlantedCone p = stack_problem();
+  MatrixXd w = p.problem.delassus;
+  const double part = GENERATE(1e-3, 0.1);
+  w.diagonal().array() += w(0, 0);  // the planted one is singular: the rest would make it indefinite
+  w(0, 3) += part * w(0, 0);
+  const ConeProblem given{w.sparseView(), p.problem.free_velocity, p.problem.friction};
+  const auto path = folder.write("w.dat", dense(w, p.problem.free_velocity, p.problem.friction)).string();
+  const ConeFile file = read_cone_file(path);
+  CHECK(MatrixXd(file.problem.delassus) == w);
+  CHECK(file.asymmetry == Approx(part * w(0, 0) * std::sqrt(2) / w.norm()));
+  for (const auto* law : {"coulomb", "cone"}) {
+    const auto ran = run_program({"cone", path, "--law", law, "--json"});
+    CHECK(ran.exit_code == 0);
+    const bool convex = law == std::string("cone");
+    CHECK_THAT(ran.err, Catch::Contains(convex ? "solved with its symmetric part" : "solved as it is"));
+    const auto json = nlohmann::json::parse(ran.out);
+    const auto impulse = json["impulse"].get<std::vector<double>>();
+    const VectorXd r = Eigen::Map<const VectorXd>(impulse.data(), p.impulse.size());
+    const auto of = convex ? FrictionLaw::cone : FrictionLaw::coulomb;
+    CHECK(measure_cone(convex ? symmetric(given) : given, of, r).natural_residual <= 1e-8);
+    CHECK(json["asymmetry"].get<double>() == Approx(file.asymmetry));
+    CHECK(json["natural_residual_symmetric"].get<double>() ==
+          Approx(measure_cone(symmetric(given), of, r).natural_residual).margin(1e-12));
+  }
 }
 
 TEST_CASE("mistakes in problem files are named, with exit code 2") {
@@ -93,29 +147,28 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
   const VectorXd q = VectorXd::Ones(3), mu = VectorXd::Ones(1);
   MatrixXd indefinite = w;
   indefinite(2, 2) = -1e-3;
-  MatrixXd unsymmetric = w;
-  unsymmetric(0, 1) = 0.1;
   const std::string good = dense(w, q, mu);
   const std::vector<Mistake> mistakes{
       {"", {"end of the file", "dimension"}},
       {"scene = 1", {"`scene`", "a number"}},
       {"2\n1\n0\n2\n2\n", {"dimension = 2"}},
-      {"3\n1\n2\n3\n3\n", {"storage", "from 0 to 1"}},
+      {"3\n1\n3\n3\n3\n", {"storage", "from 0 to 2"}},
+      {"3\n1\n2\n3\n3\n1\nCSparse nnz: 1\n0 3 : 1\n", {"bad.dat:8", "a column = 3"}},
+      {"3\n1\n0\n3\n3\n1 0 0\n", {"bad.dat:6", "the number of rows, again = 1"}},
       {"3\n1\n0\n3\n4\n", {"columns = 4", "allowed: 3"}},
       {"3\n1000000000\n0\n3\n3\n", {"contacts = 1"}},
       {good.substr(0, good.size() / 2), {"end of the file", "W"}},
-      {good + " 7", {"`7` after mu"}},
+      {good + " 7", {"1 numbers behind mu", "a flag 0 or 1"}},
+      {good + " 1 2", {"2 numbers behind mu"}},
       {"3\n1\n\n0\n3\nthree\n", {"bad.dat:6: got `three` for the number of columns"}},
       {good.substr(0, good.find_last_of('1')) + "0." + std::string(3, '\0'), {"for mu", "a number"}},
       {"3\n1000\n0\n3000\n3000\n1", {"bad.dat:2: got the number of contacts = 1000 in a file of"}},
-      {"3\n4\n0\n12\n12\n1 2 3\n", {"bad.dat:5: got 12 x 12 numbers of W in a file of 18 characters"}},
+      {"3\n4\n0\n12\n12\n12 12\n1 2 3\n", {"bad.dat:6: got 12 x 12 numbers of W in a file of 24 characters"}},
       {dense(w, q, -mu), {"mu = -1 at contact 0", "from 0 to 1e+07"}},
       {dense(w, q, mu * 1e20), {"mu = ", "from 0 to 1e+07"}},
-      {dense(w, q * 1e101, mu), {"bad.dat:7", "for q", "at most 1e+100"}},
-      {dense(w, VectorXd::Constant(3, std::nan("")), mu), {"bad.dat:7", "`nan` for q"}},
-      {dense(w * std::nan(""), q, mu), {"bad.dat:6", "nan` for W"}},
-      {dense(indefinite, q, mu), {"not positive semidefinite"}},
-      {dense(unsymmetric, q, mu), {"W unsymmetric by 0.0", "at most 0.01"}},
+      {dense(w, q * 1e101, mu), {"bad.dat:8", "for q", "at most 1e+100"}},
+      {dense(w, VectorXd::Constant(3, std::nan("")), mu), {"bad.dat:8", "`nan` for q"}},
+      {dense(w * std::nan(""), q, mu), {"bad.dat:7", "nan` for W"}},
   };
   for (const auto& mistake : mistakes) {
     INFO(mistake.text);
@@ -126,6 +179,10 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
   }
   check_refused(run_program({"cone", (folder.path / "none").string()}), {"none: got no file"});
   const auto fine = folder.write("good.dat", good).string();
+  const auto saddle = folder.write("saddle.dat", dense(indefinite, q, mu)).string();
+  check_refused(run_program({"cone", saddle, "--law", "cone"}), {"saddle.dat", "not positive semidefinite"});
+  CHECK_THAT(run_program({"cone", saddle}).err,
+             Catch::Contains("warning") && Catch::Contains("semidefinite"));
   check_refused(run_program({"cone", fine, "--law", "disc"}), {"cone, coulomb, box"});
   check_refused(run_program({"cone", fine, "--law", "box"}), {"box", "one of coulomb, cone"});
   check_refused(run_program({"cone", fine, "-o", fine}), {"another file than the problem"});
@@ -180,8 +237,8 @@ TEST_CASE("cone prints one JSON object and writes what it solved") {
   std::string keys;
   for (const auto& [key, value] : json.items()) keys += key + " ";
   CHECK(keys ==
-        "status law relaxation contacts natural_residual gap feasibility objective sweeps wall_s velocity "
-        "impulse ");
+        "status law relaxation contacts natural_residual natural_residual_symmetric asymmetry gap "
+        "feasibility objective sweeps wall_s velocity impulse ");
   CHECK(json["status"] == "ok");
   CHECK(json["law"] == "coulomb");
   const auto impulse = json["impulse"].get<std::vector<double>>();

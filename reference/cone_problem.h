@@ -21,7 +21,7 @@ enum class FrictionLaw { cone, coulomb, box };
 inline constexpr std::array<std::string_view, 3> friction_law_names{"cone", "coulomb", "box"};
 
 struct ConeProblem {
-  SparseMatrix delassus;          // W, 1/kg, symmetric positive semidefinite, all its blocks 3 x 3
+  SparseMatrix delassus;          // W, 1/kg; for the judges symmetric positive semidefinite
   Eigen::VectorXd free_velocity;  // q, m/s
   Eigen::VectorXd friction;       // mu of each contact
 

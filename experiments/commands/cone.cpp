@@ -98,7 +98,8 @@ int cone(const ConeOptions& options) {
   const Solved found{options, file, solution,
                      measure_cone(symmetric_problem, law, solution.impulse).natural_residual};
   const bool solved = solution.outcome == pbd::reference::Outcome::ok;
-  if (solved && !options.output.empty()) write_cone_file(options.output, file.problem, solution);
+  if (solved && !options.output.empty())
+    write_cone_file(options.output, as_given ? file.problem : symmetric_problem, solution);
   if (options.json) {
     fmt::print("{}", json_text(solution_json(found)));
   } else {

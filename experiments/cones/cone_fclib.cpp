@@ -62,7 +62,8 @@ class Reader {
       refuse(name + " of another type", integers ? "integers" : "floating point numbers");
     const auto stored = static_cast<hsize_t>(std::filesystem::file_size(path_)) / H5Tget_size(type);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
-    if (count < 0 || (H5Dget_storage_size(set) > 0 && static_cast<hsize_t>(count) > 1000 * stored))
+    if (count < 0 || (count > 0 && H5Dget_storage_size(set) == 0) ||
+        static_cast<hsize_t>(count) > 1000 * stored)
       refuse(name + " of a size that the file cannot hold", "a complete file");
     std::vector<Number> all(static_cast<std::size_t>(count));
     if (count > 0 && H5Dread(set, integers ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,

@@ -34,7 +34,8 @@ bool semidefinite(const Sparse& w) {
   const double size = w.diagonal().cwiseAbs().maxCoeff();
   Sparse shift(w.rows(), w.cols());
   shift.setIdentity();
-  shift *= (rounding + asymmetry(w)) * (size > 0 ? size : 1);
+  constexpr double most_error = 0.01;  // what is more unsymmetric is so not by its digits alone
+  shift *= (rounding + std::min(asymmetry(w), most_error)) * (size > 0 ? size : 1);
   return Eigen::SimplicialLLT<Sparse>(Sparse(symmetric_part(w) + shift)).info() == Eigen::Success;
 }
 

@@ -1,5 +1,5 @@
-// Contact problems with friction on disk: FCLIB's HDF5 files (local and global) and Siconos' text (dense, or
-// blocks of 3 x 3). The format is told by the content.
+// Contact problems with friction on disk: FCLIB's HDF5 files (local and global) and Siconos' text (dense,
+// blocks, or sparse). The format is told by the content.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct ConeFile {
   pbd::reference::ConeProblem problem;  // with W as stored
   std::string form;                     // what the file was, and how it was read
   double asymmetry = 0;                 // |W - W^T| / |W| (Frobenius)
-  bool semidefinite = true;             // W's symmetric part, to 1e-10 or to its asymmetry
+  bool semidefinite = true;             // W's symmetric part, to 1e-10 and its asymmetry, 0.01 at most
 };
 
 /// Global problems are condensed: W = H^T M^-1 H, q = w + H^T M^-1 f. Throws SetupError naming the file and

@@ -1,13 +1,13 @@
 // Siconos' text: dimension, contacts, storage, rows, columns, W, q, mu, and perhaps a flag and a solution.
 //   0 dense   rows and columns again, then W column by column
-//   1 blocks  by lists of their ends and places; the numbers of a block stand column by column, but files
-//   with
-//             blocks written row by row are about
+//   1 blocks  the lists of their ends and places, and each one's numbers column by column; some files have
+//             them row by row
 //   2 sparse  what CSparse prints of triplets (origin 1) or of compressed columns (2)
 #include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -78,14 +78,15 @@ class Text {
 
   /// What may stand behind mu: a flag, and a solution of `rows` numbers, or of twice as many with velocities.
   void skip_solution(long rows) {
+    const std::string what = "what stands behind mu";
     std::string first, other;
     if (!next(first)) return;
+    number(what, first);
     long count = 1;
-    while (next(other)) ++count;
+    for (; next(other); ++count) number(what, other);
     const bool flagged = (first == "0" || first == "1") && (count - 1) % rows == 0;
-    if (!flagged && count % rows != 0) count = -count;
-    if (count < 0 || count > 2 * rows + 1)
-      refuse(fmt::format("{} numbers behind mu", std::abs(count)),
+    if ((!flagged && count % rows != 0) || count > 2 * rows + 1)
+      refuse(fmt::format("{} numbers behind mu", count),
              fmt::format("the end of the file, a flag 0 or 1, or a solution of {} or {} numbers", rows,
                          2 * rows));
   }
@@ -134,7 +135,7 @@ std::vector<int> read_ends(Text& text, int count, int rows) {
 }
 
 void read_blocks(Text& text, int rows, StoredCone& stored) {
-  const int blocks = text.integer("the number of blocks", 1, 1L << 31U);
+  const int blocks = text.integer("the number of blocks", 1, std::numeric_limits<int>::max());
   const int lines = text.integer("the number of rows of blocks", 1, rows / 3);
   text.integer("the number of columns of blocks", lines, lines);
   const std::vector<int> row_ends = read_ends(text, lines, rows), column_ends = read_ends(text, lines, rows);
@@ -154,11 +155,17 @@ void read_blocks(Text& text, int rows, StoredCone& stored) {
       const int j = column[k];
       if (std::exchange(row_of_last[j], i) == i)
         text.refuse(fmt::format("two blocks in row {} and column {}", i, j), "one");
-      const int height = row_ends[i + 1] - row_ends[i], width = column_ends[j + 1] - column_ends[j];
-      for (int l = 0; l < height * width; ++l) {
+      const long height = row_ends[i + 1] - row_ends[i], width = column_ends[j + 1] - column_ends[j];
+      if (height * width > text.characters())
+        text.refuse(fmt::format("a block of {} x {} numbers in a file of {} characters", height, width,
+                                text.characters()),
+                    "the whole problem");
+      for (long l = 0; l < height * width; ++l) {
         const double number = text.number("a block");
-        by_columns.emplace_back(row_ends[i] + l % height, column_ends[j] + l / height, number);
-        by_rows.emplace_back(row_ends[i] + l / width, column_ends[j] + l % width, number);
+        by_columns.emplace_back(row_ends[i] + static_cast<int>(l % height),
+                                column_ends[j] + static_cast<int>(l / height), number);
+        by_rows.emplace_back(row_ends[i] + static_cast<int>(l / width),
+                             column_ends[j] + static_cast<int>(l % width), number);
       }
     }
   stored.delassus.resize(rows, rows);
@@ -174,7 +181,9 @@ void read_sparse(Text& text, int rows, StoredCone& stored) {
   while (text.word("CSparse's heading") != "nnz:") continue;
   std::string number = text.word("the number of entries");
   if (!number.empty() && number.back() == ',') number.pop_back();
-  const int count = text.integer("the number of entries", number, 0, static_cast<long>(rows) * rows);
+  const int count =
+      text.integer("the number of entries", number, 0,
+                   std::min<long>(static_cast<long>(rows) * rows, std::numeric_limits<int>::max()));
   std::vector<Eigen::Triplet<double>> entries;
   if (origin == triplets) {
     for (int k = 0; k < count; ++k) {
@@ -189,7 +198,8 @@ void read_sparse(Text& text, int rows, StoredCone& stored) {
       text.expect("col");
       text.integer("a column", j, j);
       for (const char* word : {":", "locations"}) text.expect(word);
-      const int first = text.integer("a column's first entry", 0, count);
+      const auto read = static_cast<long>(entries.size());
+      const int first = text.integer("a column's first entry", read, read);
       text.expect("to");
       const int last = text.integer("a column's last entry", first - 1L, count - 1L);
       for (int k = first; k <= last; ++k) {
@@ -199,6 +209,8 @@ void read_sparse(Text& text, int rows, StoredCone& stored) {
       }
     }
   }
+  if (std::ssize(entries) != count)
+    text.refuse(fmt::format("{} entries", entries.size()), fmt::format("{}", count));
   stored.delassus.resize(rows, rows);
   stored.delassus.setFromTriplets(entries.begin(), entries.end());
   stored.form = "Siconos text, sparse";

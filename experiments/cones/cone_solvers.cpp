@@ -52,12 +52,14 @@ ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task) {
   int sweeps = 0;
   double seconds = 0;
   for (int k = 0; k < most_problems; ++k) {
-    const ConeSolution next = solver.solve({near, task.law, share * task.tolerance, task.most_sweeps});
+    const ConeSolution next =
+        solver.solve({near, task.law, share * task.tolerance, task.most_sweeps - sweeps});
     sweeps += next.iterations;
     seconds += next.seconds;
     found.impulse = next.impulse;
+    found.reason.clear();
     certify(task.problem, task.law, task.tolerance, found);
-    if (found.outcome == Outcome::ok || next.outcome != Outcome::ok) break;
+    if (found.outcome == Outcome::ok || (!solver.judge && sweeps >= task.most_sweeps)) break;
     near.free_velocity = task.problem.free_velocity + rest * found.impulse;
   }
   found.iterations = sweeps;

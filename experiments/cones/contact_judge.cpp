@@ -35,7 +35,11 @@ ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, con
       found.reason = solved.reason;
       break;
     }
-    if (found.residual <= settled) found.status = "ok", found.reason.clear();
+    if (!(found.residual <= settled)) continue;
+    if (step.widen(v))
+      found.residual = std::numeric_limits<double>::infinity();
+    else
+      found.status = "ok", found.reason.clear();
   }
   found.end = step.end(v);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -70,17 +70,26 @@ StepBegin StepRows::step_begin(const Configuration& start) const {
           .warm_start = false};
 }
 
+Configuration StepRows::reached(const Points& v) {
+  x_ = map_.x0 + map_.d * v;
+  bodies_.place(x_, poses_);
+  return {x_, poses_, time_ + map_.h};
+}
+
 void StepRows::linearise(const Points& v) {
-  const Points x = map_.x0 + map_.d * v;
-  const Configuration begun = start();
-  const StepBegin begin = step_begin(begun);
-  bodies_.place(x, poses_);
-  const Configuration at{x, poses_, time_ + map_.h};
-  for (Slot& slot : slots_) slot.source->widen(begin, at, slot.blocks(rows_));
+  const Configuration at = reached(v);
   clear_impulses(rows_);
   RowResidual unused;
   for (Slot& slot : slots_)
     slot.source->linearise({map_, at, nullptr, v, rows_.inverse_mass, 1}, slot.blocks(rows_), unused);
+}
+
+bool StepRows::widen(const Points& v) {
+  const Configuration at = reached(v), begun = start();
+  const StepBegin begin = step_begin(begun);
+  bool any = false;
+  for (Slot& slot : slots_) any |= slot.source->widen(begin, at, slot.blocks(rows_)) != Widened::no;
+  return any;
 }
 
 State StepRows::end(const Points& v) const {

@@ -19,6 +19,9 @@ class StepRows {
   /// Linearises them where velocities v (m/s, of nodes and then of bodies' rotations) lead, impulses zero.
   void linearise(const pbd::Points& v);
 
+  /// True if the solution v asks for other rows: contacts have been found anew.
+  bool widen(const pbd::Points& v);
+
   const pbd::Rows& rows() const { return rows_; }
   const pbd::Points& v_free() const { return map_.v_free; }
 
@@ -28,6 +31,7 @@ class StepRows {
  private:
   pbd::Configuration start() const { return {map_.x0, start_poses_, time_}; }
   pbd::StepBegin step_begin(const pbd::Configuration& start) const;
+  pbd::Configuration reached(const pbd::Points& v);
 
   const pbd::Scene& scene_;
   pbd::Rows rows_;
@@ -36,7 +40,7 @@ class StepRows {
   std::vector<pbd::Pose> start_poses_, poses_;
   pbd::StepMap map_;
   pbd::StepCoefficients coefficients_;
-  pbd::Points start_v_, no_acceleration_;
+  pbd::Points start_v_, no_acceleration_, x_;
   double time_;
 };
 

@@ -52,6 +52,9 @@ double round_radius(const Shape& shape) {
   return std::visit(
       []<class S>(const S& own) {
         if constexpr (requires { own.radius; }) return own.radius;
+        if constexpr (requires { own.size.minCoeff(); }) return own.size.minCoeff() / 2;
+        if constexpr (requires { own.surface; })
+          return (own.surface.x.rowwise().maxCoeff() - own.surface.x.rowwise().minCoeff()).minCoeff() / 2;
         return Radius{}(own);
       },
       shape);

@@ -11,7 +11,7 @@ namespace pbd {
 /// space.
 double bounding_radius(const Shape& shape);
 
-/// Radius of what of the shape is round (m); of one that is not its bounding radius.
+/// Radius of what is round of the shape; of a polyhedron half the least side of its box (m).
 double round_radius(const Shape& shape);
 
 /// A box along the world's axes that holds the shape; infinite for a half space.

@@ -69,7 +69,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,
                       Feature::face, cut, writer);
   else if (nearest_of_mesh(b, a.centre, writer.reach.margin, place) && place.distance <= 0)
-    write_deepest_rim(a, place.nearest, place.normal.normalized(), Feature::face, -1, writer);
+    write_deepest_rim(a, place.nearest, place.normal.normalized(), Feature::axis, 0, writer);  // of no face
 }
 
 }  // namespace pbd

@@ -117,7 +117,10 @@ struct Manifold {
   void write_node_of_b(const Corner& corner, double gap) const {
     const Vec3& node = b.node(corner.j);
     if (facing < 0 || -a.face_normal(facing).dot(normal) < same_normal || !a.above(facing, node, slack))
-      return writer.write(on_b(corner.x), writer.key(Feature::face, facing, Feature::node, corner.j), gap);
+      return writer.write(on_b(corner.x),
+                          writer.key(facing < 0 ? Feature::edge : Feature::face, std::max(facing, 0),
+                                     Feature::node, corner.j),
+                          gap);
     const double own_gap = a.face_normal(facing).dot(node) - a.offset[facing];
     const ContactWriter exchanged = writer.exchanged();
     exchanged.write(on_face(node, b.radius, a.node(a.corner(facing, 0)), a.face_normal(facing), a.radius),

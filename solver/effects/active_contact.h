@@ -75,6 +75,16 @@ inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
                  : Vec3((found.point_a + found.point_b) / 2);
 }
 
+/// Largest coordinate of a contact, m.
+inline double largest_coordinate(const ActiveContact& contact, const Touching& found,
+                                 const Configuration& at) {
+  double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
+  if (contact.of_surfaces) return most;
+  for (const int side : {0, 1})
+    most = std::max(most, frame_of(contact, side, at).origin.cwiseAbs().maxCoeff());
+  return most;
+}
+
 /// Gap and normal of a contact, and its row's J.
 template <class Block>
 Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian) {

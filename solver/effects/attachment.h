@@ -1,4 +1,5 @@
-// c = x_node - x - s, s = R p; J = [-1, [s]x R/r, 1].
+// c = x_node - x - s, s = R p; J = [-1, [s]x R/r, 1]. Damped ones have the same vector in the body's frame,
+// R^T c, whose rate is none where the node turns with the body.
 #pragma once
 
 #include "effects/joint_parts.h"

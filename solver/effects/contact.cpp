@@ -1,6 +1,7 @@
 #include "effects/contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "effects/contact_stiffness.h"
 #include "rows/row_operations.h"
@@ -46,15 +47,6 @@ void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts)
   }
 }
 
-/// Largest coordinate of a contact, m.
-double largest(const ActiveContact& contact, const Touching& found, const Configuration& at) {
-  double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
-  if (contact.of_surfaces) return most;
-  for (const int side : {0, 1})
-    most = std::max(most, frame_of(contact, side, at).origin.cwiseAbs().maxCoeff());
-  return most;
-}
-
 /// One contact's rows; adds to the residual.
 template <class Block>
 void linearise_contact(const RowPlace& place, const Points& start_v, const ActiveContact& contact,
@@ -71,7 +63,7 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, place.inverse_mass, i);
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
   sums.squared += squared_residual(block, i, r);
-  const double size = value_rounding * largest(contact, found, place.at) / place.map.d;
+  const double size = value_rounding * largest_coordinate(contact, found, place.at) / place.map.d;
   sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
@@ -101,6 +93,7 @@ void ContactRows::allocate(bool, BlockList& blocks) {
 bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   if (blocks.empty()) return false;
   start_v_ = begin.v;
+  recovering_ = begin.after_miss || (begin.continued && recovering_);
   search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.map.v_free, begin.inverse_mass);
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
@@ -115,16 +108,18 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   return fill(begin, blocks) ? Widened::others : Widened::alike;
 }
 
-bool ContactRows::collide(ConstBlockSpan blocks) {
-  constexpr double pushed = 1e-6;  // of the closing speed: less than that is the solver's tolerance
+bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accuracy) {
+  constexpr double touching = 1e-6;  // of the closing speed: what is left of the gap, a second
   bool any = false;
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       ActiveContact& contact = contacts[i];
-      const double gained = block.impulse[i][0] / block.inverse_diagonal[i](0, 0);
-      if (contact.restitution > 0 || !(contact.closing > 0 && gained > pushed * contact.closing)) continue;
+      if (contact.restitution > 0 || !(contact.closing > 0 && contact.law.restitution > 0)) continue;
+      const double open = block.residual(v, i, block.impulse[i])[0];
+      const double unsolved = accuracy / std::sqrt(block.inverse_diagonal[i](0, 0));
+      if (!(open <= std::max(touching * contact.closing, unsolved))) continue;
       contact.restitution = contact.law.restitution;
-      any |= contact.restitution > 0;
+      any = true;
     }
   });
   return any;
@@ -208,13 +203,19 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];  // at x0
   contact.target = contact.late ? 0 : std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  if (recovering_ && !contact.late && gap < contact.target) {
+    constexpr double share = 0.1;
+    const double forced = std::abs((jacobian * block.gather(shifts.forced, i))[0]);
+    contact.target = std::min(contact.target, (1 - share) * gap + forced);
+  }
 
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   contact.restitution = contact.closing > 0 && ahead < 0 ? contact.law.restitution : 0.0;
   const double share = 1 / (1 + contact.law.damping / begin.map.d);
   contact.compliance = share * contact.law.compliance;
-  contact.offset = (1 - share) * (std::min(from, 0.0) - contact.target);  // the damper is met with the shape
+  // The damper is met with the shape; what is seen late was apart.
+  contact.offset = contact.late ? 0 : (1 - share) * (std::min(from, 0.0) - contact.target);
 
   const Seed wanted{contact.collider, contact.features.key, {}};
   const auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), wanted,
@@ -227,8 +228,9 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
 /// True if the rows connect other columns than before.
 bool ContactRows::fill(const StepBegin& begin, BlockSpan blocks) {
   search_.find(begin.at, contacts_);
-  const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x};
-  bool others = false;
+  const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x,
+                      begin.map.d * (begin.map.v_free - begin.v)};
+  bool others = false, apart = true;
   with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
     std::vector<typename Block::Shape::Nodes> before;
     before.swap(block.node);
@@ -237,9 +239,11 @@ bool ContactRows::fill(const StepBegin& begin, BlockSpan blocks) {
       block.node[i] = columns_of_contact<Block>(contacts[i], begin.bodies);
       if (block.frictional()) block.friction[i] = contacts[i].law.friction;
       begin_contact(begin, shifts, contacts[i], block, i);
+      apart = apart && contacts[i].target == 0;
     }
     others |= block.node != before;
   });
+  if (apart) recovering_ = false;
   return others;
 }
 

@@ -1,16 +1,17 @@
 // Rows of contacts: one source among others. Which contacts a step has is found where it begins
 // (contact_search.h); gap and normal n follow the iterates. Rows of a contact, with the velocities v of the
 // map x(v) (integrators.h):
-//   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l that where the step
-//   begins
-//               and g_0 that at x0: what overlaps parts at `recovery` at most, and gets no deeper. Soft ones
-//               with Sigma = A/(h d), and offset by a damper that begins where the shapes touch;
-//               or, where shapes collide with restitution e in this step, n . (u(v) + e u(v_l)), u the
-//               relative velocity of what touches: with newmark and alpha = 1/2 energy is kept for e = 1
+//   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l and g_0 those at the
+//   step's
+//               begin and at x0: what overlaps parts at `recovery` at most, and gets no deeper; Sigma = A/(h
+//               d); a damper's offset, which begins where the shapes touch; or, where shapes collide with
+//               restitution e in this step, n . (u(v) + e u(v_l)), u the relative velocity of what touches:
+//               with newmark and alpha = 1/2 energy is kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
-// Limits: features stay those of the step's beginning, so that a face goes on as its plane within a step.
+// Limits: features stay those of the step's beginning, and of its end where something overlaps there, so that
+// a face goes on as its plane within a step.
 // Impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they turn
 // nothing together. Nodes do not touch nodes. Deformable surfaces touch by nodes over triangles and edges
 // that cross, where the nearest points lie on them as the step begins; the side is the one on which it
@@ -19,9 +20,14 @@
 // crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
 // converge.
 //
+// What a missed step leaves overlapping parts by a tenth of that a step, and what forces move in one, until
+// nothing overlaps: to part at once would throw it, by all the speed that has gone into the overlap.
+//
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
-// meets, or if it is pushed in the solved step: such are let collide, and the step is solved again, until
-// there are no more. So what collides depends on solved steps alone, not on a solver's way to them.
+// meets, or if it touches in the solved step: such are let collide, and the step is solved again, until there
+// are no more. So what collides depends on the velocities that solve a step, not on a solver's way to them,
+// nor on how it shares impulses among contacts. A step that is missed lets nothing collide but by its free
+// motion.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +45,7 @@ class ContactRows final : public Source {
   void allocate(bool hard_alone, BlockList& blocks) override;
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
-  bool collide(ConstBlockSpan blocks) override;
+  bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
@@ -55,8 +61,8 @@ class ContactRows final : public Source {
 
     auto name() const { return std::tie(collider, key); }
   };
-  struct Shifts {  // m, from the step's start to the free motion's end and to x0
-    Points free, own;
+  struct Shifts {  // m, from the step's start to the free motion's end, to x0, and by the step's forces
+    Points free, own, forced;
   };
 
   void keep_impulses(ConstBlockSpan blocks);
@@ -70,7 +76,8 @@ class ContactRows final : public Source {
   ContactSearch search_;
   ContactLists contacts_;
   std::vector<Seed> seeds_;
-  Points start_v_;  // m/s, where the step begins
+  Points start_v_;           // m/s, where the step begins
+  bool recovering_ = false;  // from what missed steps have left overlapping
 };
 
 }  // namespace pbd

@@ -135,16 +135,6 @@ double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
   return std::min(first, second);
 }
 
-namespace {
-
-void add(const ActiveContact& contact, ContactLists& contacts) {
-  const std::size_t group =
-      (contact.node_side < 0 ? bodies_rough : nodes_rough) + (contact.law.friction > 0 ? 0 : 1);
-  contacts[group].push_back(contact);
-}
-
-}  // namespace
-
 void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
@@ -152,7 +142,18 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   found_.clear();
   const Reach reach{effect_.margin + travel, one.turn + two.turn};
   generate(*one.shape, one.frame, *two.shape, two.frame, reach, scratch_, found_);
-  for (const ContactPoint& point : found_) add(active(point, first, second), contacts);
+  const auto add = [&](const ActiveContact& contact) {
+    const std::size_t group = contact.node_side < 0 ? bodies_rough : nodes_rough;
+    contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
+  };
+  for (const ContactPoint& point : found_) add(active(point, first, second));
+  for (const ActiveContact& contact : late_) {
+    const auto [one_of, other] = std::minmax(contact.collider[0], contact.collider[1]);
+    const bool has = std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
+      return point.key == contact.features.key;
+    });
+    if (one_of == first && other == second && !has) add(contact);
+  }
   if (travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
     far_.push_back({{first, second}});
 }
@@ -164,7 +165,9 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = travel(motion, moved);
-    motion.turn = motion.radius > 0 ? std::max(moved.turn, motion.travel / motion.radius) : moved.turn;
+    motion.turn = moved.turn;
+    if (!motion.is_node && motion.radius > 0)
+      motion.turn = std::max(moved.turn, motion.travel / motion.radius);
   }
   if (!surfaces_) return;
   travel_.assign(bodies.nodes(), 0.0);
@@ -200,7 +203,6 @@ void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
   for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, contacts);
-  for (const ActiveContact& contact : late_) add(contact, contacts);
   if (surfaces_) add_surfaces(start.x, contacts);
 }
 
@@ -208,7 +210,7 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
                                const ContactLists& contacts) {
   if (far_.empty()) return false;
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
-  std::sort(far_.begin(), far_.end(), in_order);
+  for (Pair& pair : far_) pair.least_start = pair.least_end = infinity;
   const auto of_pair = [](const ActiveContact& contact) {
     return std::array{std::min(contact.collider[0], contact.collider[1]),
                       std::max(contact.collider[0], contact.collider[1])};
@@ -232,7 +234,7 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
     if (pair.least_start < -slack) continue;  // it overlaps from the start, and parts as its contacts tell
     found_.clear();
     const Frame at_first = placed_frame(first, end), at_second = placed_frame(second, end);
-    generate(*one.shape, at_first, *two.shape, at_second, Reach{0}, scratch_, found_);
+    generate(*one.shape, at_first, *two.shape, at_second, Reach{slack}, scratch_, found_);
     for (const ContactPoint& point : found_) {
       const bool swapped = point.swapped;
       const double gap = touching(point, swapped ? at_second : at_first, swapped ? at_first : at_second).gap;

@@ -1,4 +1,5 @@
-// c = x_b + s_b - x_a - s_a, s = R p; J = [-1, [s_a]x R_a/r_a, 1, -[s_b]x R_b/r_b].
+// c = x_b + s_b - x_a - s_a, s = R p; J = [-1, [s_a]x R_a/r_a, 1, -[s_b]x R_b/r_b]. Damped joints have the
+// same vector in body a's frame, R_a^T c, whose rate is none where both bodies turn as one.
 #pragma once
 
 #include "effects/joint_parts.h"

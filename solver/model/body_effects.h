@@ -34,7 +34,7 @@ struct Gyroscopic {
 /// at most t N m.
 using ForceBounds = std::array<double, 2>;
 
-/// c = y_b - y_a (3 rows, m). Compliance in m/N.
+/// c = y_b - y_a (3 rows, m), in body a's frame if damped. Compliance in m/N.
 struct PointJoint {
   static constexpr std::string_view name = "point_joint";
   std::vector<std::array<int, 2>> body;
@@ -123,7 +123,7 @@ struct SlideJoint {
   std::vector<ForceBounds> bounds{};  // empty: none
 };
 
-/// c = x_node - y (3 rows, m): a node held by a point of a rigid body.
+/// c = x_node - y (3 rows, m), in the body's frame if damped: a node held by a point of a rigid body.
 struct Attachment {
   static constexpr std::string_view name = "attachment";
   std::vector<int> body;

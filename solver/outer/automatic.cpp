@@ -36,6 +36,7 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
 }
 
 void Automatic::forget() {
+  slow_changes_ = 0;
   proximal_.forget();
   if (quasi_newton_) quasi_newton_->forget();
 }

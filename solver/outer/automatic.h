@@ -15,6 +15,8 @@ namespace pbd {
 
 class Automatic {
  public:
+  static constexpr bool solves_step = true;
+
   explicit Automatic(StepSystem& system);
 
   bool on_potential() const { return quasi_newton_.has_value(); }

@@ -41,12 +41,14 @@ struct Outer {
   OuterIteration (*make)(StepSystem& system);
 };
 
-constexpr auto outers = std::to_array<Outer>({{"auto", true, make<Automatic>},
-                                              {"plain", true, make<Plain>},
-                                              {"proximal", true, make<Proximal>},
-                                              {"quasi_newton", true, make<QuasiNewton>},
-                                              {"incremental", false, make<Incremental>},
-                                              {"frozen", false, make<Frozen>}});
+template <class Kind>
+constexpr Outer named(std::string_view name) {
+  return {name, Kind::solves_step, make<Kind>};
+}
+
+constexpr auto outers = std::to_array<Outer>({named<Automatic>("auto"), named<Plain>("plain"),
+                                              named<Proximal>("proximal"), named<QuasiNewton>("quasi_newton"),
+                                              named<Incremental>("incremental"), named<Frozen>("frozen")});
 static_assert(outers.size() == std::variant_size_v<OuterIteration>, "an outer iteration without its name");
 
 }  // namespace
@@ -137,7 +139,7 @@ bool on_potential(const OuterIteration& outer) {
 }
 
 bool solves_step(const OuterIteration& outer) {
-  return !std::holds_alternative<Incremental>(outer) && !std::holds_alternative<Frozen>(outer);
+  return std::visit([]<class Kind>(const Kind&) { return Kind::solves_step; }, outer);
 }
 
 }  // namespace pbd

@@ -24,12 +24,15 @@
 namespace pbd {
 
 struct Plain {
+  static constexpr bool solves_step = true;
   void iterate(StepSystem& system, Progress& progress);
 };
 struct Incremental {
+  static constexpr bool solves_step = false;
   void iterate(StepSystem& system, Progress& progress);
 };
 struct Frozen {
+  static constexpr bool solves_step = false;
   Points rest{};  // velocities zero, where x = x0
 
   void iterate(StepSystem& system, Progress& progress);

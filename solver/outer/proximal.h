@@ -14,6 +14,8 @@ namespace pbd {
 
 class Proximal {
  public:
+  static constexpr bool solves_step = true;
+
   explicit Proximal(const StepSystem& system)
       : acceleration_(system.problem.method.memory), components_(system) {}
 

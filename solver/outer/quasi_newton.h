@@ -21,6 +21,8 @@ namespace pbd {
 
 class QuasiNewton {
  public:
+  static constexpr bool solves_step = true;
+
   /// Marks the slots that it eliminates. Throws SetupError where there is no potential.
   explicit QuasiNewton(StepSystem& system);
 

@@ -48,6 +48,8 @@ struct StepBegin {
   const Points& a;                      // m/s^2, that the integrator carries on, if it does
   const std::vector<double>& inverse_mass;
   bool warm_start;
+  bool continued = false;   // from where the last step ended
+  bool after_miss = false;  // the last step was not solved
 };
 
 /// Where rows are taken. `directions` is where J is, if not at x. What no impulse can move weighs with
@@ -159,9 +161,9 @@ class Source {
 
   // Of contacts alone.
 
-  /// Lets what approached and is pushed in the solved step, but was not to collide, collide: true if there is
-  /// any.
-  virtual bool collide(ConstBlockSpan) { return false; }
+  /// Lets what approached and touches in the step that is solved by v (to `accuracy`, sqrt(J)), but was not
+  /// to collide, collide: true if there is any.
+  virtual bool collide(ConstBlockSpan, const Points& /*v*/, double /*accuracy*/) { return false; }
 
   /// Finds rows anew where the solved step went farther than was thought of, or where something overlaps that
   /// no row tells of; they are to be linearised again then.

@@ -10,6 +10,11 @@ namespace pbd {
 bool History::goes_on(const StepSystem& system, const State& state) const {
   if (!(h_ > 0)) return false;
   if (system.problem.bodies.count() == 0) return state.x == system.at.x && state.v == system.at.v;
+  return is_where_it_ended(state);
+}
+
+bool History::is_where_it_ended(const State& state) const {
+  if (ended_.x.cols() != state.x.cols()) return false;
   const auto same = [](const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
     return a.coeffs() == b.coeffs();
   };
@@ -68,6 +73,7 @@ void History::set_map(double h, bool goes_on, Problem& problem) {
 void History::begin_step(double h, const State& state, StepSystem& system) {
   Problem& problem = system.problem;
   const bool goes_on = this->goes_on(system, state);
+  continued_ = is_where_it_ended(state);
   if (goes_on && integrator_->keeps == Keeps::states) {  // a body's arc, from where it begins now
     const int count = problem.bodies.count();
     x_.rightCols(count) = -problem.coefficients.extension * system.at.x.rightCols(count);
@@ -102,7 +108,9 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .v = problem.start_v,
           .a = a_,
           .inverse_mass = problem.inverse_mass,
-          .warm_start = problem.method.warm_start};
+          .warm_start = problem.method.warm_start,
+          .continued = continued_,
+          .after_miss = continued_ && missed_};
 }
 
 bool History::widen(StepSystem& system) const {
@@ -134,7 +142,8 @@ bool History::begin_sources(StepSystem& system) {
   return others;
 }
 
-void History::end_step(double h, const StepSystem& system, State& state) {
+void History::end_step(double h, const StepSystem& system, bool missed, State& state) {
+  missed_ = missed;
   const Problem& problem = system.problem;
   const double extension = problem.coefficients.extension;
   if (extension == 1) {
@@ -146,7 +155,7 @@ void History::end_step(double h, const StepSystem& system, State& state) {
   }
   state.time += h;
   if (integrator_->keeps != Keeps::nothing) h_ = h;
-  if (problem.bodies.count() > 0) ended_ = state;
+  if (problem.bodies.count() > 0 || system.rows.contacts) ended_ = state;
 }
 
 }  // namespace pbd

@@ -18,16 +18,17 @@ class History {
   /// Lets sources find rows anew that the solved iterate calls for: true if one did, perhaps the same rows.
   bool widen(StepSystem& system) const;
 
-  /// Carries the solved map on to the step's end.
-  void end_step(double h, const StepSystem& system, State& state);
+  /// Carries the map on to the step's end; it may have been missed.
+  void end_step(double h, const StepSystem& system, bool missed, State& state);
 
   /// The next step is a start.
-  void forget() { h_ = 0; }
+  void forget() { h_ = 0, missed_ = false, ended_ = {}; }
 
   const Integrator& integrator() const { return *integrator_; }
 
  private:
   bool goes_on(const StepSystem& system, const State& state) const;
+  bool is_where_it_ended(const State& state) const;
   void carry_on(double h, bool goes_on, StepSystem& system);
   void set_map(double h, bool goes_on, Problem& problem);
   bool begin_sources(StepSystem& system);
@@ -36,6 +37,8 @@ class History {
 
   const Integrator* integrator_;
   double h_ = 0;               // s, of the last step; 0 if there is none
+  bool missed_ = false;        // the last step
+  bool continued_ = false;     // from where it ended
   Points x_, v_;               // where the last step began
   Points q_, a_;               // m/s^2, as in integrators.h; a_ has a meaning where a_v > 0
   Points acceleration_;        // m/s^2, by given forces
@@ -43,7 +46,7 @@ class History {
   Points ahead_x_, behind_x_;  // m, d further and back along v, where an effect is damped
   std::vector<Pose> ahead_poses_, behind_poses_;
   Points end_x_, end_v_;
-  State ended_;  // where the last step ended, kept where there are rigid bodies
+  State ended_;  // where the last step ended, kept where there are rigid bodies or contacts
 };
 
 }  // namespace pbd

@@ -45,7 +45,7 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
     report.reason = "";
   } else if (progress.residual() > blown_up * levels.first) {
     report.status = Status::diverged;
-    report.reason = "residual grew beyond 1e8 times its start";
+    report.reason = "residual grew beyond 1e8 times its start and the scale there";
   } else {
     report.status = Status::not_converged;
     report.reason = "outer iterations spent";
@@ -63,9 +63,9 @@ void keep_if_best(const StepSystem& system, const Progress& progress, BestIterat
 }
 
 /// True if something collides that was not to.
-bool collide(StepSystem& system) {
+bool collide(StepSystem& system, double accuracy) {
   bool any = false;
-  for (Slot& slot : system.slots) any |= slot.source->collide(slot.view(system.rows));
+  for (Slot& slot : system.slots) any |= slot.source->collide(slot.view(system.rows), system.at.v, accuracy);
   return any;
 }
 
@@ -83,7 +83,7 @@ struct StepRun {
  private:
   bool settle_here(bool stalled);
   bool stalls();
-  bool goes_on();
+  bool asks_for_other_rows();
   void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
 };
 
@@ -127,19 +127,21 @@ bool StepRun::settle_here(bool stalled) {
   return false;
 }
 
-/// True if the solved iterate asks for other rows.
-bool StepRun::goes_on() {
-  const bool widened = w.history.widen(w.system);
-  return collide(w.system) || widened;
+bool StepRun::asks_for_other_rows() {
+  return w.history.widen(w.system) || collide(w.system, w.method.tolerance * progress.scale);
 }
 
 void StepRun::solve(const Observer& observer) {
   StepSystem& system = w.system;
   Points& previous = w.previous;
   previous = system.at.v;
+  constexpr int most_anew = 100;  // more than contacts of fast shapes have needed by far
+  int solved_anew = 0;
+  bool begun = true;  // with these rows
   for (;; ++progress.outer_iterations) {
     measure_here();
-    if (progress.outer_iterations == 0) levels.first = std::max(progress.residual(), progress.scale);
+    if (begun) levels.first = std::max({levels.first, progress.residual(), progress.scale});
+    begun = false;
     if (observer)
       observer({progress.outer_iterations, progress.sweeps, progress.row_updates, progress.primal,
                 progress.dual, progress.scale, system.at.x, system.at.v});
@@ -147,14 +149,18 @@ void StepRun::solve(const Observer& observer) {
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
     const bool stalled = stalls();
-    const bool ended = finished(w.method, levels, progress, report);
-    if (ended && (report.status != Status::ok || !goes_on())) break;
+    const bool ended = finished(w.method, levels, progress, report) || settle_here(stalled);
+    if (ended && (report.status != Status::ok || !asks_for_other_rows())) break;
     if (ended) {
       forget(w.outer);
-      w.best.residual = infinity;
-      continue;
+      w.best.residual = levels.last_residual = infinity;
+      begun = true;
+      if (++solved_anew <= most_anew) continue;
+      measure_here();
+      report.status = Status::not_converged;
+      report.reason = "each solution calls for other rows";
+      break;
     }
-    if (settle_here(stalled)) break;
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;
@@ -184,7 +190,7 @@ void StepRun::end(double h, State& state) {
     w.contraction.update(system, on_potential(w.outer), progress);
     report.contraction = w.contraction.value();
     pbd::end(w.outer, system);
-    w.history.end_step(h, system, state);
+    w.history.end_step(h, system, report.status != Status::ok && solves_step(w.outer), state);
   }
   for (Slot& slot : system.slots) slot.count_rows(system.rows);
   report.outer_iterations = progress.outer_iterations;

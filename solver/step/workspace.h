@@ -8,7 +8,7 @@
 
 namespace pbd {
 
-/// The iterate of the smallest residual from the tenth on. A step that is easy ends before any is kept.
+/// The iterate of the smallest residual.
 struct BestIterate {
   double residual = infinity;  // sqrt(J)
   Points v;

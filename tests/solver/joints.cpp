@@ -186,8 +186,12 @@ template <class... E>
 void check_joints(const std::variant<E...>*) {
   const auto check = []<class Each>(const Each* none) {
     if constexpr (RowEffect<Each> && BodyEffect<Each>) {
-      check_joint_jacobian(joint_sample<Each>());
-      check_bound(joint_sample<Each>());
+      Each joint = joint_sample<Each>();
+      for (const bool damped : {false, true}) {
+        if (damped) joint.damping = {0.1};
+        check_joint_jacobian(joint);
+        check_bound(joint);
+      }
     } else {
       static_cast<void>(none);
     }

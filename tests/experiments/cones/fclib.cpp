@@ -6,6 +6,7 @@ extern "C" {
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "cones/cone_file.h"
 #include "planted_cones.h"
@@ -137,5 +138,6 @@ TEST_CASE("FCLIB reads what is written") {
   CHECK(Eigen::Map<VectorXd>(stored->r, rows) == p.impulse);
   CHECK(Eigen::Map<VectorXd>(stored->u, rows) == p.velocity);
   fclib_delete_local(problem);
+  std::free(problem);  // that deletes what it holds
   fclib_delete_solutions(stored, 1);
 }

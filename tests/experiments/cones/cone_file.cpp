@@ -12,6 +12,7 @@
 #include "mistakes.h"
 #include "planted_cones.h"
 #include "program.h"
+#include "siconos_text.h"
 
 using namespace pbdcheck;
 using namespace pbdcheck::test;
@@ -23,51 +24,6 @@ namespace {
 
 PlantedCone stack_problem() {
   return planted_families()[5].draw(FrictionLaw::coulomb, 2);
-}
-
-std::string text(const MatrixXd& numbers) {  // column by column
-  std::string all;
-  for (const double value : numbers.reshaped()) all += fmt::format("{:.17g} ", value);
-  return all + "\n";
-}
-
-std::string dense(const MatrixXd& w, const VectorXd& q, const VectorXd& mu) {
-  return fmt::format("3\n{0}\n0\n{1}\n{1}\n{1}\t{1}\n", mu.size(), w.rows()) + text(w) + text(q) + text(mu);
-}
-
-/// As Siconos 4.4 and CSparse 3.2 print it.
-std::string sparse(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_columns) {
-  const auto rows = w.rows();
-  std::string file =
-      fmt::format("3\n{0}\n2\n{1}\n{1}\n{2}\nCSparse Version 3.2.0, Sept 12, 2017.  Copyright (c) ",
-                  mu.size(), rows, by_columns ? 2 : 1);
-  file += fmt::format("Timothy A. Davis\n{0}{1}-by-{1}, nzmax: {2} nnz: {2}",
-                      by_columns ? "" : "triplet: ", rows, rows * rows);
-  file += by_columns ? ", 1-norm: 3.5\n" : "\n";
-  for (Eigen::Index j = 0; j < rows; ++j) {
-    if (by_columns) file += fmt::format("    col {} : locations {} to {}\n", j, j * rows, (j + 1) * rows - 1);
-    for (Eigen::Index i = 0; i < rows; ++i)
-      file += by_columns ? fmt::format("      {} : {:.17g}\n", i, w(i, j))
-                         : fmt::format("    {} {} : {:.17g}\n", i, j, w(i, j));
-  }
-  return file + text(q) + text(mu);
-}
-
-/// All blocks of `size` rows, each written column by column, or row by row.
-std::string blocks(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_rows,
-                   Eigen::Index size = 3) {
-  const auto n = w.rows() / size;
-  std::string file = fmt::format("3\n{0}\n1\n{1}\n{1}\n{2}\n{3}\n{3}\n", mu.size(), w.rows(), n * n, n);
-  for (int side = 0; side < 2; ++side)
-    for (Eigen::Index i = 1; i <= n; ++i) file += fmt::format("{} ", size * i);
-  file += fmt::format("\n{}\n{}\n", n + 1, n * n);
-  for (Eigen::Index i = 0; i <= n; ++i) file += fmt::format("{} ", i * n);
-  for (Eigen::Index k = 0; k < n * n; ++k) file += fmt::format("{} ", k % n);
-  for (Eigen::Index k = 0; k < n * n; ++k) {
-    const MatrixXd block = w.block(size * (k / n), size * (k % n), size, size);
-    file += fmt::format("{}\n", k) + text(by_rows ? MatrixXd(block.transpose()) : block);
-  }
-  return file + text(q) + text(mu);
 }
 
 void check_same(const ConeProblem& read, const ConeProblem& written) {

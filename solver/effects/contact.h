@@ -1,24 +1,22 @@
 // Rows of contacts: one source among others. Which contacts a step has is found where it begins
 // (contact_search.h); gap and normal n follow the iterates. Rows of a contact, with the velocities v of the
 // map x(v) (integrators.h):
-//   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l and g_0 those at the
-//   step's
-//               begin and at x0: what overlaps parts at `recovery` at most, and gets no deeper; Sigma = A/(h
-//               d); a damper's offset, which begins where the shapes touch; or, where shapes collide with
-//               restitution e in this step, n . (u(v) + e u(v_l)), u the relative velocity of what touches:
-//               with newmark and alpha = 1/2 energy is kept for e = 1
+//   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l where the step begins,
+//               g_0 at x0: overlaps part at `recovery` at most and get no deeper. Sigma = A/(h d); a damper
+//               is met where the shapes touch. Or, where shapes collide with restitution e in this step,
+//               n . (u(v) + e u(v_l)), u the relative velocity of what touches: with newmark and alpha = 1/2
+//               energy is kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
 // Limits: features stay those of the step's beginning, and of its end where something overlaps there, so that
-// a face goes on as its plane within a step.
-// Impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they turn
-// nothing together. Nodes do not touch nodes. Deformable surfaces touch by nodes over triangles and edges
-// that cross, where the nearest points lie on them as the step begins; the side is the one on which it
-// begins. What overlaps from the start stays on the wrong side; a node that comes over an edge or a corner
-// within a step is held by whatever else is near. `thickness` should be well below the shortest edge; a
-// crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
-// converge.
+// a face goes on as its plane within a step. Impulses act at a step's end alone, under newmark, too, on both
+// bodies at one place, so that they turn nothing together. Nodes do not touch nodes. Deformable surfaces
+// touch by nodes over triangles and edges that cross, where the nearest points lie on them as the step
+// begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side; a
+// node that comes over an edge or a corner within a step is held by whatever else is near. `thickness` should
+// be well below the shortest edge; a crease so sharp that its triangles are nearer than that parts them by
+// force, and such steps may not converge.
 //
 // What a missed step leaves overlapping parts by a tenth of that a step, and what forces move in one, until
 // nothing overlaps: to part at once would throw it, by all the speed that has gone into the overlap.

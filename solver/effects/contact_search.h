@@ -5,16 +5,16 @@
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
 // chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel, and
 // what is generated is every feature whose gap is less. A half space has no r: its travel is that of its
-// points within the other's reach. Which features lie lowest changes as bodies turn: those of
-// meshes are told by how much; other shapes write all corners of the faces that meet. A body that is stopped
+// points within the other's reach. Which features lie lowest changes as bodies turn: those of meshes are
+// told by how much; other shapes write all corners of the faces that meet. A body that is stopped
 // on one side turns although it goes no farther: it is expected to turn by its travel over r at least.
 //
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
 // in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
 // step ends, and what overlaps there by more joins the step's contacts; not where they overlap from the
-// start. Of polyhedra r is half their least side: no bound, but what 30000 random steps of each pair of
-// shapes hold to (tests/solver/contact_motion.cpp).
+// start. Of polyhedra r is half their least side, which is no bound but what random steps hold to
+// (tests/solver/contact_motion.cpp).
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ struct ActiveContact {
   double nearest = 0;              // m, smallest gap of its pair
   double target = 0;               // m, the gap aimed at
   double restitution = 0;          // e where the shapes collide in this step, else 0
-  double closing = 0;              // m/s, at which they approach each other where it begins
+  double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
   bool late = false;               // seen where a solved iterate ended
   ContactLaw law;                  // of its materials
   double offset = 0;               // m, of the gap by damping

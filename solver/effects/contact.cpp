@@ -28,10 +28,13 @@ typename Block::Value rates(const ActiveContact& contact, const typename Block::
                             const typename Block::Velocities& v) {
   typename Block::Value rate = jacobian * v;
   const double apart = (gap - contact.target - contact.offset) / map.d;
-  if (contact.restitution > 0)
+  if (contact.restitution > 0) {
     rate[0] += contact.restitution * (jacobian * start_v)[0];
-  else
+    if (contact.closing > 0) return rate;
+    rate[0] = std::min(rate[0], apart);
+  } else {
     rate[0] = apart;
+  }
   return rate;
 }
 
@@ -109,15 +112,17 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
 }
 
 bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accuracy) {
-  constexpr double touching = 1e-6;  // of the closing speed: what is left of the gap, a second
+  constexpr double touching = 1e-6;  // of the speed at the start: what is left of the gap, a second
   bool any = false;
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       ActiveContact& contact = contacts[i];
-      if (contact.restitution > 0 || !(contact.closing > 0 && contact.law.restitution > 0)) continue;
-      const double open = block.residual(v, i, block.impulse[i])[0];
+      if (contact.restitution > 0 || !(contact.law.restitution > 0)) continue;
       const double unsolved = accuracy / std::sqrt(block.inverse_diagonal[i](0, 0));
-      if (!(open <= std::max(touching * contact.closing, unsolved))) continue;
+      const double slack = std::max(touching * std::abs(contact.closing), unsolved);
+      if (!(block.residual(v, i, block.impulse[i])[0] <= slack)) continue;
+      const double parting = (block.jacobian[i] * block.gather(v, i))[0];
+      if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
       contact.restitution = contact.law.restitution;
       any = true;
     }

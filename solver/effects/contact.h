@@ -4,8 +4,8 @@
 //   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l where the step begins,
 //               g_0 at x0: overlaps part at `recovery` at most and get no deeper. Sigma = A/(h d); a damper
 //               is met where the shapes touch. Or, where shapes collide with restitution e in this step,
-//               n . (u(v) + e u(v_l)), u the relative velocity of what touches: with newmark and alpha = 1/2
-//               energy is kept for e = 1
+//               n . (u(v) + e u(v_l)), u the relative velocity of what touches (the smaller of the two where
+//               they did not approach each other): with newmark and alpha = 1/2 energy is kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
@@ -22,10 +22,10 @@
 // nothing overlaps: to part at once would throw it, by all the speed that has gone into the overlap.
 //
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
-// meets, or if it touches in the solved step: such are let collide, and the step is solved again, until there
-// are no more. So what collides depends on the velocities that solve a step, not on a solver's way to them,
-// nor on how it shares impulses among contacts. A step that is missed lets nothing collide but by its free
-// motion.
+// meets; and whatever touches in the solved step, but parts by less than e of its speed at the start: such
+// are let collide, and the step is solved again, until there are no more. So what collides depends on the
+// velocities that solve a step, not on a solver's way to them, nor on how it shares impulses among contacts.
+// A step that is missed lets nothing collide but by its free motion.
 #pragma once
 
 #include <cstdint>

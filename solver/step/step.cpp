@@ -54,8 +54,17 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   return true;
 }
 
+/// Early iterates count where the iteration goes astray alone: on its way to a solution one may well be
+/// better in sum and miss more constraints.
+constexpr int early = 10;
+bool astray(const Levels& levels, const Progress& progress) {
+  return !(progress.residual() <= levels.first);
+}
+
 /// Keeps the iterate if it is the best one.
-void keep_if_best(const StepSystem& system, const Progress& progress, BestIterate& best) {
+void keep_if_best(const StepSystem& system, const Levels& levels, const Progress& progress,
+                  BestIterate& best) {
+  if (progress.outer_iterations == early && !astray(levels, progress)) best.residual = infinity;
   if (!(progress.residual() < best.residual)) return;
   best.residual = progress.residual();
   best.v = system.at.v;
@@ -145,7 +154,7 @@ void StepRun::solve(const Observer& observer) {
     if (observer)
       observer({progress.outer_iterations, progress.sweeps, progress.row_updates, progress.primal,
                 progress.dual, progress.scale, system.at.x, system.at.v});
-    if (solves_step(w.outer)) keep_if_best(system, progress, w.best);
+    if (solves_step(w.outer)) keep_if_best(system, levels, progress, w.best);
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
     const bool stalled = stalls();
@@ -169,6 +178,7 @@ void StepRun::solve(const Observer& observer) {
     pbd::iterate(w.outer, system, progress);
   }
   if (report.status != Status::not_converged || !(w.best.residual < progress.residual())) return;
+  if (progress.outer_iterations < early && !astray(levels, progress)) return;
   system.at.v = w.best.v;
   restore_impulses_and_biases(w.best.rows, system.rows);
   forget(w.outer);

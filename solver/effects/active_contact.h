@@ -3,6 +3,7 @@
 // other body that is nearest to it; else in the middle of the gap.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision/contact_point.h"
@@ -30,6 +31,10 @@ struct ActiveContact {
   ContactLaw law;                  // of its materials
   double offset = 0;               // m, of the gap by damping
   double compliance = 0;           // m/N, with damping's share
+
+  std::array<int, 2> pair() const {
+    return {std::min(collider[0], collider[1]), std::max(collider[0], collider[1])};
+  }
 };
 
 template <int R>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace pbd {
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect_(effect) {
@@ -17,6 +18,8 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect
               attached_.push_back({joint.node[i], joint.body[i]});
         },
         other);
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    attached_.push_back({scene.bodies[body].node, static_cast<int>(body)});
   for (auto& pair : apart_)
     if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
   std::sort(apart_.begin(), apart_.end());
@@ -131,8 +134,7 @@ ActiveContact ContactSearch::active(const ContactPoint& point, int first, int se
 
 /// The smaller one, m; nodes touch by planes, and have none that counts.
 double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
-  const double first = one.is_node ? infinity : one.round, second = two.is_node ? infinity : two.round;
-  return std::min(first, second);
+  return std::min(one.is_node ? infinity : one.round, two.is_node ? infinity : two.round);
 }
 
 void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
@@ -148,11 +150,10 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   };
   for (const ContactPoint& point : found_) add(active(point, first, second));
   for (const ActiveContact& contact : late_) {
-    const auto [one_of, other] = std::minmax(contact.collider[0], contact.collider[1]);
     const bool has = std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
       return point.key == contact.features.key;
     });
-    if (one_of == first && other == second && !has) add(contact);
+    if (contact.pair() == std::array{first, second} && !has) add(contact);
   }
   if (travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
     far_.push_back({{first, second}});
@@ -211,15 +212,11 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
   if (far_.empty()) return false;
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
   for (Pair& pair : far_) pair.least_start = pair.least_end = infinity;
-  const auto of_pair = [](const ActiveContact& contact) {
-    return std::array{std::min(contact.collider[0], contact.collider[1]),
-                      std::max(contact.collider[0], contact.collider[1])};
-  };
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       if (contact.of_surfaces) continue;
-      const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{of_pair(contact)}, in_order);
-      if (pair == far_.end() || pair->collider != of_pair(contact)) continue;
+      const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{contact.pair()}, in_order);
+      if (pair == far_.end() || pair->collider != contact.pair()) continue;
       const auto gap = [&](const Configuration& at) {
         return touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at)).gap;
       };
@@ -236,8 +233,9 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
     const Frame at_first = placed_frame(first, end), at_second = placed_frame(second, end);
     generate(*one.shape, at_first, *two.shape, at_second, Reach{slack}, scratch_, found_);
     for (const ContactPoint& point : found_) {
-      const bool swapped = point.swapped;
-      const double gap = touching(point, swapped ? at_second : at_first, swapped ? at_first : at_second).gap;
+      const auto& [at_a, at_b] =
+          point.swapped ? std::tie(at_second, at_first) : std::tie(at_first, at_second);
+      const double gap = touching(point, at_a, at_b).gap;
       if (!(gap < std::min(pair.least_end, 0.0) - slack)) continue;
       late_.push_back(active(point, first, second));
       late_.back().late = true;

@@ -19,8 +19,8 @@ void validate_laws(const EffectCheck& check, const Contact& effect) {
             "0 to " + text(most_friction));
     REQUIRE(law.restitution >= 0 && law.restitution <= 1, check.at(i, "restitution"), text(law.restitution),
             "0 to 1");
-    check.not_negative({law.compliance}, "compliance");
-    check.not_negative({law.damping}, "damping");
+    for (const auto& [field, value] : {std::pair{"compliance", law.compliance}, {"damping", law.damping}})
+      REQUIRE(value >= 0 && std::isfinite(value), check.at(i, field), text(value), "a finite number >= 0");
     const std::size_t row = i / materials, column = i % materials;
     REQUIRE(law == effect.law[column * materials + row], check.at(i, "law"), "another one than its mirror's",
             "a symmetric table");

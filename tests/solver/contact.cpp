@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "contact_runs.h"
-#include "error.h"
 #include "linear/linear_names.h"
 #include "rows/laws.h"
 #include "scenes/contacts.h"
@@ -222,22 +221,4 @@ TEST_CASE("nodes rest on bodies and push them") {
     CHECK(std::abs(end.x(2, node) - 0.21) <= 1e-10);
     CHECK(std::abs(ground_force(workspace).z() / weight(scene) - 1) <= 1e-8);
   }
-}
-
-TEST_CASE("contact refuses what it cannot do") {
-  const Scene scene = sliding_box(0, 0.5, 1);
-  for (const auto integrator : {"midpoint", "bdf2", "generalised_alpha"}) {
-    Method method;
-    method.integrator = integrator;
-    CHECK_THROWS_AS(Workspace(scene, method), SetupError);
-  }
-  Method unknown;
-  unknown.friction = "pyramid";
-  CHECK_THROWS_AS(Workspace(scene, unknown), SetupError);
-  Scene bad = scene;
-  std::get<Contact>(bad.effects.back()).law[0].friction = -1;
-  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
-  bad = scene;
-  std::get<Contact>(bad.effects.back()).collider[1].body = 7;
-  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
 }

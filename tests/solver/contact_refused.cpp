@@ -1,0 +1,71 @@
+// What contact does not take.
+#include "contact_runs.h"
+#include "error.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using namespace pbdcheck;
+
+TEST_CASE("contact refuses what it cannot do") {
+  const Scene scene = sliding_box(0, 0.5, 1);
+  for (const auto integrator : {"midpoint", "bdf2", "generalised_alpha"}) {
+    Method method;
+    method.integrator = integrator;
+    CHECK_THROWS_AS(Workspace(scene, method), SetupError);
+  }
+  Method unknown;
+  unknown.friction = "pyramid";
+  CHECK_THROWS_AS(Workspace(scene, unknown), SetupError);
+  Scene bad = scene;
+  std::get<Contact>(bad.effects.back()).law[0].friction = -1;
+  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
+  bad = scene;
+  std::get<Contact>(bad.effects.back()).collider[1].body = 7;
+  CHECK_THROWS_AS(Workspace(bad, Method{}), SetupError);
+}
+
+TEST_CASE("shapes, frames and laws that are none are refused by what they are and where") {
+  using Change = void (*)(Contact&);
+  const std::vector<std::pair<Change, std::vector<std::string>>> mistakes{
+      {[](Contact& c) { c.collider[1].shape = Sphere{std::nan("")}; }, {"shape[1]", "radius", "nan", "> 0"}},
+      {[](Contact& c) {
+         c.collider[1].shape = Box{{1, -1, 1}};
+       },
+       {"shape[1]", "size", "got -1"}},
+      {[](Contact& c) {
+         c.collider[1].shape = Capsule{0.1, infinity};
+       },
+       {"shape[1]", "length", "inf"}},
+      {[](Contact& c) {
+         c.collider[1].shape = Cylinder{0, 1};
+       },
+       {"shape[1]", "radius", "got 0"}},
+      {[](Contact& c) { c.collider[0].frame.origin.x() = infinity; }, {"frame origin[0]", "inf"}},
+      {[](Contact& c) { c.collider[0].frame.rotation *= 1.001; }, {"frame rotation[0]", "a rotation"}},
+      {[](Contact& c) { c.collider[0].frame.rotation *= -1; }, {"frame rotation[0]", "determinant -1"}},
+      {[](Contact& c) { c.law[3].compliance = -1; }, {"compliance[3]", "got -1"}},
+      {[](Contact& c) { c.law[3].damping = std::nan(""); }, {"damping[3]", "nan"}},
+      {[](Contact& c) { c.law[2].friction = 0.1; }, {"law[1]", "symmetric"}},
+  };
+  for (const auto& [change, parts] : mistakes) {
+    Scene scene = sliding_box(0, 0.5, 1);
+    auto& contact = std::get<Contact>(scene.effects.back());
+    contact.materials = 2;
+    contact.law.assign(4, ContactLaw{});
+    CHECK_NOTHROW(Workspace(scene, Method{}));
+    change(contact);
+    for (const std::string& part : parts)
+      CHECK_THROWS_WITH(Workspace(scene, Method{}), Catch::Contains(part));
+  }
+}
+
+TEST_CASE("a body's own centre does not touch its shape") {
+  Scene scene = sliding_box(0, 0.5, 0);
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.node = {scene.bodies[1].node};
+  contact.radius = {0.01};
+  contact.node_material = {0};
+  const State end = run(scene, contact_method("direct"), 0.01, 5);
+  CHECK((end.x - scene.initial.x).norm() <= 1e-9);
+}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "collision/contact_point.h"
 #include "collision/surface_contact.h"
@@ -63,6 +64,18 @@ inline Frame frame_of(const ActiveContact& contact, int side, const Configuratio
   if (side == contact.node_side) return {at.x.col(carrier), Eigen::Matrix3d::Identity()};
   const Pose& pose = at.pose[carrier];
   return {pose.x, pose.rotation};
+}
+
+/// Sets `nearest` of contacts of bodies, a pair's in a row.
+inline void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
+  for (auto first = contacts.begin(); first != contacts.end();) {
+    auto last = first;
+    double nearest = infinity;
+    for (; last != contacts.end() && last->collider == first->collider; ++last)
+      nearest =
+          std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
+    for (; first != last; ++first) first->nearest = nearest;
+  }
 }
 
 /// First of a side's columns among the row's K: a node's stands in front of its body's.

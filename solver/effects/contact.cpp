@@ -38,18 +38,6 @@ typename Block::Value rates(const ActiveContact& contact, const typename Block::
   return rate;
 }
 
-/// Sets `nearest` of contacts of bodies, a pair's in a row.
-void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
-  for (auto first = contacts.begin(); first != contacts.end();) {
-    auto last = first;
-    double nearest = infinity;
-    for (; last != contacts.end() && last->collider == first->collider; ++last)
-      nearest =
-          std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
-    for (; first != last; ++first) first->nearest = nearest;
-  }
-}
-
 /// One contact's rows; adds to the residual.
 template <class Block>
 void linearise_contact(const RowPlace& place, const Points& start_v, const ActiveContact& contact,

@@ -75,10 +75,10 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
     motion.node_shape = Sphere{effect_.radius[k]};
     motion.shape = &motion.node_shape;
     motion.carrier = effect_.node[k];
-    motion.frame = {start.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
+    motion.is_node = true;
+    motion.frame = placed_frame(static_cast<int>(effect_.collider.size() + k), start);
     motion.centre = motion.frame.origin;
     motion.radius = effect_.radius[k];
-    motion.is_node = true;
     motion.moves = moves(effect_.node[k]);
   }
 }
@@ -155,7 +155,8 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
     });
     if (contact.pair() == std::array{first, second} && !has) add(contact);
   }
-  if (travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
+  const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
+  if (bounded && travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
     far_.push_back({{first, second}});
 }
 

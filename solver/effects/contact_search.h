@@ -13,8 +13,8 @@
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
 // in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
 // step ends, and what overlaps there by more joins the step's contacts; not where they overlap from the
-// start. Of polyhedra r is half their least side, which is no bound but what random steps hold to
-// (tests/solver/contact_motion.cpp).
+// start, and not on a half space, all of whose contacts are exact as bodies move. Of polyhedra r is half
+// their least side, which is no bound but what random steps hold to (tests/solver/contact_motion.cpp).
 #pragma once
 
 #include <array>

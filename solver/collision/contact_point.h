@@ -8,9 +8,10 @@
 //
 // y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
 // are rounded by. A rim, the edge of a disc about a's point of radius rim_a across direction_a, is the point
-// of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis
-// (face alone). Normals point from b to a: the impulse of a contact pushes a along n. The gap's derivative by
-// the bodies' motion is n . (velocity of a - velocity of b) at the touching points.
+// of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis, n
+// of a line that at y_a itself (face and line alone). Normals point from b to a: the impulse of a
+// contact pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a - velocity of b)
+// at the touching points.
 #pragma once
 
 #include <Eigen/Core>

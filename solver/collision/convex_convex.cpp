@@ -1,5 +1,7 @@
 #include "collision/convex_convex.h"
 
+#include <algorithm>
+
 #include "collision/face_manifold.h"
 #include "collision/segments.h"
 #include "collision/tolerances.h"
@@ -143,20 +145,24 @@ struct PolyhedronPair {
     return true;
   }
 
-  /// Where edges are nearly parallel, the ends of one beside the other, too.
+  /// Where edges are nearly parallel, the ends of one beside the other, too; ends that lie beside each other
+  /// once.
   void write_ends(int i, int j) const {
     const Segment of_a = segment(a, i), of_b = segment(b, j);
     constexpr double nearly_parallel = 0.5;  // sine of 30 degrees
     if (of_a.along.cross(of_b.along).norm() > nearly_parallel) return;
+    const auto inside = [&](double arc, const Segment& edge) {
+      return std::clamp(arc, tiny, edge.length - tiny);
+    };
     for (const double s : {0.0, of_a.length}) {
       const double t = of_b.along.dot(of_a.at(s) - of_b.from);
-      const Nearest at{s, t, of_a.at(s) - of_b.at(t)};
-      if (t > 0 && t < of_b.length && nearest_of_faces(b, j, at.apart)) write_edges(i, j, at);
+      const Nearest at{s, inside(t, of_b), of_a.at(s) - of_b.at(t)};
+      if (t >= -tiny && t <= of_b.length + tiny && nearest_of_faces(b, j, at.apart)) write_edges(i, j, at);
     }
     for (const double t : {0.0, of_b.length}) {
       const double s = of_a.along.dot(of_b.at(t) - of_a.from);
       const Nearest at{s, t, of_a.at(s) - of_b.at(t)};
-      if (s > 0 && s < of_a.length && nearest_of_faces(a, i, -at.apart)) write_edges(i, j, at);
+      if (s == inside(s, of_a) && nearest_of_faces(a, i, -at.apart)) write_edges(i, j, at);
     }
   }
 
@@ -208,8 +214,8 @@ struct PolyhedronPair {
     int i = 0, j = 0;
     Nearest at{};
     if (!nearest_edges(axis.j >= 0 ? axis.normal : Vec3::Zero(), i, j, at)) return;
-    write_edges(i, j, at);
     write_ends(i, j);
+    if (at.apart.norm() - radii < writer.least() - tiny) write_edges(i, j, at);
   }
 };
 

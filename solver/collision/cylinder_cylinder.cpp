@@ -1,5 +1,8 @@
 #include "collision/cylinder_cylinder.h"
 
+#include <array>
+#include <optional>
+
 #include "collision/cylinder_features.h"
 #include "collision/tolerances.h"
 
@@ -19,35 +22,88 @@ void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double f
   }
 }
 
+/// a's rim at `end`, its point nearest to b's axis, against b's side.
+ContactPoint on_side_by_rim(const PlacedCylinder& a, int end, const PlacedCylinder& b) {
+  ContactPoint contact = on_line(a.cap(end), 0, b.centre, b.axis, b.radius);
+  contact.direction_a = a.axis;
+  contact.rim_a = a.radius;
+  return contact;
+}
+
+/// Of sides along each other the ends of their common length, each a rim over the other's side; false, and
+/// nothing is written, if they have none.
+bool write_common_length(const PlacedCylinder& a, const PlacedCylinder& b, double slack,
+                         const ContactWriter& writer) {
+  struct End {
+    ContactPoint contact;
+    ContactWriter writer;
+    std::uint64_t key;
+  };
+  std::array<std::optional<End>, 2> ends;
+  const auto look = [&](const PlacedCylinder& one, int end, const PlacedCylinder& other,
+                        const ContactWriter& own, std::optional<End>& found) {
+    if (found) return;
+    const ContactPoint contact = on_side_by_rim(one, end, other);
+    const double along = other.axis.dot(touching(contact, {}, {}).point_a - other.centre);
+    if (std::abs(along) <= other.half + slack)
+      found.emplace(End{contact, own, own.key(Feature::rim, rim_point(end, rim_points), Feature::axis, 0)});
+  };
+  const int same = a.axis.dot(b.axis) > 0 ? 1 : -1;
+  for (const int end : {0, 1}) {
+    const int sign = 2 * end - 1;
+    look(a, sign * same, b, writer, ends[end]);
+    look(b, sign, a, writer.exchanged(), ends[end]);
+    if (!ends[end]) return false;
+  }
+  for (const auto& end : ends) end->writer.write(end->contact, end->key, touching(end->contact, {}, {}).gap);
+  return true;
+}
+
 }  // namespace
 
 void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const ContactWriter& writer) {
   const PlacedCylinder a(first, writer.frame_a), b(second, writer.frame_b);
   const double tiny = rounding * (a.size() + b.size());
   const Vec3 apart = a.centre - b.centre, cross = a.axis.cross(b.axis);
-  // The caps' planes and the plane along both axes.
-  const double over_b = std::abs(apart.dot(b.axis)) - a.support(b.axis) - b.half;
-  const double over_a = std::abs(apart.dot(a.axis)) - b.support(a.axis) - a.half;
   const Vec3 from_a = a.cap(-1), from_b = b.cap(-1);
   const Nearest axes = nearest(Segment{from_a, a.axis, 2 * a.half}, Segment{from_b, b.axis, 2 * b.half});
   const bool inside = axes.s > 0 && axes.s < 2 * a.half && axes.t > 0 && axes.t < 2 * b.half;
   constexpr double parallel = 1e-5;  // sine: the product of the axes is known to 1e-11 of itself
   const double sine = cross.norm();
   const bool crossed = sine >= crossing_sine;
-  Vec3 normal = sine >= parallel ? cross : inside ? axes.apart : Vec3(apart - apart.dot(b.axis) * b.axis);
-  normal = normal.norm() > 0 ? Vec3(normal / normal.norm()) : b.across;
-  if (normal.dot(apart) < 0) normal = -normal;
-  const double beside = normal.dot(apart) - a.support(normal) - b.support(normal);
+
+  // Directions along which they may be apart: the caps', and across their sides.
+  const double over_b = std::abs(apart.dot(b.axis)) - a.support(b.axis) - b.half;
+  const double over_a = std::abs(apart.dot(a.axis)) - b.support(a.axis) - a.half;
+  Vec3 normal;
+  double beside = -infinity;
+  const auto look = [&](const Vec3& across, double least) {
+    if (!(across.norm() > least)) return;
+    const Vec3 unit = (across.dot(apart) < 0 ? -1 : 1) * across.normalized();
+    const double here = unit.dot(apart) - a.support(unit) - b.support(unit);
+    if (here > beside + tiny) beside = here, normal = unit;
+  };
+  if (sine >= parallel) look(cross, 0);
+  const double along_both = beside;
+  look(axes.apart, tiny);
+  look(apart - apart.dot(b.axis) * b.axis, tiny);
+  if (beside == -infinity) look(b.across, 0);
   const double most = std::max({over_a, over_b, beside});
   if (most >= writer.reach.margin) return;
-  rims_on_cylinder(a, b, most - tiny, writer);
-  rims_on_cylinder(b, a, most - tiny, writer.exchanged());
+
   const Vec3 y_a = from_a + axes.s * a.axis;
   const ContactPoint edges =
       on_edges(y_a, a.axis, a.radius, from_b + axes.t * b.axis, b.axis, b.radius, normal);
   const ContactPoint line = on_line(y_a, a.radius, b.centre, b.axis, b.radius);
   const auto sides_key = writer.key(Feature::axis, 0, Feature::axis, 0);
   const double along_line = axes.apart.norm() - a.radius - b.radius;
+  const bool shallow = beside > -std::min(a.radius, b.radius);  // each axis beside the other cylinder
+  if (!crossed && shallow && beside == most && write_common_length(a, b, tiny, writer)) {
+    if (inside && along_line < writer.least() - tiny) writer.write(line, sides_key, along_line);
+    return;
+  }
+  rims_on_cylinder(a, b, most - tiny, writer);
+  rims_on_cylinder(b, a, most - tiny, writer.exchanged());
   if (inside && crossed && beside >= most - tiny) writer.write(edges, sides_key, beside);
   if (inside && !crossed && along_line > 0) writer.write(line, sides_key, along_line);
   const double least = writer.least();
@@ -55,7 +111,14 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   const bool crossing = (inside && along_line < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
                         a.place(from_b + axes.t * b.axis).distance <= tiny;
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
-  if (most == beside) return writer.write(sine >= parallel ? edges : line, sides_key, most);
+  if (most == beside && beside == along_both) return writer.write(edges, sides_key, most);
+  if (most == beside) {
+    const auto end_towards = [&](const Vec3& axis, const Vec3& n) { return axis.dot(n) < 0 ? -1 : 1; };
+    const int end = end_towards(b.axis, normal);
+    const Vec3 farthest = touching(on_plane_by_rim(b, end, b.centre, -normal, 0), {}, {}).point_a;
+    return writer.write(on_plane_by_rim(a, end_towards(a.axis, -normal), farthest, normal, 0), sides_key,
+                        most);
+  }
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, writer);

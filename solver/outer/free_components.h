@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "outer/components.h"
 #include "outer/step_system.h"
 
 namespace pbd {

@@ -24,6 +24,9 @@ class History {
   /// The next step is a start.
   void forget() { h_ = 0, missed_ = false, ended_ = {}; }
 
+  /// m/s^2, of the last step begun.
+  const Points& given_accelerations() const { return acceleration_; }
+
   const Integrator& integrator() const { return *integrator_; }
 
  private:

@@ -87,6 +87,7 @@ struct StepRun {
 
   void begin(double h, const State& state);
   void solve(const Observer& observer);
+  void restrain();
   void end(double h, State& state);
 
  private:
@@ -185,6 +186,15 @@ void StepRun::solve(const Observer& observer) {
   measure_here();
 }
 
+/// A missed step does no harm.
+void StepRun::restrain() {
+  if (report.status != Status::not_converged || !solves_step(w.outer) || !w.history.integrator().contact)
+    return;
+  w.restraint.restrain(w.system, w.history.given_accelerations());
+  forget(w.outer);
+  measure_here();
+}
+
 void StepRun::end(double h, State& state) {
   StepSystem& system = w.system;
   if (!system.at.x.allFinite() || !system.at.v.allFinite() || !std::isfinite(state.time + h)) {
@@ -219,6 +229,7 @@ Report step(Workspace& workspace, double h, State& state, const Observer& observ
   StepRun run{*workspace.data_};
   run.begin(h, state);
   run.solve(observer);
+  run.restrain();
   run.end(h, state);
   return run.report;
 }

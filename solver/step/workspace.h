@@ -4,6 +4,7 @@
 #include "outer/contraction.h"
 #include "outer/outer.h"
 #include "step/history.h"
+#include "step/restraint.h"
 #include "step/step.h"
 
 namespace pbd {
@@ -23,6 +24,7 @@ struct WorkspaceData {
   OuterIteration outer;
   ContractionEstimate contraction;
   BestIterate best;
+  Restraint restraint;
   Points previous;  // m/s, v of the last outer iteration
 
   WorkspaceData(Scene stated_scene, Method stated_method);

@@ -1,0 +1,129 @@
+#include "step/restraint.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rows/dense.h"
+#include "rows/laws.h"
+
+namespace pbd {
+namespace {
+
+/// Energy that constraint i, which misses r, stores (J), `scale` the time by which its impulse is its force,
+/// s.
+template <class Block>
+double stored(const Block& block, std::size_t i, const typename Block::Value& r, double d, double scale) {
+  using Value = typename Block::Value;
+  if (!(block.compliance[i](0, 0) > 0)) {
+    const Value change = allowed(block, i, Value::Zero(), -block.inverse_diagonal[i] * r);
+    return squared_residual(block, i, r, change) / 2;
+  }
+  Value impulse = Value::Zero();
+  if (block.bounded())
+    impulse[0] = std::clamp(-r[0] / block.compliance[i](0, 0), block.bounds[i].lower, block.bounds[i].upper);
+  else
+    impulse = -solve_definite(block.compliance[i], r);
+  return -d / scale * impulse.dot(r + block.compliance[i] * impulse / 2);
+}
+
+}  // namespace
+
+/// The largest t of at most 1.
+double Restraint::Motion::share() const {
+  constexpr double rounding = 1e-12;
+  const double limit = std::max(most, 0.0);
+  if (gained + linear <= limit + rounding * (gained + std::abs(linear))) return 1;
+  return 2 * limit / (linear + std::sqrt(linear * linear + 4 * gained * limit));
+}
+
+void Restraint::find_motions(const StepSystem& system) {
+  const Problem& problem = system.problem;
+  components_.find(system.rows, problem.inverse_mass);
+  motions_.assign(components_.count(), {Vec3::Zero(), Vec3::Zero()});
+  for (int node = 0; node < problem.bodies.nodes(); ++node) {  // rotations have no linear momentum
+    const int component = components_.of_column[node];
+    if (component < 0 || components_.held[component]) continue;
+    Motion& motion = motions_[component];
+    const double mass = 1 / problem.inverse_mass[node];
+    motion.mass += mass;
+    motion.own += mass * problem.map.v_free.col(node);
+    motion.own_start += mass * problem.start_v.col(node);
+  }
+  const auto hold = [&](int component, const Vec3& v) {
+    Motion& motion = motions_[component];
+    if (!(v.norm() < motion.slowest)) return;
+    motion.slowest = v.norm();
+    motion.own = motion.own_start = v;
+  };
+  for_each_block(system.rows.blocks, [&]<class Block>(const Block& block) {
+    for (const auto& own : block.node) {
+      const int component = components_.of(own);
+      if (component < 0 || !components_.held[component]) continue;
+      if (Block::nodes == 1) hold(component, Vec3::Zero());
+      for (const int column : own)
+        if (column < problem.bodies.nodes() && components_.of_column[column] < 0)
+          hold(component, problem.start_v.col(column));
+    }
+  });
+  for (Motion& motion : motions_) {
+    if (!(motion.mass > 0)) continue;
+    motion.own /= motion.mass;
+    motion.own_start /= motion.mass;
+  }
+}
+
+void Restraint::add_kinetic(const StepSystem& system, const Points& given) {
+  const Problem& problem = system.problem;
+  const StepMap& map = problem.map;
+  for (int column = 0; column < problem.bodies.columns(); ++column) {
+    const int component = components_.of_column[column];
+    if (component < 0) continue;
+    Motion& motion = motions_[component];
+    const bool turns = column >= problem.bodies.nodes();
+    const Vec3 own = turns ? Vec3::Zero() : motion.own, own_start = turns ? Vec3::Zero() : motion.own_start;
+    const Vec3 u = system.at.v.col(column) - own, u_start = problem.start_v.col(column) - own_start;
+    const Vec3 drift = map.x0.col(column) - problem.start_x.col(column) - (map.h - map.d) * own_start;
+    const double mass = 1 / problem.inverse_mass[column];
+    motion.gained += mass * u.squaredNorm() / 2;
+    motion.linear -= mass * map.d * given.col(column).dot(u);
+    motion.most += mass * (u_start.squaredNorm() / 2 + given.col(column).dot(drift));
+  }
+}
+
+/// `sign` times what the rows, linearised at x(v), store.
+void Restraint::add_stored(const StepSystem& system, const Points& v, double sign) {
+  const StepMap& map = system.problem.map;
+  for (const Slot& slot : system.slots) {
+    const double scale = slot.source->kind().contacts ? map.h : map.s;
+    for_each_block(slot.view(system.rows), [&](const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const int component = components_.of(block.node[i]);
+        if (component < 0) continue;
+        const auto r = block.residual(v, i, std::remove_cvref_t<decltype(block.bias[i])>::Zero());
+        motions_[component].linear += sign * stored(block, i, r, map.d, scale);
+      }
+    });
+  }
+}
+
+void Restraint::restrain(StepSystem& system, const Points& given) {
+  find_motions(system);
+  add_kinetic(system, given);
+  linearise_at(system, system.at.v);
+  add_stored(system, system.at.v, 1);
+  rest_.setZero(3, system.at.v.cols());
+  linearise_at(system, rest_);
+  add_stored(system, rest_, -1);
+  for (int column = 0; column < system.problem.bodies.columns(); ++column) {
+    const int component = components_.of_column[column];
+    if (component < 0) continue;
+    const Motion& motion = motions_[component];
+    const double share = motion.share();
+    if (share == 1) continue;
+    const bool turns = column >= system.problem.bodies.nodes();
+    const Vec3 own = turns ? Vec3::Zero() : motion.own;
+    system.at.v.col(column) = own + share * (system.at.v.col(column) - own);
+  }
+}
+
+}  // namespace pbd

@@ -28,7 +28,7 @@ struct ActiveContact {
   double target = 0;               // m, the gap aimed at
   double restitution = 0;          // e where the shapes collide in this step, else 0
   double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
-  bool late = false;               // seen where a solved iterate ended
+  bool late = false;               // seen where a solved iterate ended; `target` is set there
   ContactLaw law;                  // of its materials
   double offset = 0;               // m, of the gap by damping
   double compliance = 0;           // m/N, with damping's share
@@ -71,7 +71,7 @@ inline void find_nearest(const Configuration& at, std::vector<ActiveContact>& co
   for (auto first = contacts.begin(); first != contacts.end();) {
     auto last = first;
     double nearest = infinity;
-    for (; last != contacts.end() && last->collider == first->collider; ++last)
+    for (; last != contacts.end() && last->pair() == first->pair(); ++last)
       nearest =
           std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
     for (; first != last; ++first) first->nearest = nearest;

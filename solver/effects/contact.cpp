@@ -195,7 +195,7 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];  // at x0
-  contact.target = contact.late ? 0 : std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  if (!contact.late) contact.target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
   if (recovering_ && !contact.late && gap < contact.target) {
     constexpr double share = 0.1;
     const double forced = std::abs((jacobian * block.gather(shifts.forced, i))[0]);

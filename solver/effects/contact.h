@@ -24,8 +24,9 @@
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
 // meets; and whatever touches in the solved step, but parts by less than e of its speed at the start: such
 // are let collide, and the step is solved again, until there are no more. So what collides depends on the
-// velocities that solve a step, not on a solver's way to them, nor on how it shares impulses among contacts.
-// A step that is missed lets nothing collide but by its free motion.
+// velocities that solve a step, not on how a solver shares impulses among contacts; where friction leaves
+// velocities open, what collides is open, too. What one round has let collide does so for the rest of the
+// step, solved or missed.
 #pragma once
 
 #include <cstdint>

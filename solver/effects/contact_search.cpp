@@ -5,25 +5,10 @@
 #include <tuple>
 
 namespace pbd {
-ContactSearch::ContactSearch(const Scene& scene, const Contact& effect) : effect_(effect) {
+
+ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
+    : effect_(effect), allowed_(scene, effect) {
   if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
-  apart_ = effect.apart;
-  for (const Effect& other : scene.effects)
-    std::visit(
-        [&]<class E>(const E& joint) {
-          if constexpr (requires { joint.body[0][1]; })
-            apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
-          if constexpr (std::same_as<E, Attachment>)
-            for (std::size_t i = 0; i < joint.node.size(); ++i)
-              attached_.push_back({joint.node[i], joint.body[i]});
-        },
-        other);
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    attached_.push_back({scene.bodies[body].node, static_cast<int>(body)});
-  for (auto& pair : apart_)
-    if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
-  std::sort(apart_.begin(), apart_.end());
-  std::sort(attached_.begin(), attached_.end());
 }
 
 ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
@@ -106,13 +91,9 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
 
 bool ContactSearch::may_touch(int first, int second) const {
   const Motion &one = motions_[first], &two = motions_[second];
-  if (!one.is_node && !two.is_node) {
-    const std::array<int, 2> bodies{std::min(one.carrier, two.carrier), std::max(one.carrier, two.carrier)};
-    return !std::binary_search(apart_.begin(), apart_.end(), bodies);
-  }
-  const bool node_first = one.is_node;  // the other is a body's
-  const std::array<int, 2> pair{(node_first ? one : two).carrier, (node_first ? two : one).carrier};
-  return !std::binary_search(attached_.begin(), attached_.end(), pair);
+  if (!one.is_node && !two.is_node) return allowed_.bodies(one.carrier, two.carrier);
+  return one.is_node ? allowed_.node_and_body(one.carrier, two.carrier)
+                     : allowed_.node_and_body(two.carrier, one.carrier);
 }
 
 ActiveContact ContactSearch::active(const ContactPoint& point, int first, int second) const {
@@ -137,6 +118,14 @@ double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
   return std::min(one.is_node ? infinity : one.round, two.is_node ? infinity : two.round);
 }
 
+/// The late contact of a pair (lower collider first) and a key, if there is one.
+std::vector<ActiveContact>::iterator ContactSearch::late_contact(const std::array<int, 2>& pair,
+                                                                 std::uint64_t key) {
+  return std::find_if(late_.begin(), late_.end(), [&](const ActiveContact& contact) {
+    return contact.features.key == key && contact.pair() == pair;
+  });
+}
+
 void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
@@ -148,13 +137,10 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
     const std::size_t group = contact.node_side < 0 ? bodies_rough : nodes_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
   };
-  for (const ContactPoint& point : found_) add(active(point, first, second));
-  for (const ActiveContact& contact : late_) {
-    const bool has = std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
-      return point.key == contact.features.key;
-    });
-    if (contact.pair() == std::array{first, second} && !has) add(contact);
-  }
+  for (const ContactPoint& point : found_)
+    if (late_contact({first, second}, point.key) == late_.end()) add(active(point, first, second));
+  for (const ActiveContact& contact : late_)
+    if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
   if (bounded && travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
     far_.push_back({{first, second}});
@@ -224,12 +210,12 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
       if (!contact.late) pair->least_start = std::min(pair->least_start, gap(start));
       pair->least_end = std::min(pair->least_end, gap(end));
     }
-  const std::size_t before = late_.size();
+  bool seen = false;
   for (const Pair& pair : far_) {
     const auto [first, second] = pair.collider;
     const Motion &one = motions_[first], &two = motions_[second];
     const double slack = overlooked * round_radius_of(one, two);
-    if (pair.least_start < -slack) continue;  // it overlaps from the start, and parts as its contacts tell
+    const double deepest = std::min(pair.least_start, 0.0);  // m, as it begins: what overlaps gets no deeper
     found_.clear();
     const Frame at_first = placed_frame(first, end), at_second = placed_frame(second, end);
     generate(*one.shape, at_first, *two.shape, at_second, Reach{slack}, scratch_, found_);
@@ -237,12 +223,16 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
       const auto& [at_a, at_b] =
           point.swapped ? std::tie(at_second, at_first) : std::tie(at_first, at_second);
       const double gap = touching(point, at_a, at_b).gap;
-      if (!(gap < std::min(pair.least_end, 0.0) - slack)) continue;
-      late_.push_back(active(point, first, second));
-      late_.back().late = true;
+      if (!(gap < std::min(pair.least_end, deepest) - slack)) continue;
+      const auto known = late_contact({first, second}, point.key);
+      ActiveContact& contact = known == late_.end() ? late_.emplace_back() : *known;
+      contact = active(point, first, second);
+      contact.late = true;
+      contact.target = deepest;
+      seen = true;
     }
   }
-  return late_.size() > before;
+  return seen;
 }
 
 }  // namespace pbd

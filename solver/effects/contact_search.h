@@ -12,8 +12,8 @@
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
 // in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
-// step ends, and what overlaps there by more joins the step's contacts; not where they overlap from the
-// start, and not on a half space, all of whose contacts are exact as bodies move. Of polyhedra r is half
+// step ends, and what overlaps there by more, and by more than from the start, joins the step's contacts; not
+// on a half space, all of whose contacts are exact as bodies move. Of polyhedra r is half
 // their least side, which is no bound but what random steps hold to (tests/solver/contact_motion.cpp).
 #pragma once
 
@@ -25,6 +25,7 @@
 #include "collision/broad_phase.h"
 #include "collision/generate.h"
 #include "effects/active_contact.h"
+#include "effects/allowed_pairs.h"
 
 namespace pbd {
 
@@ -74,6 +75,10 @@ class ContactSearch {
     double travel = 0;   // m, that its points move at most; of a half space, its centre
     double turn = 0;     // rad, that it turns at most
   };
+  struct Pair {
+    std::array<int, 2> collider;
+    double least_start = infinity, least_end = infinity;  // m, gaps that its contacts tell of
+  };
   struct Displacement {
     double shift, turn;  // m, rad
   };
@@ -89,16 +94,12 @@ class ContactSearch {
   bool may_touch(int first, int second) const;
   void add_pair(int first, int second, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;
+  std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
   Frame placed_frame(int collider, const Configuration& at) const;
 
   const Contact& effect_;
-  std::vector<std::array<int, 2>> apart_;     // bodies that joints connect, or the effect names
-  std::vector<std::array<int, 2>> attached_;  // nodes and the bodies that carry them
+  AllowedPairs allowed_;
   std::vector<Motion> motions_;
-  struct Pair {
-    std::array<int, 2> collider;
-    double least_start = infinity, least_end = infinity;  // m, gaps that its contacts tell of
-  };
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
   std::vector<ContactPoint> found_;

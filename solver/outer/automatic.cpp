@@ -21,7 +21,7 @@ RowResidual Automatic::refresh(StepSystem& system) {
 bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
   constexpr double slow = 0.9;
   constexpr int patience = 2;
-  if (progress.outer_iterations >= 2 && slow_changes_ < patience)
+  if (progress.iterations_of_rows >= 2 && slow_changes_ < patience)
     slow_changes_ = progress.change > slow * progress.last_change ? slow_changes_ + 1 : 0;
   if (slow_changes_ >= patience) return false;  // for the rest of the step, whatever was predicted
   return system.problem.direction_blend != 1 || progress.contraction <= slow_contraction ||

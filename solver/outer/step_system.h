@@ -63,6 +63,7 @@ struct StepSystem {
 /// How far a step has come.
 struct Progress {
   int outer_iterations = 0;
+  int iterations_of_rows = 0;  // since rows were found anew
   std::int64_t sweeps = 0, row_updates = 0;
   double primal = 0, dual = 0, scale = 0;  // sqrt(J)
   double change = 0, last_change = 0;      // |v_k - v_k-1|_M, and the one before
@@ -72,6 +73,13 @@ struct Progress {
   std::string_view linear_part;            // what solved it
 
   double residual() const { return larger(primal, dual); }
+
+  /// Begins with other rows: what was learnt of the ones before says nothing of them.
+  void begin_rows(const Method& method) {
+    iterations_of_rows = 0;
+    relaxed_residual = infinity;
+    forcing = method.inner_tolerance;
+  }
 };
 
 /// Residual (sqrt(J)) as small as the outer iteration can use: tighter while its own does not fall.

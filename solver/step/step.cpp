@@ -12,6 +12,10 @@ namespace {
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 constexpr std::string_view not_finite = "not finite";
 
+bool is_finite(const State& state) {
+  return state.x.allFinite() && state.v.allFinite() && state.spin.allFinite();  // orientations: by validate
+}
+
 /// What the residuals of a step are compared with.
 struct Levels {
   double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
@@ -54,17 +58,12 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   return true;
 }
 
-/// Early iterates count where the iteration goes astray alone: on its way to a solution one may well be
-/// better in sum and miss more constraints.
+/// Iterates with the rows that count where the iteration goes astray alone: on its way to a solution one may
+/// well be better in sum and miss more constraints.
 constexpr int early = 10;
-bool astray(const Levels& levels, const Progress& progress) {
-  return !(progress.residual() <= levels.first);
-}
 
 /// Keeps the iterate if it is the best one.
-void keep_if_best(const StepSystem& system, const Levels& levels, const Progress& progress,
-                  BestIterate& best) {
-  if (progress.outer_iterations == early && !astray(levels, progress)) best.residual = infinity;
+void keep_if_best(const StepSystem& system, const Progress& progress, BestIterate& best) {
   if (!(progress.residual() < best.residual)) return;
   best.residual = progress.residual();
   best.v = system.at.v;
@@ -93,7 +92,9 @@ struct StepRun {
  private:
   bool settle_here(bool stalled);
   bool stalls();
-  bool asks_for_other_rows();
+  bool find_other_rows();
+  void begin_rows();
+  void take_best();
   void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
 };
 
@@ -106,13 +107,11 @@ void StepRun::begin(double h, const State& state) {
   w.history.begin_step(h, state, system);
   if (!w.method.warm_start) clear_impulses(system.rows);
   system.at.v = system.problem.start_v;
-  w.best.residual = infinity;
   pbd::begin(w.outer, system);
   const auto& inverse_mass = system.problem.inverse_mass;
   levels.free_change = mass_distance(inverse_mass, system.problem.map.v_free, system.problem.start_v);
   levels.free_speed = mass_norm(inverse_mass, system.problem.map.v_free);
   progress.contraction = w.contraction.value();
-  progress.forcing = w.method.inner_tolerance;
 }
 
 /// True if v has arrived and the residual no longer falls: the impulses may go on where v has arrived.
@@ -120,7 +119,7 @@ bool StepRun::stalls() {
   constexpr double falling = 0.5;
   const double now = progress.residual();
   const bool stalled =
-      progress.outer_iterations > 0 &&
+      progress.iterations_of_rows > 0 &&
       progress.change <= rounding_unit * mass_norm(w.system.problem.inverse_mass, w.system.at.v) &&
       !(now < falling * levels.last_residual);
   levels.last_residual = now;
@@ -137,51 +136,62 @@ bool StepRun::settle_here(bool stalled) {
   return false;
 }
 
-bool StepRun::asks_for_other_rows() {
+/// Finds rows that the solved iterate calls for; true if there are any.
+bool StepRun::find_other_rows() {
   return w.history.widen(w.system) || collide(w.system, w.method.tolerance * progress.scale);
+}
+
+/// The step begins, with these rows, at the iterate.
+void StepRun::begin_rows() {
+  progress.begin_rows(w.method);
+  w.best_early.residual = w.best.residual = levels.last_residual = infinity;
+  w.previous = w.system.at.v;
+  measure_here();
+  levels.first = std::max({levels.first, progress.residual(), progress.scale});
 }
 
 void StepRun::solve(const Observer& observer) {
   StepSystem& system = w.system;
-  Points& previous = w.previous;
-  previous = system.at.v;
-  constexpr int most_anew = 100;  // more than contacts of fast shapes have needed by far
   int solved_anew = 0;
-  bool begun = true;  // with these rows
-  for (;; ++progress.outer_iterations) {
-    measure_here();
-    if (begun) levels.first = std::max({levels.first, progress.residual(), progress.scale});
-    begun = false;
+  begin_rows();
+  for (;;) {
     if (observer)
       observer({progress.outer_iterations, progress.sweeps, progress.row_updates, progress.primal,
                 progress.dual, progress.scale, system.at.x, system.at.v});
-    if (solves_step(w.outer)) keep_if_best(system, levels, progress, w.best);
+    if (solves_step(w.outer))
+      keep_if_best(system, progress, progress.iterations_of_rows < early ? w.best_early : w.best);
     progress.last_change = progress.change;
-    progress.change = mass_distance(system.problem.inverse_mass, system.at.v, previous);
+    progress.change = mass_distance(system.problem.inverse_mass, system.at.v, w.previous);
     const bool stalled = stalls();
     const bool ended = finished(w.method, levels, progress, report) || settle_here(stalled);
-    if (ended && (report.status != Status::ok || !asks_for_other_rows())) break;
-    if (ended) {
+    if (ended && report.status == Status::ok && find_other_rows()) {
       forget(w.outer);
-      w.best.residual = levels.last_residual = infinity;
-      begun = true;
-      if (++solved_anew <= most_anew) continue;
-      measure_here();
+      begin_rows();
+      if (++solved_anew <= w.method.max_outer) continue;
       report.status = Status::not_converged;
       report.reason = "each solution calls for other rows";
-      break;
     }
+    if (ended) break;
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;
     }
-    previous = system.at.v;
+    w.previous = system.at.v;
     pbd::iterate(w.outer, system, progress);
+    ++progress.outer_iterations;
+    ++progress.iterations_of_rows;
+    measure_here();
   }
-  if (report.status != Status::not_converged || !(w.best.residual < progress.residual())) return;
-  if (progress.outer_iterations < early && !astray(levels, progress)) return;
-  system.at.v = w.best.v;
-  restore_impulses_and_biases(w.best.rows, system.rows);
+  if (report.status == Status::not_converged) take_best();
+}
+
+/// The best iterate takes the place of the last one.
+void StepRun::take_best() {
+  const bool astray = !(progress.residual() <= levels.first);
+  const BestIterate& best = astray && w.best_early.residual < w.best.residual ? w.best_early : w.best;
+  if (!(best.residual < progress.residual())) return;
+  w.system.at.v = best.v;
+  restore_impulses_and_biases(best.rows, w.system.rows);
   forget(w.outer);
   measure_here();
 }
@@ -227,9 +237,14 @@ void StepRun::end(double h, State& state) {
 Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
   validate(workspace.scene(), h, state);
   StepRun run{*workspace.data_};
-  run.begin(h, state);
-  run.solve(observer);
-  run.restrain();
+  if (is_finite(state)) {
+    run.begin(h, state);
+    run.solve(observer);
+    run.restrain();
+  } else {
+    run.report.status = Status::diverged;
+    run.report.reason = not_finite;
+  }
   run.end(h, state);
   return run.report;
 }

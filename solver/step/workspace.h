@@ -23,7 +23,7 @@ struct WorkspaceData {
   History history;
   OuterIteration outer;
   ContractionEstimate contraction;
-  BestIterate best;
+  BestIterate best_early, best;  // of the first iterates with the rows, and of those after
   Restraint restraint;
   Points previous;  // m/s, v of the last outer iteration
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "collision/bounds.h"
+#include "collision/generate.h"
 #include "contact_shapes.h"
 #include "scene.h"
 #include "step/step.h"
@@ -57,6 +58,18 @@ double apart_by_search(const Shape& a, const Frame& at_a, const Shape& b, const 
     best = std::max(best, here);
   }
   return best;
+}
+
+/// Directions to search from; any is a good one for a distance that is no more than the true one.
+std::vector<Vec3> normals_of_contacts(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b) {
+  CollisionScratch scratch;
+  std::vector<ContactPoint> found;
+  generate(a, at_a, b, at_b, Reach{0.1}, scratch, found);
+  std::vector<Vec3> normals;
+  for (const ContactPoint& point : found)
+    normals.push_back(point.swapped ? Vec3(-touching(point, at_b, at_a).normal)
+                                    : touching(point, at_a, at_b).normal);
+  return normals;
 }
 
 struct Pair {
@@ -122,15 +135,12 @@ struct Outcome {
       const double round = std::min(round_radius(pair.a), round_radius(pair.b));
       double distance = apart(pair.a, frame(0), pair.b, frame(1));
       if (distance < 0 && (kind == "cylinder" || other == "cylinder") && other != "half space") {
-        std::vector<Vec3> normals;
-        for (const ContactForce& force : workspace.contacts())
-          normals.emplace_back(force.collider[0] == 0 ? force.normal : Vec3(-force.normal));
+        const std::vector<Vec3> normals = normals_of_contacts(pair.a, frame(0), pair.b, frame(1));
         distance = std::max(distance, apart_by_search(pair.a, frame(0), pair.b, frame(1), normals, random));
       }
       const double depth = -distance / round;
       deepest = larger(deepest, depth);
-      // What effects/contact_search.h states, the step's tolerance, and for cylinders what a search may miss.
-      const double allowed = 1e-4 + (kind == "cylinder" || other == "cylinder" ? 1e-4 : 1e-6);
+      constexpr double allowed = 1e-4 + 1e-6;  // as effects/contact_search.h states, and the step's tolerance
       if (!(depth <= allowed)) ++deep;
     }
   }

@@ -1,0 +1,35 @@
+#include "effects/allowed_pairs.h"
+
+#include <algorithm>
+
+namespace pbd {
+
+AllowedPairs::AllowedPairs(const Scene& scene, const Contact& effect) : apart_(effect.apart) {
+  for (const Effect& other : scene.effects)
+    std::visit(
+        [&]<class E>(const E& joint) {
+          if constexpr (requires { joint.body[0][1]; })
+            apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
+          if constexpr (std::same_as<E, Attachment>)
+            for (std::size_t i = 0; i < joint.node.size(); ++i)
+              attached_.push_back({joint.node[i], joint.body[i]});
+        },
+        other);
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    attached_.push_back({scene.bodies[body].node, static_cast<int>(body)});
+  for (auto& pair : apart_)
+    if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
+  std::sort(apart_.begin(), apart_.end());
+  std::sort(attached_.begin(), attached_.end());
+}
+
+bool AllowedPairs::bodies(int first, int second) const {
+  const std::array<int, 2> pair{std::min(first, second), std::max(first, second)};
+  return !std::binary_search(apart_.begin(), apart_.end(), pair);
+}
+
+bool AllowedPairs::node_and_body(int node, int body) const {
+  return !std::binary_search(attached_.begin(), attached_.end(), std::array{node, body});
+}
+
+}  // namespace pbd

@@ -1,0 +1,24 @@
+// Which colliders may touch at all: not those of bodies that a joint connects or the effect names, nor a node
+// the body that carries it or that it is attached to.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene.h"
+
+namespace pbd {
+
+class AllowedPairs {
+ public:
+  AllowedPairs(const Scene& scene, const Contact& effect);
+
+  bool bodies(int first, int second) const;
+  bool node_and_body(int node, int body) const;
+
+ private:
+  std::vector<std::array<int, 2>> apart_;     // bodies, the lower one first
+  std::vector<std::array<int, 2>> attached_;  // nodes and bodies
+};
+
+}  // namespace pbd

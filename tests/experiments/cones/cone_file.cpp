@@ -10,7 +10,7 @@
 #include "cone_interior_point.h"
 #include "linear/linear_names.h"
 #include "mistakes.h"
-#include "planted_cones.h"
+#include "planted_family.h"
 #include "program.h"
 #include "siconos_text.h"
 
@@ -21,10 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-PlantedCone stack_problem() {
-  return planted_families()[5].draw(FrictionLaw::coulomb, 2);
-}
 
 void check_same(const ConeProblem& read, const ConeProblem& written) {
   CHECK((MatrixXd(read.delassus) - MatrixXd(written.delassus)).norm() < 1e-15 * written.delassus.norm());
@@ -53,13 +49,42 @@ TEST_CASE("a problem survives writing and reading in each form") {
   }
 }
 
-TEST_CASE("Siconos' sparse matrices and large blocks are read, and what may stand behind mu") {
+TEST_CASE("Siconos' sparse matrices are read in the six digits that it prints, in which W is semidefinite") {
+  const auto problems = experiments_folder / "problems";
+  ConeProblem cube = read_cone_file(problems / "sliding_cube.dat").problem;
+  cube.delassus /= 3;  // what Siconos wrote is of 3 kg
+  for (const bool by_columns : {false, true}) {
+    const auto written = problems / (by_columns ? "sliding_cube_columns.dat" : "sliding_cube_triplets.dat");
+    CHECK_THAT(read_text(written), Catch::StartsWith(sparse_head(cube.delassus, by_columns)));
+    const ConeFile file = read_cone_file(written);
+    const MatrixXd error = MatrixXd(file.problem.delassus) - MatrixXd(cube.delassus);
+    CHECK((error.array().abs() <= 5e-6 * MatrixXd(cube.delassus).array().abs()).all());
+    CHECK(file.problem.free_velocity == cube.free_velocity);
+    CHECK(file.problem.friction == cube.friction);
+    CHECK(file.semidefinite);
+    CHECK(file.rounding == 5e-6);
+  }
+}
+
+TEST_CASE("W of any rank is semidefinite in six digits, but not with an eigenvalue below their rounding") {
+  const TemporaryFolder folder;
+  for (int seed = 1; seed <= planted_seeds; ++seed) {
+    const ConeProblem singular = draw_planted("redundant", FrictionLaw::cone, seed).problem;
+    const VectorXd &q = singular.free_velocity, &mu = singular.friction;
+    const MatrixXd w = singular.delassus;
+    CHECK(read_cone_file(folder.write("w.dat", sparse(w, q, mu, false))).semidefinite);
+    const double rounding = 5e-6 * w.cwiseAbs().rowwise().sum().maxCoeff();
+    MatrixXd saddle = w;
+    saddle.diagonal().array() -= 3 * rounding;  // of the numbers, of what is allowed, and as much again
+    CHECK_FALSE(read_cone_file(folder.write("w.dat", sparse(saddle, q, mu, false))).semidefinite);
+  }
+}
+
+TEST_CASE("Siconos' large blocks are read, and what may stand behind mu") {
   const TemporaryFolder folder;
   const PlantedCone p = stack_problem();
   const MatrixXd w = p.problem.delassus;
   const VectorXd &q = p.problem.free_velocity, &mu = p.problem.friction;
-  for (const bool by_columns : {false, true})
-    check_same(read_cone_file(folder.write("s.dat", sparse(w, q, mu, by_columns))).problem, p.problem);
   REQUIRE(mu.size() % 2 == 0);
   check_same(read_cone_file(folder.write("b.dat", blocks(w, q, mu, false, 6))).problem, p.problem);
   const std::string solution = text(p.impulse);
@@ -110,11 +135,15 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
       {"2\n1\n0\n2\n2\n", {"dimension = 2"}},
       {"3\n1\n3\n3\n3\n", {"storage", "from 0 to 2"}},
       {"3\n1\n2\n3\n3\n1\nCSparse nnz: 1\n0 3 : 1\n", {"bad.dat:8", "a column = 3"}},
+      {"3\n1\n2\n3\n3\n1\nCSparse nnz: 2\n0 2 : 1\n0 2 : 5\n",
+       {"bad.dat:9", "another entry 5 in row 0 and column 2", "allowed: one"}},
+      {"3\n1\n2\n3\n3\n2\nCSparse nnz: 2, 1-norm: 6\ncol 0 : locations 0 to 1\n2 : 1\n2 : 5\n",
+       {"bad.dat:10", "another entry 5 in row 2 and column 0", "allowed: one"}},
       {"3\n1\n0\n3\n3\n1 0 0\n", {"bad.dat:6", "the number of rows, again = 1"}},
       {"3\n1\n0\n3\n4\n", {"columns = 4", "allowed: 3"}},
       {"3\n1000000000\n0\n3\n3\n", {"contacts = 1"}},
       {good.substr(0, good.size() / 2), {"end of the file", "W"}},
-      {good + " 7", {"1 numbers behind mu", "a flag 0 or 1"}},
+      {good + " 7", {"1 numbers behind mu", "a flag 0 or 1", "or a flag and a solution"}},
       {good + " 1 2", {"2 numbers behind mu"}},
       {"3\n1\n\n0\n3\nthree\n", {"bad.dat:6: got `three` for the number of columns"}},
       {good.substr(0, good.find_last_of('1')) + "0." + std::string(3, '\0'), {"for mu", "a number"}},
@@ -234,5 +263,5 @@ TEST_CASE("the problems that come with the program are solved by the judges' law
         ++files;
         CHECK(run_program({"cone", entry.path().string(), "--law", law}).exit_code == 0);
       }
-  CHECK(files == 4);
+  CHECK(files == 8);
 }

@@ -9,7 +9,7 @@ extern "C" {
 #include <cstdlib>
 
 #include "cones/cone_file.h"
-#include "planted_cones.h"
+#include "planted_family.h"
 #include "program.h"
 
 using namespace pbdcheck;
@@ -63,7 +63,7 @@ void check_close(const MatrixXd& found, const MatrixXd& expected) {
 
 TEST_CASE("local problems that FCLIB writes are read in every storage") {
   const TemporaryFolder folder;
-  const PlantedCone p = planted_families()[5].draw(FrictionLaw::coulomb, 2);
+  const PlantedCone p = stack_problem();
   MatrixXd w = p.problem.delassus;
   w(0, 1) *= 1 + 1e-3;  // so that rows are no columns
   VectorXd q = p.problem.free_velocity, mu = p.problem.friction;
@@ -117,7 +117,7 @@ TEST_CASE("global problems that FCLIB writes are condensed, whichever way H is s
 
 TEST_CASE("FCLIB reads what is written") {
   const TemporaryFolder folder;
-  const PlantedCone p = planted_families()[5].draw(FrictionLaw::coulomb, 2);
+  const PlantedCone p = stack_problem();
   ConeSolution solution;
   solution.impulse = p.impulse, solution.velocity = p.velocity;
   const auto path = folder.path / "p.hdf5";

@@ -35,6 +35,8 @@ struct Solved {
 nlohmann::ordered_json solution_json(const Solved& solved) {
   const auto& [options, file, solution, symmetric_residual] = solved;
   return {{"status", status_of(solution)},
+          {"form", file.form},
+          {"warnings", file.warnings},
           {"law", options.law},
           {"relaxation", options.relaxation},
           {"contacts", solution.impulse.size() / 3},
@@ -86,9 +88,10 @@ int cone(const ConeOptions& options) {
   if (!file.semidefinite && convex)
     throw pbd::SetupError(name, "W whose symmetric part is not positive semidefinite",
                           "for the law cone a Delassus matrix, H^T M^-1 H");
+  for (const auto& warning : file.warnings) warn(name + ": " + warning);
   if (!file.semidefinite) warn(name + ": W's symmetric part is not positive semidefinite");
-  const bool as_given = file.asymmetry > 1e-12 && !convex;
-  if (file.asymmetry > 1e-12)
+  const bool as_given = file.asymmetry > symmetric_within && !convex;
+  if (file.asymmetry > symmetric_within)
     warn(fmt::format("{}: W is unsymmetric by {:.2g} of its size; {}", name, file.asymmetry,
                      convex ? "solved with its symmetric part" : "solved as it is"));
   const pbd::reference::ConeProblem symmetric_problem = symmetric(file.problem);

@@ -72,6 +72,7 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
 
   ConeFile file;
   file.form = stored.form;
+  file.warnings = stored.warnings;
   file.rounding = stored.rounding;
   file.semidefinite = semidefinite(w, stored.rounding);
   if (stored.transposed.size() > 0) {  // both readings are possible

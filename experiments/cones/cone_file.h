@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cone_problem.h"
 
@@ -12,6 +13,7 @@ namespace pbdcheck {
 struct ConeFile {
   pbd::reference::ConeProblem problem;  // with W as stored
   std::string form;                     // what the file was, and how it was read
+  std::vector<std::string> warnings;    // of what is in doubt
   double asymmetry = 0;                 // of W
   double rounding = 0;                  // as in StoredCone
   bool semidefinite = true;             // W's symmetric part, to `rounding` and its asymmetry, 0.01 at most
@@ -29,6 +31,9 @@ void write_cone_file(const std::filesystem::path& path, const pbd::reference::Co
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// Asymmetry that products of doubles leave behind.
+inline constexpr double symmetric_within = 1e-12;
+
 /// |W - W^T| / |W| (Frobenius).
 double asymmetry(const Sparse& w);
 
@@ -45,6 +50,7 @@ struct StoredCone {
   Sparse delassus, transposed;
   Eigen::VectorXd free_velocity, friction;
   std::string form;
+  std::vector<std::string> warnings{};
   double rounding = 1e-10;
 };
 bool is_hdf5(const std::filesystem::path& path);

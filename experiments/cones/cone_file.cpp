@@ -82,7 +82,7 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
     if (rows) stored.delassus = stored.transposed, file.semidefinite = true;
   }
   file.asymmetry = asymmetry(stored.delassus);
-  file.problem = {std::move(stored.delassus), std::move(stored.free_velocity), std::move(stored.friction)};
+  file.problem = {stored.delassus, std::move(stored.free_velocity), std::move(stored.friction)};
   return file;
 }
 

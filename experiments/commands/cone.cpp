@@ -24,17 +24,30 @@ std::string status_of(const ConeSolution& solution) {
 }
 
 /// What was asked, and what was found.
-struct Solved {
+struct Answer {
   const ConeOptions& options;
   const ConeFile& file;
-  ConeSolution solution;
+  const std::vector<std::string>& warnings;
+  ConeSolution solution;      // of W as it is given
   double symmetric_residual;  // natural, of W's symmetric part
 };
 
+std::vector<std::string> warnings_of(const ConeFile& file, bool convex) {
+  std::vector<std::string> all = file.warnings;
+  if (!file.semidefinite) all.emplace_back("W's symmetric part is not positive semidefinite");
+  if (file.asymmetry > symmetric_within)
+    all.push_back(fmt::format("W is unsymmetric by {:.2g} of its size; {}", file.asymmetry,
+                              convex ? "solved with its symmetric part" : "solved as it is"));
+  return all;
+}
+
 /// Numbers that are not finite become null.
-nlohmann::ordered_json solution_json(const Solved& solved) {
-  const auto& [options, file, solution, symmetric_residual] = solved;
+nlohmann::ordered_json solution_json(const Answer& answer) {
+  const auto& [options, file, warnings, solution, symmetric_residual] = answer;
   return {{"status", status_of(solution)},
+          {"reason", solution.reason},
+          {"form", file.form},
+          {"warnings", warnings},
           {"law", options.law},
           {"relaxation", options.relaxation},
           {"contacts", solution.impulse.size() / 3},
@@ -50,8 +63,8 @@ nlohmann::ordered_json solution_json(const Solved& solved) {
           {"impulse", list_of(solution.impulse)}};
 }
 
-void print_solution(const Solved& solved) {
-  const auto& [options, file, solution, symmetric_residual] = solved;
+void print_solution(const Answer& answer) {
+  const auto& [options, file, warnings, solution, symmetric_residual] = answer;
   const auto& m = solution.measures;
   fmt::print("{}  law {}, relaxation {}, {} contacts\n", status_of(solution), options.law, options.relaxation,
              solution.impulse.size() / 3);
@@ -86,24 +99,17 @@ int cone(const ConeOptions& options) {
   if (!file.semidefinite && convex)
     throw pbd::SetupError(name, "W whose symmetric part is not positive semidefinite",
                           "for the law cone a Delassus matrix, H^T M^-1 H");
-  if (!file.semidefinite) warn(name + ": W's symmetric part is not positive semidefinite");
-  const bool as_given = file.asymmetry > 1e-12 && !convex;
-  if (file.asymmetry > 1e-12)
-    warn(fmt::format("{}: W is unsymmetric by {:.2g} of its size; {}", name, file.asymmetry,
-                     convex ? "solved with its symmetric part" : "solved as it is"));
-  const pbd::reference::ConeProblem symmetric_problem = symmetric(file.problem);
-  const ConeSolution solution =
-      as_given ? solve_as_given(solver, {file.problem, law, options.tolerance, most_sweeps})
-               : solver.solve({symmetric_problem, law, options.tolerance, most_sweeps});
-  const Solved found{options, file, solution,
-                     measure_cone(symmetric_problem, law, solution.impulse).natural_residual};
+  const auto warnings = warnings_of(file, convex);
+  for (const auto& warning : warnings) warn(fmt::format("{}: {}", name, warning));
+  const ConeSolution solution = solve_file(solver, file, law, options.tolerance);
+  const Answer answer{options, file, warnings, solution,
+                      measure_cone(symmetric(file.problem), law, solution.impulse).natural_residual};
   const bool solved = solution.outcome == pbd::reference::Outcome::ok;
-  if (solved && !options.output.empty())
-    write_cone_file(options.output, as_given ? file.problem : symmetric_problem, solution);
+  if (solved && !options.output.empty()) write_cone_file(options.output, file.problem, solution);
   if (options.json) {
-    fmt::print("{}", json_text(solution_json(found)));
+    fmt::print("{}", json_text(solution_json(answer)));
   } else {
-    print_solution(found);
+    print_solution(answer);
   }
   if (solved) return exit_done;
   error_message(

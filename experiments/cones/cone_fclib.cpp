@@ -1,37 +1,22 @@
 // FCLIB's HDF5 layout: /fclib_local/{W, vectors/{q, mu}}, /fclib_global/{M, H, vectors/{f, w, mu}},
 // /solution/{u, r}. A matrix has m, n, nz, nzmax, p, i, x: nz -1 by columns, -2 by rows, else nz triplets. Of
 // these fclib.h calls p rows and i columns, but programs write CSparse's arrays, p columns and i rows, as
-// they are: they are read so, or the header's way if only that fits.
+// they are: they are read so, or the header's way if only that fits. A square matrix fits both ways: written
+// the header's way it is read transposed, of which a warning tells if it is unsymmetric.
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "cones/cone_file.h"
+#include "cones/hdf5_handle.h"
 #include "error.h"
-#include "harness/files.h"
 
 namespace pbdcheck {
 namespace {
 
 using Eigen::VectorXd;
 using pbd::SetupError;
-
-/// An HDF5 object, closed at the end of its scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 class Reader {
  public:
@@ -55,8 +40,8 @@ class Reader {
   std::vector<Number> numbers(const std::string& name) const {
     constexpr bool integers = std::is_same_v<Number, int>;
     if (!has(name)) refuse("no " + name, "a whole FCLIB problem");
-    const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle type(set < 0 ? -1 : H5Dget_type(set), H5Tclose),
+    const Hdf5Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle type(set < 0 ? -1 : H5Dget_type(set), H5Tclose),
         space(set < 0 ? -1 : H5Dget_space(set), H5Sclose);
     if (type < 0 || space < 0 || H5Tget_class(type) != (integers ? H5T_INTEGER : H5T_FLOAT))
       refuse(name + " of another type", integers ? "integers" : "floating point numbers");
@@ -83,46 +68,84 @@ class Reader {
     return Eigen::Map<const VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
 
-  Sparse matrix(const std::string& name) const {
+  /// Tells `stored` which way triplets are read.
+  Sparse matrix(const std::string& name, StoredCone& stored) const {
     const int rows = integer(name + "/m"), columns = integer(name + "/n"), kind = integer(name + "/nz");
-    const auto p = numbers<int>(name + "/p"), i = numbers<int>(name + "/i");
-    const auto x = numbers<double>(name + "/x");
-    const auto wrong = [&](const std::string& what) { refuse(name + " with " + what, "a sparse matrix"); };
     constexpr int most = 10000000;
     if (rows < 0 || rows > most || columns < 0 || columns > most || kind < -2)
-      wrong(fmt::format("m = {}, n = {}, nz = {}", rows, columns, kind));
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](int row, int column, std::size_t k) {
-      if (row < 0 || row >= rows || column < 0 || column >= columns)
-        wrong(fmt::format("an entry at ({}, {}) of {} x {}", row, column, rows, columns));
-      entries.emplace_back(row, column, x[k]);
-    };
-    if (kind >= 0) {
-      const auto count = static_cast<std::size_t>(kind);
-      if (std::min({p.size(), i.size(), x.size()}) < count) wrong("fewer entries than nz");
-      bool by_csparse = true;
-      for (std::size_t k = 0; k < count; ++k) by_csparse = by_csparse && i[k] < rows && p[k] < columns;
-      for (std::size_t k = 0; k < count; ++k) by_csparse ? add(i[k], p[k], k) : add(p[k], i[k], k);
-    } else {
-      const int lines = kind == -1 ? columns : rows;
-      if (p.size() != static_cast<std::size_t>(lines) + 1 || p.front() != 0)
-        wrong("pointers p that do not fit");
-      for (int line = 0; line < lines; ++line) {
-        const int first = p[static_cast<std::size_t>(line)], last = p[static_cast<std::size_t>(line) + 1];
-        if (first > last || static_cast<std::size_t>(last) > std::min(i.size(), x.size()))
-          wrong("pointers p that do not fit");
-        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
-          kind == -1 ? add(i[k], line, k) : add(line, i[k], k);
-      }
+      wrong(name, fmt::format("m = {}, n = {}, nz = {}", rows, columns, kind));
+    SparseArrays arrays{name,
+                        rows,
+                        columns,
+                        numbers<int>(name + "/p"),
+                        numbers<int>(name + "/i"),
+                        numbers<double>(name + "/x")};
+    if (kind < 0) return compressed(arrays, kind == -1);
+    const auto count = static_cast<std::size_t>(kind);
+    if (std::min({arrays.p.size(), arrays.i.size(), arrays.x.size()}) < count)
+      wrong(name, "fewer entries than nz");
+    for (auto* indices : {&arrays.p, &arrays.i}) indices->resize(count);
+    const bool by_csparse = arrays.fit(arrays.i, arrays.p), by_header = arrays.fit(arrays.p, arrays.i);
+    const Sparse read =
+        by_csparse ? triplets(arrays, arrays.i, arrays.p) : triplets(arrays, arrays.p, arrays.i);
+    stored.form += fmt::format(", triplets of {} with p as {}", name, by_csparse ? "columns" : "rows");
+    if (by_csparse && by_header && (rows != columns || asymmetry(read) > symmetric_within))
+      stored.warnings.push_back(fmt::format(
+          "the triplets of {} fit as CSparse has them, p the columns, and as fclib.h says, p the rows: p is "
+          "read as columns",
+          name));
+    return read;
+  }
+
+ private:
+  struct SparseArrays {
+    std::string name;
+    int rows, columns;
+    std::vector<int> p, i;
+    std::vector<double> x;
+
+    bool fit(const std::vector<int>& row, const std::vector<int>& column) const {
+      const auto below = [](int end) { return [=](int k) { return k >= 0 && k < end; }; };
+      return std::ranges::all_of(row, below(rows)) && std::ranges::all_of(column, below(columns));
     }
-    Sparse matrix(rows, columns);
+  };
+
+  [[noreturn]] void wrong(const std::string& name, const std::string& what) const {
+    refuse(name + " with " + what, "a sparse matrix");
+  }
+
+  /// Of entries k at (row[k], column[k]).
+  Sparse triplets(const SparseArrays& arrays, const std::vector<int>& row,
+                  const std::vector<int>& column) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (row[k] < 0 || row[k] >= arrays.rows || column[k] < 0 || column[k] >= arrays.columns)
+        wrong(arrays.name,
+              fmt::format("an entry at ({}, {}) of {} x {}", row[k], column[k], arrays.rows, arrays.columns));
+      entries.emplace_back(row[k], column[k], arrays.x[k]);
+    }
+    Sparse matrix(arrays.rows, arrays.columns);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
 
- private:
+  /// Of lines that are columns or rows; p tells where each begins.
+  Sparse compressed(const SparseArrays& arrays, bool by_columns) const {
+    const auto& [name, rows, columns, p, i, x] = arrays;
+    const auto lines = static_cast<std::size_t>(by_columns ? columns : rows);
+    const auto stored = static_cast<int>(std::min(i.size(), x.size()));
+    if (p.size() != lines + 1 || p.front() != 0 || p.back() > stored || !std::ranges::is_sorted(p))
+      wrong(name, "pointers p that do not fit");
+    const auto count = static_cast<std::size_t>(p.back());
+    const std::vector<int> inner(i.begin(), i.begin() + p.back());
+    std::vector<int> line_of(count);
+    for (std::size_t line = 0; line < lines; ++line)
+      std::fill(line_of.begin() + p[line], line_of.begin() + p[line + 1], static_cast<int>(line));
+    return by_columns ? triplets(arrays, inner, line_of) : triplets(arrays, line_of, inner);
+  }
+
   std::string path_;
-  Handle file_;
+  Hdf5Handle file_;
 };
 
 void require_plain(const Reader& reader, const std::string& group,
@@ -137,7 +160,9 @@ void require_plain(const Reader& reader, const std::string& group,
 StoredCone read_global(const Reader& reader) {
   const std::string group = "/fclib_global";
   require_plain(reader, group, {"G"});
-  const Sparse m = reader.matrix(group + "/M"), h = reader.matrix(group + "/H");
+  StoredCone stored;
+  stored.form = "FCLIB global, condensed";
+  const Sparse m = reader.matrix(group + "/M", stored), h = reader.matrix(group + "/H", stored);
   const VectorXd f = reader.vector(group + "/vectors/f"), w = reader.vector(group + "/vectors/w");
   if (m.rows() != m.cols() || h.rows() != m.rows() || f.size() != m.rows() || w.size() != h.cols())
     reader.refuse(fmt::format("M of {} x {}, H of {} x {}, f of {} and w of {} numbers", m.rows(), m.cols(),
@@ -145,52 +170,11 @@ StoredCone read_global(const Reader& reader) {
                   "n x n, n x m, n and m");
   const Eigen::SimplicialLLT<Sparse> factor(Sparse(0.5 * (m + Sparse(m.transpose()))));
   if (factor.info() != Eigen::Success) reader.refuse("M that is not positive definite", "a mass matrix");
-  StoredCone stored;
   stored.delassus = Sparse(h.transpose()) * Sparse(factor.solve(h));
   stored.free_velocity = w + h.transpose() * VectorXd(factor.solve(f));
   stored.friction = reader.vector(group + "/vectors/mu");
-  stored.form = "FCLIB global, condensed";
   return stored;
 }
-
-/// Writes into a file that lives in memory.
-class Writer {
- public:
-  Writer() : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), file_(created(access_), H5Fclose) {}
-
-  void group(const char* name) {
-    const Handle made(H5Gcreate2(file_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  }
-  void integers(const std::string& name, const std::vector<int>& values) {
-    write(name, values.size(), values.data(), H5T_STD_I32LE, H5T_NATIVE_INT);
-  }
-  void numbers(const std::string& name, const VectorXd& values) {
-    write(name, static_cast<std::size_t>(values.size()), values.data(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
-  }
-  std::string image() {
-    H5Fflush(file_, H5F_SCOPE_GLOBAL);
-    std::string bytes(static_cast<std::size_t>(H5Fget_file_image(file_, nullptr, 0)), '\0');
-    H5Fget_file_image(file_, bytes.data(), bytes.size());
-    return bytes;
-  }
-
- private:
-  static hid_t created(hid_t access) {
-    constexpr std::size_t growth = 1U << 20U;
-    H5Pset_fapl_core(access, growth, false);
-    return H5Fcreate("problem", H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  }
-  void write(const std::string& name, std::size_t count, const void* values, hid_t stored, hid_t native) {
-    const hsize_t size = count;
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Handle set(H5Dcreate2(file_, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                     H5Dclose);
-    if (H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-      throw std::runtime_error("HDF5 cannot write " + name);
-  }
-
-  Handle access_, file_;
-};
 
 }  // namespace
 
@@ -206,35 +190,11 @@ StoredCone read_fclib(const std::filesystem::path& path) {
   if (!reader.has(group)) reader.refuse("an HDF5 file without a problem", "/fclib_local or /fclib_global");
   require_plain(reader, group, {"V", "R"});
   StoredCone stored;
-  stored.delassus = reader.matrix(group + "/W");
+  stored.form = "FCLIB local";
+  stored.delassus = reader.matrix(group + "/W", stored);
   stored.free_velocity = reader.vector(group + "/vectors/q");
   stored.friction = reader.vector(group + "/vectors/mu");
-  stored.form = "FCLIB local";
   return stored;
-}
-
-void write_cone_file(const std::filesystem::path& path, const pbd::reference::ConeProblem& problem,
-                     const pbd::reference::ConeSolution& solution) {
-  PartialFile file(path);
-  Sparse w = problem.delassus;
-  w.makeCompressed();
-  Writer writer;
-  for (const char* name : {"/fclib_local", "/fclib_local/W", "/fclib_local/vectors", "/solution"})
-    writer.group(name);
-  const int rows = static_cast<int>(w.rows()), entries = static_cast<int>(w.nonZeros());
-  writer.integers("/fclib_local/spacedim", {3});
-  for (const auto& [name, value] :
-       {std::pair("m", rows), std::pair("n", rows), std::pair("nz", -1), std::pair("nzmax", entries)})
-    writer.integers(std::string("/fclib_local/W/") + name, {value});
-  writer.integers("/fclib_local/W/p", {w.outerIndexPtr(), w.outerIndexPtr() + rows + 1});
-  writer.integers("/fclib_local/W/i", {w.innerIndexPtr(), w.innerIndexPtr() + entries});
-  writer.numbers("/fclib_local/W/x", Eigen::Map<const VectorXd>(w.valuePtr(), entries));
-  writer.numbers("/fclib_local/vectors/q", problem.free_velocity);
-  writer.numbers("/fclib_local/vectors/mu", problem.friction);
-  writer.numbers("/solution/u", solution.velocity);
-  writer.numbers("/solution/r", solution.impulse);
-  file.write(writer.image());
-  file.complete();
 }
 
 }  // namespace pbdcheck

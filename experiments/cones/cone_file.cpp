@@ -19,24 +19,21 @@ bool usable(const VectorXd& numbers) {
   return (numbers.array().abs() <= largest_in_cone).all();
 }
 
-double asymmetry(const Sparse& w) {
-  const double size = w.norm();
-  return size > 0 ? Sparse(w - Sparse(w.transpose())).norm() / size : 0;
-}
-
 Sparse symmetric_part(const Sparse& w) {
   return 0.5 * (w + Sparse(w.transpose()));
 }
 
-/// Whether the symmetric part is positive semidefinite within its stored errors.
-bool semidefinite(const Sparse& w) {
-  constexpr double rounding = 1e-10;
-  const double size = w.diagonal().cwiseAbs().maxCoeff();
+/// Whether the symmetric part is positive semidefinite within the errors of W's numbers: those of `rounding`
+/// move eigenvalues by that share of the largest sum of a row at most.
+bool semidefinite(const Sparse& w, double rounding) {
+  constexpr double most_error = 0.01;  // larger asymmetry is not rounding
+  const Sparse part = symmetric_part(w);
+  const double size = part.diagonal().cwiseAbs().maxCoeff();
+  const double sum = (part.cwiseAbs() * VectorXd::Ones(w.cols())).maxCoeff();
   Sparse shift(w.rows(), w.cols());
   shift.setIdentity();
-  constexpr double most_error = 0.01;  // what is more unsymmetric is so not by its digits alone
-  shift *= (rounding + std::min(asymmetry(w), most_error)) * (size > 0 ? size : 1);
-  return Eigen::SimplicialLLT<Sparse>(Sparse(symmetric_part(w) + shift)).info() == Eigen::Success;
+  shift *= sum > 0 ? rounding * sum + std::min(asymmetry(w), most_error) * size : 1;
+  return Eigen::SimplicialLLT<Sparse>(Sparse(part + shift)).info() == Eigen::Success;
 }
 
 void require(bool holds, const std::filesystem::path& path, const std::string& got,
@@ -45,6 +42,11 @@ void require(bool holds, const std::filesystem::path& path, const std::string& g
 }
 
 }  // namespace
+
+double asymmetry(const Sparse& w) {
+  const double size = w.norm();
+  return size > 0 ? Sparse(w - Sparse(w.transpose())).norm() / size : 0;
+}
 
 ConeFile read_cone_file(const std::filesystem::path& path) {
   require(std::filesystem::is_regular_file(path), path, "no file",
@@ -70,15 +72,17 @@ ConeFile read_cone_file(const std::filesystem::path& path) {
 
   ConeFile file;
   file.form = stored.form;
-  file.semidefinite = semidefinite(w);
+  file.warnings = stored.warnings;
+  file.rounding = stored.rounding;
+  file.semidefinite = semidefinite(w, stored.rounding);
   if (stored.transposed.size() > 0) {  // both readings are possible
-    const bool other = semidefinite(stored.transposed);
+    const bool other = semidefinite(stored.transposed, stored.rounding);
     const bool rows = other && (!file.semidefinite || asymmetry(stored.transposed) < 0.1 * asymmetry(w));
     file.form += rows ? ", blocks read row by row" : ", blocks read column by column";
     if (rows) stored.delassus = stored.transposed, file.semidefinite = true;
   }
   file.asymmetry = asymmetry(stored.delassus);
-  file.problem = {std::move(stored.delassus), std::move(stored.free_velocity), std::move(stored.friction)};
+  file.problem = {stored.delassus, std::move(stored.free_velocity), std::move(stored.friction)};
   return file;
 }
 

@@ -2,115 +2,23 @@
 //   0 dense   rows and columns again, then W column by column
 //   1 blocks  the lists of their ends and places, and each one's numbers column by column; some files have
 //             them row by row
-//   2 sparse  what CSparse prints of triplets (origin 1) or of compressed columns (2)
+//   2 sparse  what Siconos has CSparse print of triplets (origin 1) or of compressed columns (2): W in six
+//             digits (%g)
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
+#include <unordered_set>
 #include <utility>
 
 #include "cones/cone_file.h"
-#include "error.h"
+#include "cones/cone_text.h"
 
 namespace pbdcheck {
 namespace {
 
 using Eigen::VectorXd;
-using pbd::SetupError;
 
-class Text {
- public:
-  explicit Text(const std::filesystem::path& path) : path_(path.string()), in_(path) {
-    if (!in_) refuse("a file that cannot be read", "a readable one");
-    characters_ = static_cast<long>(std::filesystem::file_size(path));
-  }
-
-  [[noreturn]] void refuse(const std::string& got, const std::string& allowed) const {
-    throw SetupError(line_ > 0 ? fmt::format("{}:{}", path_, line_) : path_, got, allowed);
-  }
-
-  double number(const std::string& what) { return number(what, word(what)); }
-
-  double number(const std::string& what, const std::string& word) const {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (end != word.c_str() + word.size()) refuse("`" + word + "` for " + what, "a number");
-    if (!(std::abs(value) <= largest_in_cone))
-      refuse("`" + word + "` for " + what, fmt::format("a finite number, at most {:g}", largest_in_cone));
-    return value;
-  }
-
-  /// An integer of the range, no larger than the file has characters.
-  int integer(const std::string& what, long least, long most) {
-    return integer(what, word(what), least, most);
-  }
-
-  int integer(const std::string& what, const std::string& word, long least, long most) const {
-    const double value = number(what, word);
-    if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most) &&
-          value == std::floor(value)))
-      refuse(fmt::format("{} = {}", what, value),
-             least == most ? fmt::format("{}", least) : fmt::format("an integer from {} to {}", least, most));
-    if (value > static_cast<double>(characters_))
-      refuse(fmt::format("{} = {} in a file of {} characters", what, value, characters_),
-             "the whole problem");
-    return static_cast<int>(value);
-  }
-
-  VectorXd numbers(const std::string& what, Eigen::Index count) {
-    VectorXd all(count);
-    for (double& value : all) value = number(what);
-    return all;
-  }
-
-  std::string word(const std::string& what) {
-    std::string found;
-    if (!next(found)) refuse("an end of the file where " + what + " should be", "the whole problem");
-    return found;
-  }
-
-  void expect(const std::string& expected) {
-    const std::string found = word("`" + expected + "`");
-    if (found != expected) refuse("`" + found + "`", "`" + expected + "`, as CSparse prints it");
-  }
-
-  /// What may stand behind mu: a flag, and a solution of `rows` numbers, or of twice as many with velocities.
-  void skip_solution(long rows) {
-    const std::string what = "what stands behind mu";
-    std::string first, other;
-    if (!next(first)) return;
-    number(what, first);
-    long count = 1;
-    for (; next(other); ++count) number(what, other);
-    const bool flagged = (first == "0" || first == "1") && (count - 1) % rows == 0;
-    if ((!flagged && count % rows != 0) || count > 2 * rows + 1)
-      refuse(fmt::format("{} numbers behind mu", count),
-             fmt::format("the end of the file, a flag 0 or 1, or a solution of {} or {} numbers", rows,
-                         2 * rows));
-  }
-
-  long characters() const { return characters_; }
-
- private:
-  bool next(std::string& word) {
-    while (!(words_ >> word)) {
-      std::string line;
-      if (!std::getline(in_, line)) return false;
-      ++line_;
-      words_ = std::istringstream(line);
-    }
-    return true;
-  }
-
-  std::string path_;
-  std::ifstream in_;
-  std::istringstream words_;  // of the line
-  long line_ = 0, characters_ = 0;
-};
-
-void read_dense(Text& text, int rows, StoredCone& stored) {
+void read_dense(ConeText& text, int rows, StoredCone& stored) {
   for (const char* what : {"the number of rows, again", "the number of columns, again"})
     text.integer(what, rows, rows);
   if (static_cast<long>(rows) * rows > text.characters())
@@ -122,7 +30,7 @@ void read_dense(Text& text, int rows, StoredCone& stored) {
 }
 
 /// The ends of blocks, each of which holds whole contacts.
-std::vector<int> read_ends(Text& text, int count, int rows) {
+std::vector<int> read_ends(ConeText& text, int count, int rows) {
   std::vector<int> ends{0};
   for (int i = 0; i < count; ++i) {
     ends.push_back(text.integer("the end of a block", ends.back() + 3L, rows));
@@ -134,7 +42,7 @@ std::vector<int> read_ends(Text& text, int count, int rows) {
   return ends;
 }
 
-void read_blocks(Text& text, int rows, StoredCone& stored) {
+void read_blocks(ConeText& text, int rows, StoredCone& stored) {
   const int blocks = text.integer("the number of blocks", 1, std::numeric_limits<int>::max());
   const int lines = text.integer("the number of rows of blocks", 1, rows / 3);
   text.integer("the number of columns of blocks", lines, lines);
@@ -175,7 +83,46 @@ void read_blocks(Text& text, int rows, StoredCone& stored) {
   stored.form = "Siconos text";
 }
 
-void read_sparse(Text& text, int rows, StoredCone& stored) {
+/// The entries of a sparse W, each of which stands once.
+struct SparseEntries {
+  int rows;
+  std::vector<Eigen::Triplet<double>> all{};
+  std::unordered_set<std::int64_t> places{};
+
+  /// Reads `: value` of row i and column j.
+  void read(ConeText& text, int i, int j) {
+    text.expect(":");
+    const double value = text.number("W");
+    if (!places.insert(std::int64_t{rows} * j + i).second)
+      text.refuse(fmt::format("another entry {} in row {} and column {}", value, i, j), "one");
+    all.emplace_back(i, j, value);
+  }
+};
+
+void read_triplets(ConeText& text, int count, SparseEntries& entries) {
+  for (int k = 0; k < count; ++k) {
+    const int i = text.integer("a row", 0, entries.rows - 1);
+    const int j = text.integer("a column", 0, entries.rows - 1);
+    entries.read(text, i, j);
+  }
+}
+
+void read_columns(ConeText& text, int count, SparseEntries& entries) {
+  text.expect("1-norm:");
+  text.number("the norm");
+  for (int j = 0; j < entries.rows; ++j) {
+    text.expect("col");
+    text.integer("a column", j, j);
+    for (const char* word : {":", "locations"}) text.expect(word);
+    const long read = std::ssize(entries.all);
+    const int first = text.integer("a column's first entry", read, read);
+    text.expect("to");
+    const int last = text.integer("a column's last entry", first - 1L, count - 1L);
+    for (int k = first; k <= last; ++k) entries.read(text, text.integer("a row", 0, entries.rows - 1), j);
+  }
+}
+
+void read_sparse(ConeText& text, int rows, StoredCone& stored) {
   constexpr int triplets = 1, columns = 2;
   const int origin = text.integer("the origin (1 triplets, 2 compressed columns)", triplets, columns);
   while (text.word("CSparse's heading") != "nnz:") continue;
@@ -184,42 +131,20 @@ void read_sparse(Text& text, int rows, StoredCone& stored) {
   const int count =
       text.integer("the number of entries", number, 0,
                    std::min<long>(static_cast<long>(rows) * rows, std::numeric_limits<int>::max()));
-  std::vector<Eigen::Triplet<double>> entries;
-  if (origin == triplets) {
-    for (int k = 0; k < count; ++k) {
-      const int i = text.integer("a row", 0, rows - 1), j = text.integer("a column", 0, rows - 1);
-      text.expect(":");
-      entries.emplace_back(i, j, text.number("W"));
-    }
-  } else {
-    text.expect("1-norm:");
-    text.number("the norm");
-    for (int j = 0; j < rows; ++j) {
-      text.expect("col");
-      text.integer("a column", j, j);
-      for (const char* word : {":", "locations"}) text.expect(word);
-      const auto read = static_cast<long>(entries.size());
-      const int first = text.integer("a column's first entry", read, read);
-      text.expect("to");
-      const int last = text.integer("a column's last entry", first - 1L, count - 1L);
-      for (int k = first; k <= last; ++k) {
-        const int i = text.integer("a row", 0, rows - 1);
-        text.expect(":");
-        entries.emplace_back(i, j, text.number("W"));
-      }
-    }
-  }
-  if (std::ssize(entries) != count)
-    text.refuse(fmt::format("{} entries", entries.size()), fmt::format("{}", count));
+  SparseEntries entries{rows};
+  origin == triplets ? read_triplets(text, count, entries) : read_columns(text, count, entries);
+  if (std::ssize(entries.all) != count)
+    text.refuse(fmt::format("{} entries", entries.all.size()), fmt::format("{}", count));
   stored.delassus.resize(rows, rows);
-  stored.delassus.setFromTriplets(entries.begin(), entries.end());
+  stored.delassus.setFromTriplets(entries.all.begin(), entries.all.end());
+  stored.rounding = 5e-6;  // half a unit of the sixth digit of 1.00000
   stored.form = "Siconos text, sparse";
 }
 
 }  // namespace
 
 StoredCone read_siconos(const std::filesystem::path& path) {
-  Text text(path);
+  ConeText text(path);
   constexpr long most_contacts = 1000000;
   text.integer("the dimension", 3, 3);
   const int contacts = text.integer("the number of contacts", 1, most_contacts);

@@ -1,10 +1,14 @@
 #include "cones/cone_solvers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "cone_interior_point.h"
 #include "cone_ipopt.h"
 #include "error.h"
+#include "harness/interrupt.h"
 #include "linear/linear_names.h"
 #include "scenes/choices.h"
 
@@ -44,26 +48,59 @@ const ConeSolver& find_cone_solver(const std::string& name, const std::string& l
 }
 
 ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task) {
-  constexpr int most_problems = 50;
+  constexpr int most_problems = 200;  // from 1 to 1e-9 by 0.9 each
+  constexpr int patience = 5;
   constexpr double share = 0.1;  // of the tolerance, for each of them
   ConeProblem near = symmetric(task.problem);
   const SparseMatrix rest = task.problem.delassus - near.delassus;
-  ConeSolution found;
+  ConeSolution best;
+  std::string why = "splitting W contracts too slowly";
   int sweeps = 0;
   double seconds = 0;
-  for (int k = 0; k < most_problems; ++k) {
-    const ConeSolution next =
-        solver.solve({near, task.law, share * task.tolerance, task.most_sweeps - sweeps});
+  for (int k = 0, improved = 0; k < most_problems && best.outcome != Outcome::ok; ++k) {
+    throw_if_interrupted();
+    ConeSolution next = solver.solve({near, task.law, share * task.tolerance, task.most_sweeps - sweeps});
     sweeps += next.iterations;
     seconds += next.seconds;
-    found.impulse = next.impulse;
-    found.reason.clear();
-    certify(task.problem, task.law, task.tolerance, found);
-    if (found.outcome == Outcome::ok || (!solver.judge && sweeps >= task.most_sweeps)) break;
-    near.free_velocity = task.problem.free_velocity + rest * found.impulse;
+    const std::string missed = std::exchange(next.reason, "");
+    certify(task.problem, task.law, task.tolerance, next);
+    const bool better = k == 0 || next.measures.residual() < best.measures.residual();
+    near.free_velocity = task.problem.free_velocity + rest * next.impulse;
+    if (better) best = std::move(next), improved = k;
+    if (!near.free_velocity.allFinite())
+      why = "impulses are not finite";
+    else if (!missed.empty() && !better)
+      why = "W's symmetric part is not solved: " + missed;
+    else if (k - improved >= patience)
+      why = "splitting W does not contract";
+    else if (!solver.judge && sweeps >= task.most_sweeps)
+      why = "no sweeps are left";
+    else
+      continue;
+    break;
   }
-  found.iterations = sweeps;
-  found.seconds = seconds;
+  best.iterations = sweeps;
+  best.seconds = seconds;
+  if (best.outcome != Outcome::ok)
+    best.reason =
+        fmt::format("{} (asymmetry {:.2g}): {}", why, asymmetry(task.problem.delassus), best.reason);
+  return best;
+}
+
+ConeSolution solve_file(const ConeSolver& solver, const ConeFile& file, FrictionLaw law, double tolerance) {
+  if (law != FrictionLaw::cone && file.asymmetry > symmetric_within)
+    return solve_as_given(solver, {file.problem, law, tolerance, most_sweeps});
+  const ConeProblem symmetrised = symmetric(file.problem);
+  const ConeSolution solved = solver.solve({symmetrised, law, tolerance, most_sweeps});
+  ConeSolution found = solved;
+  certify(file.problem, law, tolerance, found);
+  // Numbers off by `rounding` of themselves are apart from their mirror's by twice that.
+  if (solved.outcome != Outcome::ok || file.asymmetry <= 2 * file.rounding)
+    found.outcome = solved.outcome, found.reason = solved.reason;
+  else if (found.outcome != Outcome::ok)
+    found.reason =
+        fmt::format("W is unsymmetric by {:.2g}, and what minimises its symmetric part does not solve it: {}",
+                    file.asymmetry, found.reason);
   return found;
 }
 

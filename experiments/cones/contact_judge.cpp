@@ -1,19 +1,36 @@
 #include "cones/contact_judge.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <limits>
 
+#include "error.h"
 #include "harness/interrupt.h"
 #include "harness/rows_of_step.h"
+#include "scenes/contacts.h"
 
 namespace pbdcheck {
 
 using namespace pbd;
 
+namespace {
+
+void refuse_restitution(const Scene& scene) {
+  const Contact* contact = contact_of(scene);
+  for (std::size_t i = 0; contact != nullptr && i < contact->law.size(); ++i)
+    if (const double restitution = contact->law[i].restitution; restitution > 0)
+      throw SetupError(fmt::format("contact restitution[{}]", i), fmt::format("{}", restitution),
+                       "0 in a step that is judged");
+}
+
+}  // namespace
+
 ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, const State& state, double h,
                                 reference::FrictionLaw law) {
   constexpr double settled = 1e-12, accuracy = 1e-12;
   constexpr int most = 100;
+  refuse_restitution(scene);
   const auto begin = std::chrono::steady_clock::now();
   ContactJudgement found;
   found.status = "not_converged";

@@ -16,9 +16,10 @@ struct ContactJudgement {
 };
 
 /// The implicit Euler step of h seconds from `state` of bodies that nothing but contacts hold, all with
-/// friction and without compliance, damping or gyroscopic torque. The rows, which are the solver's own, are
-/// linearised at the judge's iterates until velocities stay within 1e-12 of the largest free one. Throws
-/// Interrupted.
+/// friction and without restitution, compliance, damping or gyroscopic torque. The rows, which are the
+/// solver's own, are linearised at the judge's iterates until velocities stay within 1e-12 of the largest
+/// free one. Throws Interrupted, and SetupError where contacts have restitution: rows of bodies that collide
+/// are others.
 ContactJudgement judge_contacts(const ConeSolver& judge, const pbd::Scene& scene, const pbd::State& state,
                                 double h, pbd::reference::FrictionLaw law);
 

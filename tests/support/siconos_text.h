@@ -18,23 +18,27 @@ inline std::string dense(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, con
   return fmt::format("3\n{0}\n0\n{1}\n{1}\n{1}\t{1}\n", mu.size(), w.rows()) + text(w) + text(q) + text(mu);
 }
 
-/// As Siconos 4.4 and CSparse 3.2 print it.
-inline std::string sparse(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, const Eigen::VectorXd& mu,
-                          bool by_columns) {
+/// A sparse W as Siconos 4.4.0 has CSparse 3.2.0 print it, in six digits, and what stands before it.
+inline std::string sparse_head(const Eigen::MatrixXd& w, bool by_columns) {
   const auto rows = w.rows();
   std::string file =
-      fmt::format("3\n{0}\n2\n{1}\n{1}\n{2}\nCSparse Version 3.2.0, Sept 12, 2017.  Copyright (c) ",
-                  mu.size(), rows, by_columns ? 2 : 1);
-  file += fmt::format("Timothy A. Davis\n{0}{1}-by-{1}, nzmax: {2} nnz: {2}",
+      fmt::format("3\n{0}\n2\n{1}\n{1}\n{2}\nCSparse Version 3.2.0, Sept 12, 2017.  Copyright (c) ", rows / 3,
+                  rows, by_columns ? 2 : 1);
+  file += fmt::format("Timothy A. Davis, 2006-2016\n{0}{1}-by-{1}, nzmax: {2} nnz: {2}",
                       by_columns ? "" : "triplet: ", rows, rows * rows);
-  file += by_columns ? ", 1-norm: 3.5\n" : "\n";
+  file += by_columns ? fmt::format(", 1-norm: {:g}\n", w.cwiseAbs().colwise().sum().maxCoeff()) : "\n";
   for (Eigen::Index j = 0; j < rows; ++j) {
     if (by_columns) file += fmt::format("    col {} : locations {} to {}\n", j, j * rows, (j + 1) * rows - 1);
     for (Eigen::Index i = 0; i < rows; ++i)
-      file += by_columns ? fmt::format("      {} : {:.17g}\n", i, w(i, j))
-                         : fmt::format("    {} {} : {:.17g}\n", i, j, w(i, j));
+      file += by_columns ? fmt::format("      {} : {:g}\n", i, w(i, j))
+                         : fmt::format("    {} {} : {:g}\n", i, j, w(i, j));
   }
-  return file + text(q) + text(mu);
+  return file;
+}
+
+inline std::string sparse(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, const Eigen::VectorXd& mu,
+                          bool by_columns) {
+  return sparse_head(w, by_columns) + text(q) + text(mu);
 }
 
 /// All blocks of `size` rows, each written column by column, or row by row.

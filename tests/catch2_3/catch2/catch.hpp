@@ -6,6 +6,8 @@
 using Catch::Approx;
 
 namespace Catch {
+using Matchers::EndsWith;
+using Matchers::StartsWith;
 inline auto Contains(const std::string& part) {  // NOLINT(readability-identifier-naming): Catch2's name
   return Matchers::ContainsSubstring(part);
 }

@@ -5,22 +5,17 @@
 
 #include "harness/rows_of_step.h"
 #include "linear/linear_names.h"
-#include "planted_cones.h"
+#include "planted_family.h"
 #include "scenes/contacts.h"
 
 using namespace pbdcheck;
+using namespace pbdcheck::test;
 using namespace pbd::reference;
 using Eigen::VectorXd;
 
 namespace {
 
 constexpr double tolerance = 1e-8;
-
-PlantedCone planted(std::string_view family, FrictionLaw law, int seed) {
-  for (const auto& each : planted_families())
-    if (each.name == family) return each.draw(law, static_cast<std::uint64_t>(seed));
-  throw std::logic_error("no such family");
-}
 
 /// A pyramid whose top slides.
 pbd::Scene sliding_top() {
@@ -38,7 +33,7 @@ TEST_CASE("every relaxation solves planted problems whose W is well-conditioned,
       for (const auto relaxation : pbd::general_solver_names())
         for (int seed = 1; seed <= 3; ++seed) {
           INFO(relaxation << " " << family << " " << seed);
-          const PlantedCone p = planted(family, law, seed);
+          const PlantedCone p = draw_planted(family, law, seed);
           const ConeSolution found = relax_cone(relaxation, {p.problem, law, tolerance, 2000});
           CHECK(found.outcome == Outcome::ok);
           CHECK(measure_cone(p.problem, law, found.impulse).natural_residual <= tolerance);
@@ -64,7 +59,7 @@ TEST_CASE("direct solves redundant problems, where Newton's step alone gains not
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb})
     for (int seed = 1; seed <= planted_seeds; ++seed) {
       INFO(seed);
-      const PlantedCone p = planted("redundant", law, seed);
+      const PlantedCone p = draw_planted("redundant", law, seed);
       CHECK(relax_cone("direct", {p.problem, law, tolerance, 200}).outcome == Outcome::ok);
     }
 }
@@ -110,7 +105,7 @@ TEST_CASE("a step's rows and the columns of their W are swept alike") {
 }
 
 TEST_CASE("a contact that nothing can move stays as it is, whatever happens to the others") {
-  PlantedCone p = planted("full_rank", FrictionLaw::coulomb, 1);
+  PlantedCone p = draw_planted("full_rank", FrictionLaw::coulomb, 1);
   const auto rows = p.problem.free_velocity.size();
   ConeProblem wider;
   wider.delassus = p.problem.delassus;

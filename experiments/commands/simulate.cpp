@@ -13,6 +13,7 @@
 #include "harness/probes.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/stepper.h"
 #include "harness/vtk.h"
 
 namespace pbdcheck {
@@ -27,9 +28,13 @@ struct Totals {
   std::int64_t row_updates = 0;
   double worst_residual = 0;
   std::int64_t worst_step = 0;
+  std::int64_t steps_in_parts = 0;  // that diverged as a whole
+  int most_parts = 1;
 
-  void add(const pbd::Report& report) {
+  void add(const pbd::Report& report, int parts) {
     ++steps;
+    steps_in_parts += parts > 1;
+    most_parts = std::max(most_parts, parts);
     ++by_status[static_cast<std::size_t>(report.status)];
     outer_iterations += report.outer_iterations;
     sweeps += report.sweeps;
@@ -109,6 +114,8 @@ nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& w
           {"steps_by_status", steps},
           {"worst_residual", totals.worst_residual},
           {"worst_step", totals.worst_step},
+          {"steps_in_parts", totals.steps_in_parts},
+          {"most_parts", totals.most_parts},
           {"outer_iterations", totals.outer_iterations},
           {"sweeps", totals.sweeps},
           {"row_updates", totals.row_updates},
@@ -124,20 +131,19 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
 
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
 std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
-  const pbd::Scene stated = file.scene;
-  pbd::State state = stated.initial;
-  file.script.begin_step(stated, file.step_s, file.scene, state);  // for the probes at the start
+  pbd::State state = file.scene.initial;
+  Stepper stepper(file, workspace);
+  stepper.begin(file.step_s, state);  // for the probes at the start
   ProgressBar progress("simulate", file.steps);
   std::string lost = output.add(0, state, nullptr);
   while (totals.steps < file.steps && lost.empty()) {
-    throw_if_interrupted();
-    file.script.begin_step(stated, file.step_s, file.scene, state);
-    file.script.hand_on(file.scene, workspace);
-    const auto report =
-        pbd::step(workspace, file.step_s, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
-    totals.add(report);
+    const pbd::Report report = stepper.advance(state);
+    totals.add(report, stepper.parts());
     if (report.status == pbd::Status::diverged)
-      return fmt::format("step {} diverged: {}", totals.steps, report.reason);
+      return fmt::format("step {} diverged, in parts, too: {}", totals.steps, report.reason);
+    if (stepper.parts() > 1 && totals.steps_in_parts == 1)
+      warn(fmt::format("step {} diverged and was made in {} parts; later ones are counted", totals.steps,
+                       stepper.parts()));
     if (report.status != pbd::Status::ok && totals.missed() == 1)
       warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
                        totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
@@ -181,6 +187,9 @@ int simulate(const SimulateOptions& options) {
   if (totals.missed() > 0)
     warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, {}", totals.missed(), totals.steps,
                      file.method.tolerance, worst_text(totals)));
+  if (totals.steps_in_parts > 0)
+    warn(fmt::format("{} of {} steps diverged and were made in up to {} parts", totals.steps_in_parts,
+                     totals.steps, totals.most_parts));
   if (outcome == RunOutcome::failed) error_message(reason);
   if (outcome == RunOutcome::interrupted) return exit_interrupted;
   return outcome == RunOutcome::failed || totals.missed() > 0 ? exit_failed : exit_done;

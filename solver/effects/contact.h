@@ -18,14 +18,17 @@
 // be well below the shortest edge; a crease so sharp that its triangles are nearer than that parts them by
 // force, and such steps may not converge.
 //
-// What a missed step leaves overlapping parts by a tenth of that a step, and what forces move in one, until
-// nothing overlaps: to part at once would throw it, by all the speed that has gone into the overlap.
+// What a missed step leaves overlapping, or a diverged one began with, parts by a tenth of that a step, and
+// what forces move in one, until nothing overlaps: to part at once would throw it, by all the speed that has
+// gone into the overlap.
 //
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
 // meets; and whatever touches in the solved step, but parts by less than e of its speed at the start: such
 // are let collide, and the step is solved again, until there are no more. So what collides depends on the
 // velocities that solve a step, not on how a solver shares impulses among contacts; where friction leaves
-// velocities open, what collides is open, too. What one round has let collide does so for the rest of the
+// velocities open, what collides is open, too. A collision falls at its step's end: the speed that comes back
+// is e times that at the step's start, g h too small at most, from a place up to v h above the ground:
+// heights of rebounds are of first order in h. What one round has let collide does so for the rest of the
 // step, solved or missed.
 #pragma once
 

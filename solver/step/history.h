@@ -21,8 +21,8 @@ class History {
   /// Carries the map on to the step's end; it may have been missed.
   void end_step(double h, const StepSystem& system, bool missed, State& state);
 
-  /// The next step is a start.
-  void forget() { h_ = 0, missed_ = false, ended_ = {}; }
+  /// The step diverged and leaves `state` as it was: the next one is a start, and from there one after a miss.
+  void diverge(const State& state) { h_ = 0, missed_ = true, ended_ = state; }
 
   /// m/s^2, of the last step begun.
   const Points& given_accelerations() const { return acceleration_; }

@@ -65,7 +65,7 @@ TEST_CASE("steps that are cut off gain no energy") {
                                                                  {"bars", hanging_bars(1)},
                                                                  {"heavy bar", hanging_bars(100)}}));
   const auto relaxation = GENERATE(from_range(solvers_of_contact()));
-  constexpr int steps = 50;
+  constexpr int steps = 30;
   const double height = scene.initial.x.cwiseAbs().maxCoeff();  // m
   for (const int outer_iterations : {1, 3, 10, 30}) {
     const Method method = cut_off(relaxation, outer_iterations);

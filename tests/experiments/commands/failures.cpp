@@ -39,7 +39,7 @@ TEST_CASE("a simulation that loses its state is recorded as failed, and writes n
   for (const auto& [setting, reason] : std::vector<std::pair<std::string, std::string>>{
            {"step.step_s=1e54", "step 2 diverged: gravity_energy_j is not finite"},
            {"step.step_s=1e53", ""},
-           {"step.step_s=1e100", "step 1 diverged: not finite"}}) {
+           {"step.step_s=1e100", "step 1 diverged, in parts, too: not finite"}}) {
     INFO(setting);
     const auto ran = run_program({"simulate", scene, "--set", setting, "-o", folder.path});
     const auto record = record_of(folder.path);
@@ -49,6 +49,22 @@ TEST_CASE("a simulation that loses its state is recorded as failed, and writes n
     CHECK_THAT(ran.err, !Catch::Contains("with nan") && !Catch::Contains("with -nan"));
     CHECK_THAT(read_text(folder.path / "probes.csv"), !Catch::Contains("inf") && !Catch::Contains("nan"));
   }
+}
+
+TEST_CASE("a step that diverges is made in parts, and the simulation says so") {
+  const TemporaryFolder folder;
+  // The square of the whole step's change of velocity, 2e154 m/s, is not finite; that of half a step's is.
+  const auto scene = folder.write(
+      "fly.toml",
+      "[gravity]\nacceleration_m_s2 = [0, 0, -1e100]\n[[particle]]\nposition_m = [0, 0, 0]\nmass_kg = 1\n"
+      "[step]\nstep_s = 2e54\nsteps = 1\n");
+  const auto ran = run_program({"simulate", scene, "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.err, Catch::Contains("step 1 diverged and was made in 2 parts"));
+  const auto report = record_of(folder.path)["report"];
+  CHECK(report["steps_by_status"]["ok"] == 1);
+  CHECK(report["steps_in_parts"] == 1);
+  CHECK(report["most_parts"] == 2);
 }
 
 TEST_CASE("no row of compare is ok without a finite error") {

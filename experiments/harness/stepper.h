@@ -1,0 +1,35 @@
+// Steps of a scene file, and the way on where one diverges: it is made again in 2, 4, ... 64 equal parts, the
+// first number of which none diverges, and what overlaps parts slowly (solver/effects/contact.h).
+#pragma once
+
+#include "scenes/scene_file.h"
+#include "step/step.h"
+
+namespace pbdcheck {
+
+class Stepper {
+ public:
+  /// Both are to stay where they are.
+  Stepper(SceneFile& file, pbd::Workspace& workspace);
+
+  /// The scene as its script has it where a step begins from `state`, whose moving bodies get their
+  /// velocities.
+  void begin(double h, pbd::State& state);
+
+  /// One step of the file. The report sums up the parts, with status and residual of the worst one; if all
+  /// ways diverge it is the whole step's, and `state` is as it was.
+  pbd::Report advance(pbd::State& state);
+
+  /// Of the last step.
+  int parts() const { return parts_; }
+
+ private:
+  bool advance_in(int parts, pbd::State& state, pbd::Report& sum);
+
+  SceneFile& file_;
+  pbd::Workspace& workspace_;
+  pbd::Scene stated_;
+  int parts_ = 1;
+};
+
+}  // namespace pbdcheck

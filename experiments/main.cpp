@@ -76,6 +76,10 @@ void add_simulate(CLI::App& app, SimulateOptions& options) {
   add_scene_options(*command, options.scene, options.settings, options.directory);
   command->add_option("--export", options.export_format, "vtk: a frame a step for ParaView")
       ->check(one_of({"vtk"}));
+  command
+      ->add_flag("--check", options.check,
+                 "Judge each solved step by code that shares nothing with the solver; writes DIR/checks.csv")
+      ->check(no_value());
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

@@ -13,6 +13,7 @@
 #include "harness/probes.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/step_checks.h"
 #include "harness/vtk.h"
 
 namespace pbdcheck {
@@ -122,8 +123,24 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
           {"export", options.export_format}};
 }
 
+nlohmann::ordered_json checks_json(const StepChecks& checks) {
+  return {{"steps", checks.judged()},
+          {"refuted", checks.refuted_steps()},
+          {"missed", checks.missed()},
+          {"compared", checks.compared()},
+          {"left_out", checks.left_out()}};
+}
+
+void write_checks(const std::filesystem::path& path, const StepChecks& checks, RowCounts& rows) {
+  Table table(path, {"step", "check", "what", "number", "bound"}, &rows);
+  for (const auto& [step, finding] : checks.refuted())
+    table.row({step, finding.check, finding.what, finding.number, finding.bound});
+  table.close();
+}
+
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
-std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
+std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals,
+                    StepChecks* checks) {
   const pbd::Scene stated = file.scene;
   pbd::State state = stated.initial;
   file.script.begin_step(stated, file.step_s, file.scene, state);  // for the probes at the start
@@ -133,11 +150,15 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, 
     throw_if_interrupted();
     file.script.begin_step(stated, file.step_s, file.scene, state);
     file.script.hand_on(file.scene, workspace);
+    const pbd::State start = checks != nullptr ? state : pbd::State{};
     const auto report =
         pbd::step(workspace, file.step_s, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
     totals.add(report);
     if (report.status == pbd::Status::diverged)
       return fmt::format("step {} diverged: {}", totals.steps, report.reason);
+    if (checks != nullptr)
+      checks->add(totals.steps, claim_of(file.scene, workspace, start, state, file.step_s, report),
+                  report.status, file.script.changes_scene());
     if (report.status != pbd::Status::ok && totals.missed() == 1)
       warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
                        totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
@@ -158,10 +179,12 @@ int simulate(const SimulateOptions& options) {
 
   const auto start = std::chrono::steady_clock::now();
   Totals totals;
+  std::optional<StepChecks> checks;
+  if (options.check) checks.emplace();
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {
-    reason = advance(file, workspace, output, totals);
+    reason = advance(file, workspace, output, totals, checks ? &*checks : nullptr);
     if (!reason.empty()) outcome = RunOutcome::failed;
   } catch (const Interrupted&) {
     outcome = RunOutcome::interrupted;
@@ -169,21 +192,31 @@ int simulate(const SimulateOptions& options) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   output.close();
+  RowCounts rows = output.rows();
+  if (checks) {
+    write_checks(options.directory / "checks.csv", *checks, rows);
+    if (outcome == RunOutcome::complete && checks->refuted_steps() > 0) {
+      outcome = RunOutcome::refuted;
+      reason = checks->text();
+    }
+  }
 
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
-  json["rows"] = output.rows();
+  json["rows"] = rows;
   json["report"] = report_json(totals, workspace);
+  if (checks) json["checks"] = checks_json(*checks);
   record.write(json_text(json));
   record.complete();
 
   if (totals.missed() > 0)
     warn(fmt::format("{} of {} steps missed the tolerance {:.3g}, {}", totals.missed(), totals.steps,
                      file.method.tolerance, worst_text(totals)));
+  if (checks) fmt::print("{}\n", checks->text());
   if (outcome == RunOutcome::failed) error_message(reason);
   if (outcome == RunOutcome::interrupted) return exit_interrupted;
-  return outcome == RunOutcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
+  return outcome != RunOutcome::complete || totals.missed() > 0 ? exit_failed : exit_done;
 }
 
 }  // namespace pbdcheck

@@ -1,0 +1,308 @@
+#include "step_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dense.h"
+
+namespace pbd::reference {
+namespace {
+
+/// First unknown of each three coordinates of a block in turns, or -1.
+int unknown_of(const RigidModel& model, const Block::Part& part, bool turn) {
+  if (turn) return part.body < 0 ? -1 : model.rotors[static_cast<std::size_t>(part.body)].unknown;
+  return model.nodes.first[static_cast<std::size_t>(part.node)];
+}
+
+/// f(unknown, offset) for each three coordinates of a block that can move.
+template <class F>
+void each_moving(const RigidModel& model, const Block& block, F&& f) {
+  for (const Block::Part& part : block.parts) {
+    if (const int i = unknown_of(model, part, false); i >= 0) f(i, part.offset);
+    if (const int i = unknown_of(model, part, true); i >= 0) f(i, part.offset + 3);
+  }
+}
+
+Placement placement_of(const State& state) {
+  return {state.x, state.orientation, state.time};
+}
+
+/// Multipliers of all rows, in the scene's order; false if they are not as many.
+bool gather_forces(const StepClaim& claim, const RigidModel& model, Vector& gamma) {
+  std::vector<double> all;
+  for (const auto& own : claim.forces) all.insert(all.end(), own.begin(), own.end());
+  gamma = Eigen::Map<const Vector>(all.data(), static_cast<Eigen::Index>(all.size()));
+  return gamma.size() == model.rows();
+}
+
+/// g of all unknowns, and the sum of its terms' absolute values.
+class Balance {
+ public:
+  Balance(const StepClaim& claim, const StepModel& model)
+      : claim_(claim),
+        model_(model),
+        rest_(Vector::Zero(model.rigid.unknowns)),
+        terms_(Vector::Zero(model.rigid.unknowns)),
+        left_out_(static_cast<std::size_t>(model.rigid.unknowns / 3), false) {}
+
+  void add_inertia();
+  void add_constraints(const Vector& gamma, Findings& findings);
+  void add_contacts(const Contact& contact, Findings& findings);
+  void report(double level, Findings& findings) const;
+
+ private:
+  void add(int unknown, const Vec3& term) {
+    rest_.segment<3>(unknown) += term;
+    terms_.segment<3>(unknown) += term.cwiseAbs();
+  }
+  void leave_out(int unknown) { left_out_[static_cast<std::size_t>(unknown / 3)] = true; }
+  void add_rotation(std::size_t b);
+  void add_force(int body, int node, const Vec3& point, const Vec3& force);
+  void sum_up_surface(const Contact& contact);
+  void require_sum(double level, Findings& findings) const;
+  std::string name_of(int unknown) const;
+
+  const StepClaim& claim_;
+  const StepModel& model_;
+  Vector rest_, terms_;
+  std::vector<bool> left_out_;  // of each three unknowns
+  Vec3 surface_rest_ = Vec3::Zero(), surface_terms_ = Vec3::Zero();
+  double surface_mass_ = 0;
+};
+
+void Balance::add_inertia() {
+  const Model& nodes = model_.rigid.nodes;
+  const Vector force = nodes.force;
+  for (std::size_t i = 0; i < nodes.first.size(); ++i) {
+    const int u = nodes.first[i];
+    if (u < 0) continue;
+    const auto node = static_cast<Eigen::Index>(i);
+    add(u, nodes.mass(u) * claim_.end.v.col(node));
+    add(u, -nodes.mass(u) * claim_.start.v.col(node));
+    add(u, -claim_.h * force.segment<3>(u));
+  }
+  for (std::size_t b = 0; b < model_.rigid.rotors.size(); ++b) add_rotation(b);
+}
+
+void Balance::add_rotation(std::size_t b) {
+  const Rotor& rotor = model_.rigid.rotors[b];
+  if (rotor.unknown < 0) return;
+  const auto body = static_cast<Eigen::Index>(b);
+  const Vec3 before = claim_.start.spin.col(body), after = claim_.end.spin.col(body);
+  add(rotor.unknown, rotor.inertia.cwiseProduct(after));
+  add(rotor.unknown, -rotor.inertia.cwiseProduct(before));
+  add(rotor.unknown, -claim_.h * (claim_.start.orientation[b].conjugate() * rotor.torque));
+  const GyroscopicTorque torque = model_.rigid.gyroscopic;
+  if (torque == GyroscopicTorque::none) return;
+  const bool at_end = torque == GyroscopicTorque::at_end && !explicit_forces(claim_);
+  const Vec3 w = at_end ? after : before;
+  add(rotor.unknown, claim_.h * w.cross(rotor.inertia.cwiseProduct(w)));
+}
+
+void Balance::add_constraints(const Vector& gamma, Findings& findings) {
+  const Placement at = placement_of(explicit_forces(claim_) ? claim_.start : claim_.end);
+  each_block(model_.rigid, at, [&](const Block& block) {
+    const auto row = static_cast<std::size_t>(block.row);
+    RowVector own = gamma.segment(block.row, block.rows());
+    const bool no_row = explicit_forces(claim_) && !block.hard && own.hasNaN();
+    if (no_row) own = -solve(Eigen::MatrixXd(block.compliance), Vector(block.value));
+    const bool unknown_force = model_.own_frame[row] || (no_row && model_.damped[row]);
+    if (unknown_force) findings.leave_out("momentum: what a damped joint acts on");
+    const double size = at.x.cwiseAbs().maxCoeff();
+    each_moving(model_.rigid, block, [&](int unknown, int offset) {
+      if (unknown_force) leave_out(unknown);
+      const auto columns = block.jacobian.middleCols<3>(offset);
+      add(unknown, -claim_.h * (columns.transpose() * own));
+      // Rounded positions turn the directions of a length by their size over it, and change a lever.
+      terms_.segment<3>(unknown).array() +=
+          claim_.h * columns.norm() * own.norm() * (1 + size * columns.norm());
+    });
+  });
+}
+
+void Balance::add_force(int body, int node, const Vec3& point, const Vec3& force) {
+  const int u = model_.rigid.nodes.first[static_cast<std::size_t>(node)];
+  if (u >= 0) add(u, -claim_.h * force);
+  if (body < 0) return;
+  const auto b = static_cast<std::size_t>(body);
+  const int turn = model_.rigid.rotors[b].unknown;
+  if (turn < 0) return;
+  if (explicit_forces(claim_)) leave_out(turn);
+  const Vec3 lever = point - claim_.end.x.col(node);
+  add(turn, -claim_.h * (claim_.end.orientation[b].conjugate() * lever.cross(force)));
+  terms_.segment<3>(turn).array() += claim_.h * force.norm() * (point.norm() + lever.norm());
+}
+
+/// Nodes of surfaces that are pressed count by their sum alone.
+void Balance::sum_up_surface(const Contact& contact) {
+  for (const auto& triangle : contact.triangle)
+    for (const int node : triangle) {
+      const int u = model_.rigid.nodes.first[static_cast<std::size_t>(node)];
+      if (u < 0) {
+        surface_mass_ = infinity;
+      } else if (!left_out_[static_cast<std::size_t>(u / 3)]) {
+        leave_out(u);
+        surface_rest_ += rest_.segment<3>(u);
+        surface_terms_ += terms_.segment<3>(u);
+        surface_mass_ += model_.rigid.nodes.mass(u);
+      }
+    }
+}
+
+void Balance::add_contacts(const Contact& contact, Findings& findings) {
+  const auto colliders = static_cast<int>(contact.collider.size());
+  const int nodes = colliders + static_cast<int>(contact.node.size());
+  bool surface = false;
+  for (const ClaimedContact& claimed : claim_.contacts)
+    for (const std::size_t side : {0, 1}) {
+      const int k = claimed.collider[side];
+      const Vec3 force = side == 0 ? claimed.force : Vec3(-claimed.force);
+      if (k >= nodes) {
+        surface = surface || !force.isZero(0);
+        continue;
+      }
+      const int body = k < colliders ? contact.collider[static_cast<std::size_t>(k)].body : -1;
+      const int node = body < 0 ? contact.node[static_cast<std::size_t>(k - colliders)]
+                                : model_.rigid.rotors[static_cast<std::size_t>(body)].node;
+      add_force(body, node, claimed.point, force);
+    }
+  if (!surface) return;
+  sum_up_surface(contact);
+  findings.leave_out("momentum: single nodes of surfaces in contact");
+}
+
+std::string Balance::name_of(int unknown) const {
+  for (std::size_t b = 0; b < model_.rigid.rotors.size(); ++b)
+    if (model_.rigid.rotors[b].unknown == unknown ||
+        model_.rigid.nodes.first[static_cast<std::size_t>(model_.rigid.rotors[b].node)] == unknown)
+      return "body " + std::to_string(b);
+  const auto& first = model_.rigid.nodes.first;
+  return "node " + std::to_string(std::find(first.begin(), first.end(), unknown) - first.begin());
+}
+
+void Balance::require_sum(double level, Findings& findings) const {
+  if (!(surface_mass_ > 0)) return;
+  if (std::isinf(surface_mass_)) return findings.leave_out("momentum: surfaces in contact that are held");
+  const double root = std::sqrt(surface_mass_);  // |sum g|^2 <= sum m sum |g|^2/m
+  findings.require("momentum", "nodes of surfaces", surface_rest_.norm() / root,
+                   level + step_rounding * surface_terms_.norm() / root);
+}
+
+void Balance::report(double level, Findings& findings) const {
+  const int nodes = model_.rigid.nodes.unknowns;
+  for (const bool turns : {false, true}) {
+    double squared = 0, terms = 0, most = -1;
+    int worst = -1;
+    for (int u = turns ? nodes : 0; u < (turns ? model_.rigid.unknowns : nodes); u += 3) {
+      if (left_out_[static_cast<std::size_t>(u / 3)]) continue;
+      const Vec3 weight = model_.rigid.inertia.segment<3>(u).cwiseInverse();
+      const double own = rest_.segment<3>(u).cwiseAbs2().dot(weight);
+      squared += own;
+      terms += terms_.segment<3>(u).cwiseAbs2().dot(weight);
+      if (own <= most) continue;
+      most = own;
+      worst = u;
+    }
+    if (worst < 0) continue;
+    findings.require(turns ? "angular momentum" : "momentum", "most of it of " + name_of(worst),
+                     std::sqrt(squared), level + step_rounding * std::sqrt(terms));
+  }
+  require_sum(level, findings);
+}
+
+/// What bounds and the law let a force miss: the square of what is open of c + A gamma = 0, J.
+double squared_miss(const Vector& missed, const RowMatrix& n, double gamma,
+                    const std::array<double, 2>& bounds) {
+  if (missed.size() > 1) return missed.dot(solve(Eigen::MatrixXd(n), Vector(missed)));
+  const double to = gamma - missed(0) / n(0, 0);
+  const double change = std::clamp(to, bounds[0], bounds[1]) - gamma;
+  return std::isnan(to) ? to : change * change * n(0, 0);
+}
+
+/// J W J^T h^2 + A.
+RowMatrix metric_of(const RigidModel& model, const Block& block, double h) {
+  RowMatrix n = block.compliance;
+  each_moving(model, block, [&](int unknown, int offset) {
+    const auto columns = block.jacobian.middleCols<3>(offset);
+    const Vec3 weight = h * h * model.inertia.segment<3>(unknown).cwiseInverse();
+    n += RowMatrix(columns * weight.asDiagonal() * columns.transpose());
+  });
+  return n;
+}
+
+bool is_singular(const RowMatrix& n) {
+  constexpr double definite = 1e-12;
+  if (n.size() == 1) return !(n(0, 0) > 0);
+  const SymmetricEigen eigen = symmetric_eigen(n);
+  return !(eigen.values(0) > definite * eigen.values(n.rows() - 1));
+}
+
+}  // namespace
+
+void check_motion(const StepClaim& claim, Findings& findings) {
+  const Scene& scene = claim.scene;
+  double held = 0, moved = 0, turned = 0;
+  for (int i = 0; i < scene.nodes(); ++i)
+    if (std::isinf(scene.mass[static_cast<std::size_t>(i)]))
+      held = larger(held, (claim.end.v.col(i) - claim.start.v.col(i)).norm());
+  const Points missed = claim.end.x - claim.start.x - claim.h * claim.end.v;
+  for (int i = 0; i < scene.nodes(); ++i) moved = larger(moved, missed.col(i).norm());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto body = static_cast<Eigen::Index>(b);
+    if (!scene.bodies[b].inertia.allFinite())
+      held = larger(held, (claim.end.spin.col(body) - claim.start.spin.col(body)).norm());
+    const auto expected = turned_by(claim.start.orientation[b], claim.h * claim.end.spin.col(body));
+    turned = larger(turned, 2 * (expected.conjugate() * claim.end.orientation[b]).vec().norm());
+  }
+  const double size = claim.start.x.cwiseAbs().maxCoeff() + claim.end.x.cwiseAbs().maxCoeff();
+  findings.require("motion", "velocities of what is fixed, m/s or rad/s", held, 0);
+  findings.require("motion", "positions, m", moved,
+                   step_rounding * (size + claim.h * claim.end.v.cwiseAbs().maxCoeff()));
+  const double spin = claim.end.spin.cols() > 0 ? claim.end.spin.cwiseAbs().maxCoeff() : 0.0;
+  findings.require("motion", "orientations, rad", turned, step_rounding * (1 + claim.h * spin));
+}
+
+void check_momentum(const StepClaim& claim, const StepModel& model, double level, Findings& findings) {
+  Vector gamma;
+  if (!gather_forces(claim, model.rigid, gamma))
+    return findings.require("momentum", "forces told, of all rows", static_cast<double>(gamma.size()),
+                            std::nan(""));
+  Balance balance(claim, model);
+  balance.add_inertia();
+  balance.add_constraints(gamma, findings);
+  for (const Effect& effect : claim.scene.effects)
+    if (const auto* contact = std::get_if<Contact>(&effect)) balance.add_contacts(*contact, findings);
+  balance.report(level, findings);
+}
+
+void check_constraints(const StepClaim& claim, const StepModel& model, double level, Findings& findings) {
+  Vector gamma;
+  if (!gather_forces(claim, model.rigid, gamma)) gamma.setConstant(model.rigid.rows(), std::nan(""));
+  const Vector value = values_at(model.rigid, placement_of(claim.end));
+  const bool hard_alone = !is_euler_step(claim) || explicit_forces(claim);
+  double squared = 0, most = -1;
+  std::size_t worst = 0;
+  const auto add = [&](const Block& block) {
+    const auto row = static_cast<std::size_t>(block.row);
+    const auto& bounds = model.bounds[row];
+    const bool bounded = bounds != std::array<double, 2>{-infinity, infinity};
+    if (model.damped[row]) return findings.leave_out("constraints: damped ones");
+    if (!block.hard && hard_alone) return findings.leave_out("constraints: compliant ones");
+    if (bounded && !is_euler_step(claim)) return findings.leave_out("constraints: bounded forces");
+    const RowMatrix n = metric_of(model.rigid, block, claim.h);
+    if (is_singular(n)) return findings.leave_out("constraints: those whose rows depend on each other");
+    const RowVector own = gamma.segment(block.row, block.rows());
+    RowVector missed = value.segment(block.row, block.rows());
+    if (!block.hard) missed += block.compliance * own;
+    const double miss = squared_miss(missed, n, bounded ? own(0) : 0, bounds);
+    squared += miss;
+    if (miss <= most) return;
+    most = miss;
+    worst = row;
+  };
+  each_block(model.rigid, placement_of(explicit_forces(claim) ? claim.start : claim.end), add);
+  if (most >= 0 || std::isnan(most) || std::isnan(squared))
+    findings.require("constraints", "most of it of " + model.name[worst], std::sqrt(squared), level);
+}
+
+}  // namespace pbd::reference

@@ -8,12 +8,13 @@
 //   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
 //   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
-//   gap      told is at least what the shapes' support functions prove along its normal
+//   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (half the least side of a polyhedron), whichever is more, and (1 + mu) s h. Convex shapes
 //            and half spaces alone (support.h)
 //
-// Limits: gaps where shapes may bounce (restitution) are left open; sliding is not judged under explicit
+// Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
+// gaps where shapes may bounce (restitution) are left open; sliding is not judged under explicit
 // forces, whose directions are those of the step's begin, nor of the box law, nor on surfaces; depth not of
 // compliant contacts, closed meshes beside other than half spaces, and surfaces.
 #pragma once

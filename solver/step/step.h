@@ -59,7 +59,8 @@ class Workspace {
 
   /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
   /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
-  /// ones under explicit forces). J^T times them are the forces. Of contact none: `contacts` tells them.
+  /// ones under explicit forces). J^T times them are the forces. Those of axis and line joints are along
+  /// Eigen's unitOrthogonal() of a's axis and the axis times that. Of contact none: `contacts` tells them.
   std::vector<double> forces(std::size_t index) const;
 
   /// All contacts of the last step, open ones included.

@@ -14,9 +14,10 @@
 //            and half spaces alone (support.h)
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
-// gaps where shapes may bounce (restitution) are left open; sliding is not judged under explicit
-// forces, whose directions are those of the step's begin, nor of the box law, nor on surfaces; depth not of
-// compliant contacts, closed meshes beside other than half spaces, and surfaces.
+// nor is the slip known there or on surfaces by which the convex law opens contacts; gaps where shapes may
+// bounce (restitution) are left open; sliding is not judged under explicit forces, whose directions are those
+// of the step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, closed meshes
+// beside other than half spaces, and surfaces.
 #pragma once
 
 #include "step_equations.h"

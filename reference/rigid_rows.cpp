@@ -68,7 +68,11 @@ Block stated_block(const Element& e, int row, const Local& local) {
   block.row = row;
   block.hard = e.hard();
   block.value = local.value;
-  block.compliance = e.hard() ? RowMatrix(RowMatrix::Zero(e.rows, e.rows)) : RowMatrix(inverse(e.stiffness));
+  block.compliance.setZero(e.rows, e.rows);
+  if (!e.hard() && e.rows == 1)
+    block.compliance(0, 0) = 1 / e.stiffness(0, 0);
+  else if (!e.hard())
+    block.compliance = inverse(e.stiffness);
   for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[a], -1, 3 * a});
   return block;
 }

@@ -309,7 +309,8 @@ void check_constraints(const StepClaim& claim, const StepModel& model, double le
     if (!block.hard && hard_alone) return findings.leave_out("constraints: compliant ones");
     if (bounded && !is_euler_step(claim)) return findings.leave_out("constraints: bounded forces");
     const RowMatrix n = metric_of(model.rigid, block, claim.h);
-    if (is_singular(n)) return findings.leave_out("constraints: those whose rows depend on each other");
+    if (block.hard && is_singular(n))
+      return findings.leave_out("constraints: those whose rows depend on each other");
     const RowVector own = gamma.segment(block.row, block.rows());
     RowVector missed = value.segment(block.row, block.rows());
     if (!block.hard) missed += block.compliance * own;

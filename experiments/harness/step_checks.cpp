@@ -37,8 +37,13 @@ void StepChecks::add(std::int64_t step, const pbd::reference::StepClaim& claim, 
 }
 
 std::string StepChecks::text() const {
+  std::string left_out;
+  for (const auto& [reason, count] : left_out_)
+    left_out += (left_out.empty() ? "; not judged: " : ", ") + reason;
   const std::string missed = missed_ > 0 ? fmt::format(" ({} missed their tolerance)", missed_) : "";
-  if (refuted_.empty()) return fmt::format("checked: {} steps, none refuted{}", judged_, missed);
+  if (refuted_.empty())
+    return fmt::format("checked: {} steps by {} numbers, none refuted{}{}", judged_, compared_, missed,
+                       left_out);
   const auto& [step, finding] = refuted_.front();
   return fmt::format("refuted: {} of {} steps{}, the first at step {}: {} off by {:.3g} (allowed {:.3g}; {})",
                      refuted_steps_, judged_, missed, step, finding.check, finding.number, finding.bound,

@@ -10,7 +10,7 @@
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
-//            radius (half the least side of a polyhedron), whichever is more, and (1 + mu) s h. Convex shapes
+//            radius (`round` of support.h), whichever is more, and (1 + mu) s h. Convex shapes
 //            and half spaces alone (support.h)
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;

@@ -138,7 +138,7 @@ struct SizeOf {
 
   static Size of(const Points& x) {
     const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
-    return {x.colwise().norm().maxCoeff(), sides.minCoeff() / 2};
+    return {x.colwise().norm().maxCoeff(), sides.norm() / 2};
   }
 };
 

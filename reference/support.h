@@ -44,9 +44,9 @@ double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<
 bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
                  double& nearest);
 
-/// Least and largest distance of the surface from the frame's origin that bound the shape: no point is
-/// farther than `outer` (infinite for a half space); `round` is the radius of what is round of it, of a
-/// polyhedron half the least side of its box. m
+/// No point is farther from the frame's origin than `outer` (infinite for a half space); `round` is the
+/// radius of what is round of the shape, half the least side of a box, and of other polyhedra half the
+/// diagonal of theirs, which no width exceeds. m
 struct Size {
   double outer, round;
 };

@@ -1,7 +1,9 @@
 #include "collision/bounds.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "mass_properties.h"
 
 namespace pbd {
 namespace {
@@ -19,6 +21,21 @@ struct Radius {
   double operator()(const ClosedMesh& shape) const { return farthest(shape.surface.x); }
   double operator()(const ConvexHull& shape) const { return farthest(shape.surface.x); }
   double operator()(const HalfSpace&) const { return infinity; }
+};
+
+struct RoundRadius {
+  double operator()(const Box& shape) const { return shape.size.minCoeff() / 2; }
+  double operator()(const Cylinder& shape) const { return std::min(shape.radius, shape.length / 2); }
+  double operator()(const Capsule& shape) const { return shape.radius; }
+  double operator()(const ClosedMesh& shape) const { return of_surface(shape.surface); }
+  double operator()(const ConvexHull& shape) const { return of_surface(shape.surface); }
+  double operator()(const auto& shape) const { return Radius{}(shape); }
+
+  static double of_surface(const TriangleMesh& surface) {
+    const auto axes = principal_inertia(surface_properties(surface, 1).inertia).axes;
+    const Points along = axes.toRotationMatrix().transpose() * surface.x;
+    return (along.rowwise().maxCoeff() - along.rowwise().minCoeff()).minCoeff() / 2;
+  }
 };
 
 /// Half the box's size about the frame's origin; nothing for shapes whose points are listed.
@@ -49,15 +66,7 @@ double bounding_radius(const Shape& shape) {
 }
 
 double round_radius(const Shape& shape) {
-  return std::visit(
-      []<class S>(const S& own) {
-        if constexpr (requires { own.radius; }) return own.radius;
-        if constexpr (requires { own.size.minCoeff(); }) return own.size.minCoeff() / 2;
-        if constexpr (requires { own.surface; })
-          return (own.surface.x.rowwise().maxCoeff() - own.surface.x.rowwise().minCoeff()).minCoeff() / 2;
-        return Radius{}(own);
-      },
-      shape);
+  return std::visit(RoundRadius{}, shape);
 }
 
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at) {

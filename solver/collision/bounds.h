@@ -11,7 +11,8 @@ namespace pbd {
 /// space.
 double bounding_radius(const Shape& shape);
 
-/// Radius of what is round of the shape; of a polyhedron half the least side of its box (m).
+/// Radius of what is round of the shape, of a cylinder at most half its length; of a polyhedron half its
+/// least width along its principal axes of inertia (m). Goes through the whole surface.
 double round_radius(const Shape& shape);
 
 /// A box along the world's axes that holds the shape; infinite for a half space.

@@ -13,8 +13,8 @@ namespace pbd {
 /// (rad).
 inline constexpr double flat_slope = 0.014;
 
-/// That the surface rises from its node along the normal, or falls less than by `slope` (sine): nodes within
-/// a flat region do not feel faces that are oblique to it.
+/// That the surface rises from its node along the normal, or falls less than by `slope` (sine; of small
+/// angles, rad): nodes within a flat region do not feel faces that are oblique to it.
 bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double slope);
 
 /// That the distance does not fall from an edge into its faces, `apart` from the edge to the other shape,

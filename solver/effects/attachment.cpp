@@ -9,12 +9,9 @@ void Constraint<Attachment>::evaluate(const Attachment& effect, std::size_t i, c
   const Pose& body = *at.body[0];
   if (!effect.damping.empty()) {
     const Vec3 gap = at.node - body.x;
-    value = body.rotation.transpose() * gap - effect.point[i];
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 along = body.rotation.col(k);
-      jacobian.row(k) << -along.transpose(), along.cross(gap).transpose() * body.turn_per_arc,
-          along.transpose();
-    }
+    const Square into = body.rotation.transpose();
+    value = into * gap - effect.point[i];
+    jacobian << -into, into * cross_matrix(gap) * body.turn_per_arc, into;
     return;
   }
   const Vec3 lever = body.rotation * effect.point[i];
@@ -26,14 +23,8 @@ auto Constraint<Attachment>::geometric_bound(const Attachment& effect, std::size
                                              const Value& impulse) -> NodeBounds {
   const Pose& body = *at.body[0];
   if (!effect.damping.empty()) {
-    NodeBounds sum = NodeBounds::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 direction = body.rotation.col(k);
-      const double along = std::abs(impulse[k]) * (cross_matrix(direction) * body.turn_per_arc).norm();
-      const Eigen::Matrix3d form = lever_form(impulse[k] * Vec3(at.node - body.x), direction);
-      sum += NodeBounds(along, largest_of(form, body) + 2 * along, along);
-    }
-    return sum;
+    const Pose node{at.node, Square::Identity(), Square::Zero()};  // a body that does not turn
+    return Slide(body, node, impulse, Vec3::Zero()).bound(1, body, node).template head<3>();
   }
   return {0, largest_of(lever_form(-impulse, body.rotation * effect.point[i]), body), 0};
 }

@@ -120,11 +120,9 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
 
 void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
   with_contacts(blocks, contacts_, [&](auto& block, auto& contacts) {
-    RowResidual own;
     if (!contacts.empty() && !contacts[0].of_surfaces) find_nearest(place.at, contacts);
     for (std::size_t i = 0; i < block.size(); ++i)
-      linearise_contact(place, start_v_, contacts[i], block, i, own);
-    sums += own;
+      linearise_contact(place, start_v_, contacts[i], block, i, sums);
   });
 }
 
@@ -180,11 +178,31 @@ void ContactRows::keep_impulses(ConstBlockSpan blocks) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (!(block.impulse[i][0] > 0)) continue;
       const auto directions = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
-      seeds_.push_back(
-          {contacts[i].collider, contacts[i].features.key, directions.transpose() * block.impulse[i]});
+      seeds_.add(contacts[i].collider, contacts[i].features.key, directions.transpose() * block.impulse[i]);
     }
   });
-  std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.name() < b.name(); });
+  seeds_.sort();
+}
+
+/// The gap that a contact aims at, `gap` where the step begins and `from` at x0 (m).
+template <class Block>
+double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from,
+                              const Block& block, std::size_t i) const {
+  constexpr double recovered =
+      0.1;  // a step, of what missed steps left: at once it would take a hundred times the energy
+  const double target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  if (!recovering_ || gap >= target) return target;
+  const double forced = std::abs((block.jacobian[i] * block.gather(shifts.forced, i))[0]);
+  return std::min(target, (1 - recovered) * gap + forced);
+}
+
+/// The impulse that a contact had in the last step, as its law lets it be.
+template <class Block>
+void ContactRows::take_seed(const ActiveContact& contact, Block& block, std::size_t i) const {
+  const Vec3* seed = seeds_.find(contact.collider, contact.features.key);
+  if (seed == nullptr) return;
+  block.impulse[i] = directions_in<Block>(contact, block.jacobian[i]) * *seed;
+  block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
 }
 
 /// What a contact asks for in this step, and the impulse it begins with.
@@ -194,28 +212,16 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   auto& jacobian = block.jacobian[i];
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
-  const double from = gap + (jacobian * block.gather(shifts.own, i))[0];  // at x0
-  if (!contact.late) contact.target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
-  if (recovering_ && !contact.late && gap < contact.target) {
-    constexpr double share = 0.1;
-    const double forced = std::abs((jacobian * block.gather(shifts.forced, i))[0]);
-    contact.target = std::min(contact.target, (1 - share) * gap + forced);
-  }
-
+  const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
+  if (!contact.late) contact.target = target_of(begin, shifts, gap, from, block, i);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   contact.restitution = contact.closing > 0 && ahead < 0 ? contact.law.restitution : 0.0;
-  const double share = 1 / (1 + contact.law.damping / begin.map.d);
-  contact.compliance = share * contact.law.compliance;
+  const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
+  contact.compliance = elastic * contact.law.compliance;
   // The damper is met with the shape; what is seen late was apart.
-  contact.offset = contact.late ? 0 : (1 - share) * (std::min(from, 0.0) - contact.target);
-
-  const Seed wanted{contact.collider, contact.features.key, {}};
-  const auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), wanted,
-                                     [](const Seed& x, const Seed& y) { return x.name() < y.name(); });
-  if (seed == seeds_.end() || seed->name() != wanted.name()) return;
-  block.impulse[i] = directions_in<Block>(contact, jacobian) * seed->impulse;
-  block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
+  contact.offset = contact.late ? 0 : (1 - elastic) * (std::min(from, 0.0) - contact.target);
+  take_seed(contact, block, i);
 }
 
 /// True if the rows connect other columns than before.

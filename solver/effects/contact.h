@@ -29,10 +29,8 @@
 // step, solved or missed.
 #pragma once
 
-#include <cstdint>
-#include <tuple>
-
 #include "effects/contact_search.h"
+#include "effects/contact_seeds.h"
 #include "rows/source.h"
 
 namespace pbd {
@@ -53,19 +51,17 @@ class ContactRows final : public Source {
                           std::vector<ContactForce>& forces) const override;
 
  private:
-  struct Seed {  // of an impulse: what it was in the last step
-    std::array<int, 2> collider;
-    std::uint64_t key;
-    Vec3 impulse;  // N s, on a, in the world
-
-    auto name() const { return std::tie(collider, key); }
-  };
   struct Shifts {  // m, from the step's start to the free motion's end, to x0, and by the step's forces
     Points free, own, forced;
   };
 
   void keep_impulses(ConstBlockSpan blocks);
   bool fill(const StepBegin& begin, BlockSpan blocks);
+  template <class Block>
+  double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from, const Block& block,
+                   std::size_t i) const;
+  template <class Block>
+  void take_seed(const ActiveContact& contact, Block& block, std::size_t i) const;
   template <class Block>
   void begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact, Block& block,
                      std::size_t i) const;
@@ -74,7 +70,7 @@ class ContactRows final : public Source {
   Friction law_;
   ContactSearch search_;
   ContactLists contacts_;
-  std::vector<Seed> seeds_;
+  ContactSeeds seeds_;
   Points start_v_;           // m/s, where the step begins
   bool recovering_ = false;  // from what missed steps have left overlapping
 };

@@ -7,8 +7,23 @@
 namespace pbd {
 
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
-    : effect_(effect), allowed_(scene, effect) {
+    : effect_(effect), allowed_(scene, effect), motions_(effect.collider.size() + effect.node.size()) {
   if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    Motion& motion = motions_[k];
+    motion.is_node = k >= effect.collider.size();
+    if (motion.is_node) {
+      const std::size_t node = k - effect.collider.size();
+      motion.node_shape = Sphere{effect.radius[node]};
+      motion.carrier = effect.node[node];
+      motion.radius = effect.radius[node];
+      continue;
+    }
+    const Collider& collider = effect.collider[k];
+    motion.carrier = collider.body;
+    motion.radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
+    motion.round = round_radius(collider.shape);
+  }
 }
 
 ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
@@ -21,7 +36,7 @@ ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, co
 }
 
 /// Of the points of the collider; of a half space, of its body's centre.
-double ContactSearch::travel(const Motion& motion, const Displacement& moved) {
+double ContactSearch::farthest_travel(const Motion& motion, const Displacement& moved) {
   return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
 }
 
@@ -41,30 +56,15 @@ Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {
 
 void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& start,
                                     const std::vector<double>& inverse_mass) {
-  motions_.resize(effect_.collider.size() + effect_.node.size());
   const auto moves = [&](Eigen::Index column) { return inverse_mass[column] > 0; };
-  for (std::size_t k = 0; k < effect_.collider.size(); ++k) {
-    const Collider& collider = effect_.collider[k];
-    const Pose& pose = start.pose[collider.body];
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];
-    motion.shape = &collider.shape;
-    motion.carrier = collider.body;
+    const int carrier = motion.carrier;
+    motion.shape = motion.is_node ? &motion.node_shape : &effect_.collider[k].shape;
     motion.frame = placed_frame(static_cast<int>(k), start);
-    motion.moves = moves(bodies.node(collider.body)) || moves(bodies.column(collider.body));
-    motion.centre = pose.x;
-    motion.radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
-    motion.round = round_radius(collider.shape);
-  }
-  for (std::size_t k = 0; k < effect_.node.size(); ++k) {
-    Motion& motion = motions_[effect_.collider.size() + k];
-    motion.node_shape = Sphere{effect_.radius[k]};
-    motion.shape = &motion.node_shape;
-    motion.carrier = effect_.node[k];
-    motion.is_node = true;
-    motion.frame = placed_frame(static_cast<int>(effect_.collider.size() + k), start);
-    motion.centre = motion.frame.origin;
-    motion.radius = effect_.radius[k];
-    motion.moves = moves(effect_.node[k]);
+    motion.centre = motion.is_node ? motion.frame.origin : start.pose[carrier].x;
+    motion.moves =
+        motion.is_node ? moves(carrier) : moves(bodies.node(carrier)) || moves(bodies.column(carrier));
   }
 }
 
@@ -72,7 +72,7 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
   const int material = effect_.surface_material;
   const ContactLaw& law = effect_.law[material * effect_.materials + material];
   surface_contacts_.clear();
-  surfaces_->find(x, travel_, effect_.thickness, surface_contacts_);
+  surfaces_->find(x, node_travel_, effect_.thickness, surface_contacts_);
   for (const SurfaceContact& found : surface_contacts_) {
     ActiveContact contact;
     contact.of_surfaces = true;
@@ -152,14 +152,14 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
   late_.clear();
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, free);
-    motion.travel = travel(motion, moved);
+    motion.travel = farthest_travel(motion, moved);
     motion.turn = moved.turn;
     if (!motion.is_node && motion.radius > 0)
       motion.turn = std::max(moved.turn, motion.travel / motion.radius);
   }
   if (!surfaces_) return;
-  travel_.assign(bodies.nodes(), 0.0);
-  for (const int node : surfaces_->nodes()) travel_[node] = (free.col(node) - start.x.col(node)).norm();
+  node_travel_.assign(bodies.nodes(), 0.0);
+  for (const int node : surfaces_->nodes()) node_travel_[node] = (free.col(node) - start.x.col(node)).norm();
 }
 
 bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
@@ -172,11 +172,12 @@ bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, con
   };
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, x);
-    extend(motion.travel, travel(motion, moved));
+    extend(motion.travel, farthest_travel(motion, moved));
     extend(motion.turn, moved.turn);
   }
   if (surfaces_)
-    for (const int node : surfaces_->nodes()) extend(travel_[node], (x.col(node) - start.x.col(node)).norm());
+    for (const int node : surfaces_->nodes())
+      extend(node_travel_[node], (x.col(node) - start.x.col(node)).norm());
   return farther;
 }
 

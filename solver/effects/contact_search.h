@@ -14,7 +14,7 @@
 // in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
 // step ends, and what overlaps there by more, and by more than from the start, joins the step's contacts; not
 // on a half space, all of whose contacts are exact as bodies move. Of polyhedra r is half
-// their least side, which is no bound but what random steps hold to (tests/solver/contact_motion.cpp).
+// their least width, which is no bound but what random steps hold to (tests/solver/contact_motion.cpp).
 #pragma once
 
 #include <array>
@@ -87,7 +87,7 @@ class ContactSearch {
                        const std::vector<double>& inverse_mass);
   static Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                                    const Points& to);
-  static double travel(const Motion& motion, const Displacement& moved);
+  static double farthest_travel(const Motion& motion, const Displacement& moved);
   static double travel_near(const Motion& motion, const Motion& other);
   void add_surfaces(const Points& x, ContactLists& contacts);
   static double round_radius_of(const Motion& one, const Motion& two);
@@ -108,7 +108,7 @@ class ContactSearch {
   CollisionScratch scratch_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;
-  std::vector<double> travel_;  // m, of each node, where there are surfaces
+  std::vector<double> node_travel_;  // m, of each node, where there are surfaces
 };
 
 }  // namespace pbd

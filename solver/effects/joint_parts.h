@@ -67,7 +67,7 @@ inline Eigen::RowVector4d product_of_directions(const Vec3& u, const Vec3& w, co
   return rotation_bound(lever_form(u, w), w.cross(u), a, b);
 }
 
-/// c = t . (y - x_a), t a direction of body a, y = x_b + R_b p_b: value, row of the Jacobian, bound.
+/// c = t . (y - x_a), t a vector of body a, y = x_b + R_b p_b: value, row of the Jacobian, bound.
 struct Slide {
   Vec3 direction, gap, lever;  // t, y - x_a, R_b p_b
 

@@ -24,11 +24,7 @@ void Constraint<PointJoint>::evaluate(const PointJoint& effect, std::size_t i, c
 auto Constraint<PointJoint>::geometric_bound(const PointJoint& effect, std::size_t i, const Positions& at,
                                              const Value& impulse) -> NodeBounds {
   const Pose &a = *at.body[0], &b = *at.body[1];
-  if (!effect.damping.empty()) {
-    NodeBounds sum = NodeBounds::Zero();
-    for (int k = 0; k < 3; ++k) sum += Slide(a, b, Vec3::Unit(k), effect.point[i][1]).bound(impulse[k], a, b);
-    return sum;
-  }
+  if (!effect.damping.empty()) return Slide(a, b, impulse, effect.point[i][1]).bound(1, a, b);
   return {0, largest_of(lever_form(-impulse, a.rotation * effect.point[i][0]), a), 0,
           largest_of(lever_form(impulse, b.rotation * effect.point[i][1]), b)};
 }

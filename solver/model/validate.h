@@ -29,7 +29,8 @@ inline constexpr double most_mass_ratio = 1e15;
 void validate(const Scene& scene);
 
 /// Throws SetupError for a step of `scene` that is not finite and above 0 s, for a state of another size, and
-/// for orientations that are none. Other numbers that are not finite pass: a step from them ends as diverged.
+/// for quaternions whose norm is not 1. Other numbers that are not finite pass: a step from them ends as
+/// diverged.
 void validate(const Scene& scene, double h, const State& state);
 
 /// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume

@@ -147,7 +147,7 @@ class EffectRows final : public Source {
       if (kind().damped) value += C::retardation(effect_, i) * (jacobian * positions_of(node, v).reshaped());
       Value force = -solve_definite(C::compliance(effect_, i), value);
       const ForceBounds bounds = force_bounds(effect_, i);
-      force[0] = std::clamp(force[0], bounds[0], bounds[1]);  // of one row, where they are finite
+      force[0] = std::clamp(force[0], bounds[0], bounds[1]);  // only constraints of one row have any
       const Eigen::Matrix<double, 3, C::nodes> push = (jacobian.transpose() * force).reshaped(3, C::nodes);
       for (int a = 0; a < C::nodes; ++a) acceleration.col(node[a]) += inverse_mass[node[a]] * push.col(a);
     }

@@ -58,8 +58,8 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   return true;
 }
 
-/// Iterates with the rows that count where the iteration goes astray alone: on its way to a solution one may
-/// well be better in sum and miss more constraints.
+/// Iterates with the rows that count where all later ones are worse than the start alone: on the way to a
+/// solution one may well be better in sum and miss more constraints.
 constexpr int early = 10;
 
 /// Keeps the iterate if it is the best one.
@@ -187,7 +187,7 @@ void StepRun::solve(const Observer& observer) {
 
 /// The best iterate takes the place of the last one.
 void StepRun::take_best() {
-  const bool astray = !(progress.residual() <= levels.first);
+  const bool astray = !(std::min(w.best.residual, progress.residual()) <= levels.first);
   const BestIterate& best = astray && w.best_early.residual < w.best.residual ? w.best_early : w.best;
   if (!(best.residual < progress.residual())) return;
   w.system.at.v = best.v;

@@ -45,9 +45,9 @@ class Workspace {
 
   /// Replaces effect `index` between two steps: other forces, rates, rest values, compliances or moduli of
   /// the same constraints. Throws SetupError, and changes nothing, if the scene would not be valid, if the
-  /// effect is of another kind, has constraints of others, has limits or damping where it had none (or the
-  /// other way round), or hard constraints where they gave way (or the other way round); contact cannot be
-  /// changed.
+  /// effect is of another kind, acts on other nodes or bodies, has limits or damping where it had none (or
+  /// the other way round), or hard constraints where they gave way (or the other way round); contact cannot
+  /// be changed.
   void change(std::size_t index, const Effect& effect);
 
   /// What each effect with rows cost, in the scene's order.
@@ -59,8 +59,9 @@ class Workspace {
 
   /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
   /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
-  /// ones under explicit forces). J^T times them are the forces. Those of axis and line joints are along
-  /// Eigen's unitOrthogonal() of a's axis and the axis times that. Of contact none: `contacts` tells them.
+  /// ones under explicit forces). J^T times them are the forces, of damped point joints and attachments along
+  /// the axes of the first body, of axis and line joints along Eigen's unitOrthogonal() of its axis and the
+  /// axis times that. Of contact none: `contacts` tells them.
   std::vector<double> forces(std::size_t index) const;
 
   /// All contacts of the last step, open ones included.
@@ -72,8 +73,8 @@ class Workspace {
 };
 
 /// Advances `state` by h seconds. Throws SetupError for a step that is not finite and above 0 and for a state
-/// of another scene's size or with orientations that are none, and what the observer throws; `state` is as it
-/// was then. What else goes wrong stands in the report. A diverged step leaves `state` as it was, too.
+/// of another scene's size or with quaternions whose norm is not 1, and what the observer throws; `state` is
+/// as it was then. What else goes wrong stands in the report. A diverged step leaves `state` as it was, too.
 Report step(Workspace& workspace, double h, State& state, const Observer& observer = {});
 
 }  // namespace pbd

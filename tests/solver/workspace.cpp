@@ -88,16 +88,6 @@ TEST_CASE("a step that an observer ends leaves no history, whatever the integrat
   }
 }
 
-TEST_CASE("a step of no length, and a state of another scene's size, are refused") {
-  const Scene scene = chain(4);
-  Workspace workspace(scene, {});
-  State state = scene.initial;
-  for (const double none : {0.0, -h, std::nan(""), infinity})
-    CHECK_THROWS_AS(step(workspace, none, state), SetupError);
-  state.x.conservativeResize(3, 2);
-  CHECK_THROWS_AS(step(workspace, h, state), SetupError);
-}
-
 TEST_CASE("a gyroscopic torque made explicit between steps acts once, as in a workspace of its own") {
   const bool implicit = GENERATE(true, false);
   Scene scene, other;

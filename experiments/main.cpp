@@ -76,6 +76,10 @@ void add_simulate(CLI::App& app, SimulateOptions& options) {
   add_scene_options(*command, options.scene, options.settings, options.directory);
   command->add_option("--export", options.export_format, "vtk: a frame a step for ParaView")
       ->check(one_of({"vtk"}));
+  command
+      ->add_flag("--check", options.check,
+                 "Judge each solved step by code that shares nothing with the solver; writes DIR/checks.csv")
+      ->check(no_value());
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -153,8 +157,9 @@ int run_command(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done and every verdict holds; 1 a verdict failed or a solve did not converge;\n"
-      "2 bad input or usage; 3 interrupted.\nShell completion: source <(pbdcheck completion bash)");
+      "Exit codes: 0 done and every verdict holds; 1 a verdict failed, a solve did not converge or\n"
+      "--check refuted a step; 2 bad input or usage; 3 interrupted.\nShell completion: source <(pbdcheck "
+      "completion bash)");
   ListOptions list_options;
   SimulateOptions simulate_options;
   CompareOptions compare_options;

@@ -2,6 +2,7 @@
 
 #include "dense.h"
 #include "joint_values.h"
+#include "polar.h"
 
 namespace pbd::reference {
 namespace {
@@ -38,10 +39,10 @@ Frame<T> moving_frame(const Joint& joint, std::size_t k, const Placement& at) {
   return frame;
 }
 
-template <Coordinates C>
+template <Coordinates C, int Order = 2>
 Block joint_block(const Joint& joint, const Placement& at) {
   constexpr int size = C == Coordinates::turns ? 6 : 7;
-  using T = Jet<2 * size>;
+  using T = Jet<2 * size, Order>;
   const auto c =
       joint_value<T>(joint, moving_frame<C, T>(joint, 0, at), moving_frame<C, T>(joint, 1, at), at.time);
   Block block;
@@ -54,10 +55,25 @@ Block joint_block(const Joint& joint, const Placement& at) {
     const T& row = c[k];
     block.value(k) = row.value;
     block.jacobian.row(k) = row.gradient;
-    block.second[k] = row.hessian;
+    if constexpr (Order == 2) block.second[k] = row.hessian;
   }
   for (std::size_t k = 0; k < 2; ++k)
     block.parts.push_back({joint.node[k], joint.body[k], size * static_cast<int>(k)});
+  return block;
+}
+
+/// All but the derivatives.
+Block stated_block(const Element& e, int row, const Local& local) {
+  Block block;
+  block.row = row;
+  block.hard = e.hard();
+  block.value = local.value;
+  block.compliance.setZero(e.rows, e.rows);
+  if (!e.hard() && e.rows == 1)
+    block.compliance(0, 0) = 1 / e.stiffness(0, 0);
+  else if (!e.hard())
+    block.compliance = inverse(e.stiffness);
+  for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[a], -1, 3 * a});
   return block;
 }
 
@@ -69,14 +85,23 @@ Block element_block(const Element& e, int row, const Points& x) {
   for (int a = 0; a < e.nodes; ++a)
     for (int q = 0; q < e.columns; ++q)
       by_x.block<3, 3>(3 * q, 3 * a) = e.weight(a, q) * Eigen::Matrix3d::Identity();
-  Block block;
-  block.row = row;
-  block.hard = e.hard();
-  block.value = local.value;
+  Block block = stated_block(e, row, local);
   block.jacobian = product(local.jacobian, by_x);
   for (int k = 0; k < e.rows; ++k) block.second[k] = congruence(local.hessian[k], by_x);
-  block.compliance = e.hard() ? RowMatrix(RowMatrix::Zero(e.rows, e.rows)) : RowMatrix(inverse(e.stiffness));
-  for (int a = 0; a < e.nodes; ++a) block.parts.push_back({e.node[a], -1, 3 * a});
+  return block;
+}
+
+/// Without second derivatives, its rows those along which forces act.
+Block element_rows(const Element& e, int row, const Points& x) {
+  Local local;
+  differentiate_once(e, x, local);
+  if (e.kind == Kind::corotational)
+    local.jacobian = held_rotation(local_matrix(e, x), Strain6::Zero()).jacobian;
+  Block block = stated_block(e, row, local);
+  block.jacobian.setZero(e.rows, 3 * e.nodes);
+  for (int a = 0; a < e.nodes; ++a)
+    for (int q = 0; q < e.columns; ++q)
+      block.jacobian.middleCols<3>(3 * a) += e.weight(a, q) * local.jacobian.middleCols<3>(3 * q);
   return block;
 }
 
@@ -102,6 +127,12 @@ std::vector<Block> blocks_at(const RigidModel& model, const Placement& at, Coord
     blocks.push_back(coordinates == Coordinates::turns ? joint_block<Coordinates::turns>(joint, at)
                                                        : joint_block<Coordinates::quaternions>(joint, at));
   return blocks;
+}
+
+void each_block(const RigidModel& model, const Placement& at, const std::function<void(const Block&)>& use) {
+  for (std::size_t i = 0; i < model.element_row.size(); ++i)
+    use(element_rows(model.nodes.elements[i], model.element_row[i], at.x));
+  for (const Joint& joint : model.joints) use(joint_block<Coordinates::turns, 1>(joint, at));
 }
 
 Vector values_at(const RigidModel& model, const Placement& at) {

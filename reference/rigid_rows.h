@@ -8,6 +8,7 @@
 //   quaternions  (x, q), four components each, as if they were independent
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "rigid_model.h"
@@ -52,6 +53,10 @@ struct Block {
 
 /// All constraints: the nodes' elements, then the joints.
 std::vector<Block> blocks_at(const RigidModel& model, const Placement& at, Coordinates coordinates);
+
+/// The same in turns, one after the other, without second derivatives: c and the rows along which forces
+/// act. Of corotational tetrahedra these hold the rotation fixed.
+void each_block(const RigidModel& model, const Placement& at, const std::function<void(const Block&)>& use);
 
 /// The constraint values of all rows alone.
 Vector values_at(const RigidModel& model, const Placement& at);

@@ -27,6 +27,7 @@ struct SimulateOptions {
   std::vector<std::string> settings;  // KEY=VALUE
   std::filesystem::path directory = default_directory;
   std::string export_format;  // empty or "vtk"
+  bool check = false;         // judge each step by the reference
 };
 int simulate(const SimulateOptions& options);
 

@@ -13,6 +13,7 @@
 #include "harness/probes.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/step_checks.h"
 #include "harness/stepper.h"
 #include "harness/vtk.h"
 
@@ -129,15 +130,36 @@ nlohmann::ordered_json settings_json(const SimulateOptions& options, const Scene
           {"export", options.export_format}};
 }
 
+nlohmann::ordered_json checks_json(const StepChecks& checks) {
+  return {{"steps", checks.judged()},
+          {"refuted", checks.refuted_steps()},
+          {"missed", checks.missed()},
+          {"compared", checks.compared()},
+          {"left_out", checks.left_out()}};
+}
+
+void write_checks(const std::filesystem::path& path, const StepChecks& checks, RowCounts& rows) {
+  Table table(path, {"step", "check", "what", "number", "bound"}, &rows);
+  for (const auto& [step, finding] : checks.refuted())
+    table.row({step, finding.check, finding.what, finding.number, finding.bound});
+  table.close();
+}
+
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
-std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals) {
+std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals,
+                    StepChecks* checks) {
   pbd::State state = file.scene.initial;
   Stepper stepper(file, workspace);
   stepper.begin(file.step_s, state);  // for the probes at the start
   ProgressBar progress("simulate", file.steps);
   std::string lost = output.add(0, state, nullptr);
+  const auto judge = [&](const pbd::State& begun, const pbd::State& ended, double h,
+                         const pbd::Report& report) {
+    checks->add(totals.steps + 1, claim_of(file.scene, workspace, begun, ended, h, report), report.status,
+                file.script.changes_scene());
+  };
   while (totals.steps < file.steps && lost.empty()) {
-    const pbd::Report report = stepper.advance(state);
+    const pbd::Report report = checks != nullptr ? stepper.advance(state, judge) : stepper.advance(state);
     totals.add(report, stepper.parts());
     if (report.status == pbd::Status::diverged)
       return fmt::format("step {} diverged, in parts, too: {}", totals.steps, report.reason);
@@ -164,10 +186,12 @@ int simulate(const SimulateOptions& options) {
 
   const auto start = std::chrono::steady_clock::now();
   Totals totals;
+  std::optional<StepChecks> checks;
+  if (options.check) checks.emplace();
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {
-    reason = advance(file, workspace, output, totals);
+    reason = advance(file, workspace, output, totals, checks ? &*checks : nullptr);
     if (!reason.empty()) outcome = RunOutcome::failed;
   } catch (const Interrupted&) {
     outcome = RunOutcome::interrupted;
@@ -175,12 +199,21 @@ int simulate(const SimulateOptions& options) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   output.close();
+  RowCounts rows = output.rows();
+  if (checks) {
+    write_checks(options.directory / "checks.csv", *checks, rows);
+    if (outcome == RunOutcome::complete && checks->refuted_steps() > 0) {
+      outcome = RunOutcome::refuted;
+      reason = checks->text();
+    }
+  }
 
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
-  json["rows"] = output.rows();
+  json["rows"] = rows;
   json["report"] = report_json(totals, workspace);
+  if (checks) json["checks"] = checks_json(*checks);
   record.write(json_text(json));
   record.complete();
 
@@ -190,9 +223,10 @@ int simulate(const SimulateOptions& options) {
   if (totals.steps_in_parts > 0)
     warn(fmt::format("{} of {} steps diverged and were made in up to {} parts", totals.steps_in_parts,
                      totals.steps, totals.most_parts));
+  if (checks) fmt::print("{}\n", checks->text());
   if (outcome == RunOutcome::failed) error_message(reason);
   if (outcome == RunOutcome::interrupted) return exit_interrupted;
-  return outcome == RunOutcome::failed || totals.missed() > 0 ? exit_failed : exit_done;
+  return outcome != RunOutcome::complete || totals.missed() > 0 ? exit_failed : exit_done;
 }
 
 }  // namespace pbdcheck

@@ -9,8 +9,9 @@
 namespace pbdcheck {
 
 /// How a command or an experiment ended, as `status` in run.json.
-enum class RunOutcome { complete, failed, interrupted };
-inline constexpr std::array<std::string_view, 3> outcome_names{"complete", "failed", "interrupted"};
+enum class RunOutcome { complete, failed, interrupted, refuted };
+inline constexpr std::array<std::string_view, 4> outcome_names{"complete", "failed", "interrupted",
+                                                               "refuted"};
 
 /// Whether a run.json was written by this very program: the same commit ("unknown" outside a git work tree)
 /// and the same differences from it.

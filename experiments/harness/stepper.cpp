@@ -25,24 +25,28 @@ void Stepper::begin(double h, pbd::State& state) {
 }
 
 /// True if no part diverges.
-bool Stepper::advance_in(int parts, pbd::State& state, pbd::Report& sum) {
+bool Stepper::advance_in(int parts, const Judge& judge, pbd::State& state, pbd::Report& sum) {
   for (int part = 0; part < parts && sum.status != pbd::Status::diverged; ++part) {
     throw_if_interrupted();
     const double h = file_.step_s / parts;
     begin(h, state);
     file_.script.hand_on(file_.scene, workspace_);
-    add(pbd::step(workspace_, h, state, [](const pbd::Iterate&) { throw_if_interrupted(); }), sum);
+    const pbd::State begun = judge ? state : pbd::State{};
+    const pbd::Report report =
+        pbd::step(workspace_, h, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
+    add(report, sum);
+    if (judge && report.status != pbd::Status::diverged) judge(begun, state, h, report);
   }
   return sum.status != pbd::Status::diverged;
 }
 
-pbd::Report Stepper::advance(pbd::State& state) {
+pbd::Report Stepper::advance(pbd::State& state, const Judge& judge) {
   constexpr int most_parts = 64;  // six halvings
   pbd::Report whole;
   for (parts_ = 1; parts_ <= most_parts; parts_ *= 2) {
     pbd::State reached = state;
     pbd::Report sum;
-    if (advance_in(parts_, reached, sum)) {
+    if (advance_in(parts_, judge, reached, sum)) {
       state = std::move(reached);
       return sum;
     }

@@ -2,6 +2,8 @@
 // first number of which none diverges, and what overlaps parts slowly (solver/effects/contact.h).
 #pragma once
 
+#include <functional>
+
 #include "scenes/scene_file.h"
 #include "step/step.h"
 
@@ -16,15 +18,19 @@ class Stepper {
   /// velocities.
   void begin(double h, pbd::State& state);
 
+  /// Sees each step of h seconds that is made, parts and those that are made again among them.
+  using Judge = std::function<void(const pbd::State& begun, const pbd::State& ended, double h,
+                                   const pbd::Report& report)>;
+
   /// One step of the file. The report sums up the parts, with status and residual of the worst one; if all
   /// ways diverge it is the whole step's, and `state` is as it was.
-  pbd::Report advance(pbd::State& state);
+  pbd::Report advance(pbd::State& state, const Judge& judge = {});
 
   /// Of the last step.
   int parts() const { return parts_; }
 
  private:
-  bool advance_in(int parts, pbd::State& state, pbd::Report& sum);
+  bool advance_in(int parts, const Judge& judge, pbd::State& state, pbd::Report& sum);
 
   SceneFile& file_;
   pbd::Workspace& workspace_;

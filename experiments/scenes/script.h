@@ -33,6 +33,11 @@ class Script {
   /// velocities.
   void begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const;
 
+  /// True if steps have scenes of their own, not states alone.
+  bool changes_scene() const {
+    return !(forces_.empty() && torques_.empty() && angles_.empty() && slides_.empty());
+  }
+
   /// Hands what `begin_step` has set in `scene` on to a workspace of that scene.
   void hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const;
 

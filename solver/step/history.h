@@ -21,7 +21,8 @@ class History {
   /// Carries the map on to the step's end; it may have been missed.
   void end_step(double h, const StepSystem& system, bool missed, State& state);
 
-  /// The step diverged and leaves `state` as it was: the next one is a start, and from there one after a miss.
+  /// The step diverged and leaves `state` as it was: the next one is a start, and from there one after a
+  /// miss.
   void diverge(const State& state) { h_ = 0, missed_ = true, ended_ = state; }
 
   /// m/s^2, of the last step begun.

@@ -12,10 +12,6 @@ namespace {
 constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 constexpr std::string_view not_finite = "not finite";
 
-bool is_finite(const State& state) {
-  return state.x.allFinite() && state.v.allFinite() && state.spin.allFinite();  // orientations: by validate
-}
-
 /// What the residuals of a step are compared with.
 struct Levels {
   double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
@@ -237,7 +233,8 @@ void StepRun::end(double h, State& state) {
 Report step(Workspace& workspace, double h, State& state, const Observer& observer) {
   validate(workspace.scene(), h, state);
   StepRun run{*workspace.data_};
-  if (is_finite(state)) {
+  // Orientations are by `validate`.
+  if (state.x.allFinite() && state.v.allFinite() && state.spin.allFinite()) {
     run.begin(h, state);
     run.solve(observer);
     run.restrain();

@@ -62,7 +62,8 @@ class Workspace {
   /// ones under explicit forces). In the first step of a motion that begins with speed v, half of the force
   /// that bends its path: that leaves its tangent by v^2 h^2/(2 r) there, and is bent by v^2 h^2/r in each
   /// later step. J^T times them are the forces, of damped point joints and attachments along the axes of the
-  /// first body. Of contact none: `contacts` tells them.
+  /// first body, of axis and line joints along Eigen's unitOrthogonal() of its axis and the axis times that.
+  /// Of contact none: `contacts` tells them.
   std::vector<double> forces(std::size_t index) const;
 
   /// All contacts of the last step, open ones included.

@@ -1,0 +1,34 @@
+// What the laws of contact say of the forces and places that somebody claims for the end of a step.
+//
+// A contact's residual is below `level` (sqrt(J), step_check.h): a step -W r of its impulse p, r the velocity
+// u_t across the normal and (gap)/h along it, the law takes back to p up to e = level sqrt(W). W is at most
+// 1/(1/m_a + 1/m_b), and 1/W at most w = 1/m_a + 1/m_b + |lever|^2/I of both + 2 A/h^2. Hence, with s =
+// level sqrt(w):
+//   force    -F_n h <= e and (|F_t| - mu F_n) h <= (1 + mu) e; the box law allows sqrt(2) mu
+//   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
+//   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then
+//            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
+//   gap      told is at least what the shapes' support functions prove along its normal, less s h
+//   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
+//            radius (`round` of support.h), whichever is more, and (1 + mu) s h. Convex shapes
+//            and half spaces alone (support.h)
+//
+// Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
+// nor is the slip known there or on surfaces by which the convex law opens contacts; gaps where shapes may
+// bounce (restitution) are left open; sliding is not judged under explicit forces, whose directions are those
+// of the step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, closed meshes
+// beside other than half spaces, and surfaces.
+#pragma once
+
+#include "step_equations.h"
+
+namespace pbd::reference {
+
+void check_contacts(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
+                    Findings& findings);
+
+/// Depth of all pairs of colliders, and of nodes in colliders.
+void check_depths(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
+                  Findings& findings);
+
+}  // namespace pbd::reference

@@ -1,0 +1,45 @@
+// Whether a step that somebody claims to have solved can be true, by its state, forces and contacts alone. No
+// solve: each claim is evaluated by the judges' own values, derivatives and shapes and compared with what the
+// step's tolerance leaves open.
+//
+//   level       = tolerance scale + rounding (sqrt(J)): both of the step's residuals are below it
+//   motion      x1 - x0 - h v1 (m), the turn R1 against R0 exp(h w1) (rad); fixed things keep their
+//   velocities momentum    g = M (v1 - v0) - h (f + J^T gamma + contact forces), of bodies' rotations with
+//   the torques
+//               about their centres: |g| in the metric of inverse masses <= level, so each node's share is
+//   constraints r = c + A gamma: sqrt(sum r^T (h^2 J W J^T + A)^-1 r) <= level; of bounded forces what the
+//               bounds leave of a change -r/N
+//   contacts    contact_check.h
+//
+// J and c are taken at the step's end; under symplectic_euler J where it begins. What an error of the
+// impulses of W J^T p costs is counted in the same metric, so that no conditioning enters a bound. Rounding
+// is 64 units of the largest terms: a sum of some ten terms, each rounded a few times.
+//
+// Limits: momentum of implicit_euler (directions at the end) and symplectic_euler alone, of other integrators
+// hard constraints, and contacts under newmark. Nodes of surfaces that press on themselves or each other are
+// judged by their sum, since it is not told how a contact's force is shared among them; bodies in contact
+// under symplectic_euler by their linear momentum. Damped constraints are not judged by their values, and
+// what damped point joints and attachments act on not by its momentum. The energy of a step is not judged:
+// where momentum and constraints hold it follows.
+#pragma once
+
+#include <optional>
+
+#include "step_equations.h"
+
+namespace pbd::reference {
+
+/// Made once of a scene; anew where its forces or rest values change.
+class StepCheck {
+ public:
+  /// Throws SetupError for an invalid scene.
+  explicit StepCheck(const Scene& scene);
+
+  /// Of a step of the same scene.
+  Findings judge(const StepClaim& claim) const;
+
+ private:
+  std::optional<StepModel> model_;  // none where nothing moves
+};
+
+}  // namespace pbd::reference

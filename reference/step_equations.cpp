@@ -1,0 +1,95 @@
+#include "step_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dense.h"
+#include "step_rows.h"
+
+namespace pbd::reference {
+namespace {
+
+/// What bounds and the law let a force miss: the square of what is open of c + A gamma = 0, J.
+double squared_miss(const Vector& missed, const RowMatrix& n, double gamma,
+                    const std::array<double, 2>& bounds) {
+  if (missed.size() > 1) return missed.dot(solve(Eigen::MatrixXd(n), Vector(missed)));
+  const double to = gamma - missed(0) / n(0, 0);
+  const double change = std::clamp(to, bounds[0], bounds[1]) - gamma;
+  return std::isnan(to) ? to : change * change * n(0, 0);
+}
+
+/// J W J^T h^2 + A.
+RowMatrix metric_of(const RigidModel& model, const Block& block, double h) {
+  RowMatrix n = block.compliance;
+  each_moving(model, block, [&](int unknown, int offset) {
+    const auto columns = block.jacobian.middleCols<3>(offset);
+    const Vec3 weight = h * h * model.inertia.segment<3>(unknown).cwiseInverse();
+    n += RowMatrix(columns * weight.asDiagonal() * columns.transpose());
+  });
+  return n;
+}
+
+bool is_singular(const RowMatrix& n) {
+  constexpr double definite = 1e-12;
+  if (n.size() == 1) return !(n(0, 0) > 0);
+  const SymmetricEigen eigen = symmetric_eigen(n);
+  return !(eigen.values(0) > definite * eigen.values(n.rows() - 1));
+}
+
+}  // namespace
+
+void check_motion(const StepClaim& claim, Findings& findings) {
+  const Scene& scene = claim.scene;
+  double held = 0, moved = 0, turned = 0;
+  for (int i = 0; i < scene.nodes(); ++i)
+    if (std::isinf(scene.mass[static_cast<std::size_t>(i)]))
+      held = larger(held, (claim.end.v.col(i) - claim.start.v.col(i)).norm());
+  const Points missed = claim.end.x - claim.start.x - claim.h * claim.end.v;
+  for (int i = 0; i < scene.nodes(); ++i) moved = larger(moved, missed.col(i).norm());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto body = static_cast<Eigen::Index>(b);
+    if (!scene.bodies[b].inertia.allFinite())
+      held = larger(held, (claim.end.spin.col(body) - claim.start.spin.col(body)).norm());
+    const auto expected = turned_by(claim.start.orientation[b], claim.h * claim.end.spin.col(body));
+    turned = larger(turned, 2 * (expected.conjugate() * claim.end.orientation[b]).vec().norm());
+  }
+  const double size = claim.start.x.cwiseAbs().maxCoeff() + claim.end.x.cwiseAbs().maxCoeff();
+  findings.require("motion", "velocities of what is fixed, m/s or rad/s", held, 0);
+  findings.require("motion", "positions, m", moved,
+                   step_rounding * (size + claim.h * claim.end.v.cwiseAbs().maxCoeff()));
+  const double spin = claim.end.spin.cols() > 0 ? claim.end.spin.cwiseAbs().maxCoeff() : 0.0;
+  findings.require("motion", "orientations, rad", turned, step_rounding * (1 + claim.h * spin));
+}
+
+void check_constraints(const StepClaim& claim, const StepModel& model, double level, Findings& findings) {
+  Vector gamma;
+  if (!gather_forces(claim, model.rigid, gamma)) gamma.setConstant(model.rigid.rows(), std::nan(""));
+  const Vector value = values_at(model.rigid, placement_of(claim.end));
+  const bool hard_alone = !is_euler_step(claim) || explicit_forces(claim);
+  double squared = 0, most = -1;
+  std::size_t worst = 0;
+  const auto add = [&](const Block& block) {
+    const auto row = static_cast<std::size_t>(block.row);
+    const auto& bounds = model.bounds[row];
+    const bool bounded = bounds != std::array<double, 2>{-infinity, infinity};
+    if (model.damped[row]) return findings.leave_out("constraints: damped ones");
+    if (!block.hard && hard_alone) return findings.leave_out("constraints: compliant ones");
+    if (bounded && !is_euler_step(claim)) return findings.leave_out("constraints: bounded forces");
+    const RowMatrix n = metric_of(model.rigid, block, claim.h);
+    if (block.hard && is_singular(n))
+      return findings.leave_out("constraints: those whose rows depend on each other");
+    const RowVector own = gamma.segment(block.row, block.rows());
+    RowVector missed = value.segment(block.row, block.rows());
+    if (!block.hard) missed += block.compliance * own;
+    const double miss = squared_miss(missed, n, bounded ? own(0) : 0, bounds);
+    squared += miss;
+    if (miss <= most) return;
+    most = miss;
+    worst = row;
+  };
+  each_block(model.rigid, placement_of(explicit_forces(claim) ? claim.start : claim.end), add);
+  if (most >= 0 || std::isnan(most) || std::isnan(squared))
+    findings.require("constraints", "most of it of " + model.name[worst], std::sqrt(squared), level);
+}
+
+}  // namespace pbd::reference

@@ -1,0 +1,195 @@
+#include "support.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbd::reference {
+namespace {
+
+/// The farthest point along `u` in the shape's frame.
+struct Farthest {
+  const Vec3& u;
+
+  Vec3 operator()(std::monostate) const { return Vec3::Zero(); }
+  Vec3 operator()(const Sphere& shape) const { return shape.radius * u.normalized(); }
+  Vec3 operator()(const Box& shape) const { return shape.size.cwiseProduct(signs()) / 2; }
+  Vec3 operator()(const Cylinder& shape) const {
+    const Vec3 across(u.x(), u.y(), 0);
+    return shape.radius * across.normalized() + end(shape.length);
+  }
+  Vec3 operator()(const Capsule& shape) const { return shape.radius * u.normalized() + end(shape.length); }
+  Vec3 operator()(const ClosedMesh& shape) const { return of(shape.surface.x); }
+  Vec3 operator()(const ConvexHull& shape) const { return of(shape.surface.x); }
+  Vec3 operator()(const HalfSpace&) const { return Vec3::Zero(); }
+
+  Vec3 signs() const {
+    return {std::copysign(1.0, u.x()), std::copysign(1.0, u.y()), std::copysign(1.0, u.z())};
+  }
+  Vec3 end(double length) const { return Vec3::UnitZ() * std::copysign(length / 2, u.z()); }
+  Vec3 of(const Points& points) const {
+    Eigen::Index best = 0;
+    (u.transpose() * points).maxCoeff(&best);
+    return points.col(best);
+  }
+};
+
+bool is_half_space(const PlacedShape& placed) {
+  return std::holds_alternative<HalfSpace>(*placed.shape);
+}
+
+double support(const PlacedShape& placed, const Vec3& u) {
+  if (!is_half_space(placed)) return u.dot(farthest_point(placed, u));
+  constexpr double same = 1e-9;  // of a unit vector that is the normal but for rounding
+  const Vec3 normal = placed.frame.rotation.col(2);
+  return (u - normal).norm() <= same ? u.dot(placed.frame.origin) : infinity;
+}
+
+/// Points of a - b around or beside the origin: at most four.
+struct Simplex {
+  std::array<Vec3, 4> point;
+  std::size_t count = 0;
+};
+
+/// The point of least norm among combinations of the chosen points that are affine; true if it lies inside
+/// their hull.
+bool nearest_of(const Simplex& all, unsigned chosen, Vec3& nearest) {
+  std::array<Vec3, 4> p;
+  int n = 0;
+  for (std::size_t i = 0; i < all.count; ++i)
+    if ((chosen >> i & 1U) != 0) p[static_cast<std::size_t>(n++)] = all.point[i];
+  Eigen::Matrix<double, 3, 3> edges = Eigen::Matrix3d::Zero();
+  for (int k = 1; k < n; ++k) edges.col(k - 1) = p[static_cast<std::size_t>(k)] - p[0];
+  Eigen::Matrix3d gram = edges.transpose() * edges;
+  for (int k = n - 1; k < 3; ++k) gram(k, k) = 1;
+  const double size = gram.diagonal().head(std::max(n - 1, 1)).prod();
+  constexpr double flat = 1e-20;  // of a squared volume: its points say nothing more than fewer do
+  if (n > 1 && !(gram.determinant() > flat * size)) return false;
+  const Vec3 weight = -gram.inverse() * (edges.transpose() * p[0]);
+  double last = 1;
+  for (int k = 0; k < n - 1; ++k) {
+    if (!(weight[k] >= 0)) return false;
+    last -= weight[k];
+  }
+  nearest = p[0] + edges * weight;
+  return last >= 0;
+}
+
+/// Keeps the points that the nearest point is made of.
+Vec3 reduce(Simplex& simplex) {
+  Vec3 best = simplex.point[0], found;
+  unsigned kept = 1;
+  double least = infinity;
+  for (unsigned chosen = 1; chosen < 1U << simplex.count; ++chosen)
+    if (nearest_of(simplex, chosen, found) && found.squaredNorm() < least) {
+      least = found.squaredNorm();
+      best = found;
+      kept = chosen;
+    }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < simplex.count; ++i)
+    if ((kept >> i & 1U) != 0) simplex.point[count++] = simplex.point[i];
+  simplex.count = count;
+  return best;
+}
+
+/// True where some n has sep(n) > 0 with a shifted by `shift`; the last n tried, unit, is returned as well.
+bool parts(const PlacedShape& a, const PlacedShape& b, const Vec3& shift, Vec3& n) {
+  Simplex simplex;
+  simplex.point[0] = farthest_point(a, -n) - farthest_point(b, n) + shift;
+  simplex.count = 1;
+  Vec3 nearest = simplex.point[0];
+  constexpr int most = 100;  // of polyhedra it ends; round shapes' steps fall off geometrically
+  for (int step = 0; step < most; ++step) {
+    const double length = nearest.norm();
+    if (!(length > 0)) return false;
+    n = nearest / length;
+    const Vec3 next = farthest_point(a, -n) - farthest_point(b, n) + shift;
+    if (n.dot(next) > 0) return true;
+    if (simplex.count == 4) return false;
+    simplex.point[simplex.count++] = next;
+    nearest = reduce(simplex);
+    if (simplex.count == 4 || !(nearest.norm() < length)) return false;
+  }
+  return false;
+}
+
+void add_normals(const PlacedShape& placed, double sign, std::vector<Vec3>& ways) {
+  const Eigen::Matrix3d& turn = placed.frame.rotation;
+  if (const auto* hull = std::get_if<ConvexHull>(placed.shape)) {
+    for (const auto& face : hull->solid.faces) ways.emplace_back(sign * (turn * face.normal));
+    return;
+  }
+  if (std::holds_alternative<Sphere>(*placed.shape)) return;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {1.0, -1.0}) ways.emplace_back(side * turn.col(axis));
+}
+
+struct SizeOf {
+  Size operator()(std::monostate) const { return {0, 0}; }
+  Size operator()(const Sphere& shape) const { return {shape.radius, shape.radius}; }
+  Size operator()(const Box& shape) const { return {shape.size.norm() / 2, shape.size.minCoeff() / 2}; }
+  Size operator()(const Cylinder& shape) const {
+    return {std::hypot(shape.radius, shape.length / 2), shape.radius};
+  }
+  Size operator()(const Capsule& shape) const { return {shape.radius + shape.length / 2, shape.radius}; }
+  Size operator()(const ClosedMesh& shape) const { return of(shape.surface.x); }
+  Size operator()(const ConvexHull& shape) const { return of(shape.surface.x); }
+  Size operator()(const HalfSpace&) const { return {infinity, infinity}; }
+
+  static Size of(const Points& x) {
+    const Vec3 sides = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    return {x.colwise().norm().maxCoeff(), sides.norm() / 2};
+  }
+};
+
+}  // namespace
+
+Vec3 farthest_point(const PlacedShape& placed, const Vec3& direction) {
+  const Vec3 own = placed.frame.rotation.transpose() * direction;
+  return placed.frame.place(std::visit(Farthest{own}, *placed.shape));
+}
+
+double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n) {
+  return -support(a, -n) - support(b, n);
+}
+
+std::vector<Vec3> ways_apart(const PlacedShape& a, const PlacedShape& b) {
+  if (is_half_space(b)) return {b.frame.rotation.col(2)};
+  if (is_half_space(a)) return {-a.frame.rotation.col(2)};
+  std::vector<Vec3> ways;
+  const Vec3 between = a.frame.origin - b.frame.origin;
+  if (between.norm() > 0) ways.push_back(between.normalized());
+  add_normals(a, -1, ways);
+  add_normals(b, 1, ways);
+  return ways;
+}
+
+double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways) {
+  double largest = -infinity;
+  for (const Vec3& n : ways) largest = std::max(largest, separation(a, b, n));
+  return largest;
+}
+
+bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
+                 double& nearest) {
+  nearest = separation(a, b, ways);
+  if (nearest >= -depth) return false;
+  if (is_half_space(a) || is_half_space(b)) return true;
+  for (const Vec3& way : ways) {
+    Vec3 n = way;
+    const bool apart = parts(a, b, depth * way, n);
+    nearest = std::max(nearest, separation(a, b, n));
+    if (apart) return false;
+  }
+  return true;
+}
+
+Size size_of(const Shape& shape) {
+  return std::visit(SizeOf{}, shape);
+}
+
+bool is_convex(const Shape& shape) {
+  return !std::holds_alternative<ClosedMesh>(shape) && !std::holds_alternative<std::monostate>(shape);
+}
+
+}  // namespace pbd::reference

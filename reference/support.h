@@ -1,0 +1,58 @@
+// How far convex shapes are from each other, or how deep in each other, by their support functions alone.
+//
+//   s(u)   = max over x in the shape of u . x (m), u a unit vector; infinite where the shape has no end
+//   sep(n) = min over a of n . x - max over b of n . x = -s_a(-n) - s_b(n)
+//
+// Shapes are at least sep(n) apart and, where that is negative, at most -sep(n) deep in each other, for each
+// unit vector n: each n is a proof. Whether a and b are disjoint is decided by the point of a - b that is
+// nearest to the origin (gilbert1988fast): its direction is the n of the proof, a simplex around the origin
+// the witness that there is none.
+//
+// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. `deeper_than`
+// tries as many ways to part the shapes as it is given or finds in their centres and faces, so that its yes
+// is sure of these ways alone; its no is a proof.
+#pragma once
+
+#include <vector>
+
+#include "geometry.h"
+#include "shapes.h"
+
+namespace pbd::reference {
+
+/// A shape where it stands.
+struct PlacedShape {
+  const Shape* shape;
+  Frame frame;
+};
+
+/// s(u) and a point that attains it, in the world. Not of a half space.
+Vec3 farthest_point(const PlacedShape& placed, const Vec3& direction);
+
+/// sep(n), m.
+double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n);
+
+/// Unit vectors along which the shapes may well part: a half space's normal, else the line of the centres and
+/// the normals of faces.
+std::vector<Vec3> ways_apart(const PlacedShape& a, const PlacedShape& b);
+
+/// The largest sep(n) over the ways, m.
+double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways);
+
+/// Whether no shift of a by `depth` (m) along one of the ways makes the shapes disjoint. `nearest` is the
+/// largest sep(n) that was seen.
+bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
+                 double& nearest);
+
+/// No point is farther from the frame's origin than `outer` (infinite for a half space); `round` is the
+/// radius of what is round of the shape, half the least side of a box, and of other polyhedra half the
+/// diagonal of theirs, which no width exceeds. m
+struct Size {
+  double outer, round;
+};
+Size size_of(const Shape& shape);
+
+/// False of a closed mesh and of no shape.
+bool is_convex(const Shape& shape);
+
+}  // namespace pbd::reference

@@ -1,0 +1,67 @@
+#include "touching_sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbd::reference {
+
+Sides::Sides(const StepClaim& claim, const Contact& contact, const StepModel& model)
+    : claim_(claim), contact_(contact), model_(model) {
+  for (const Collider& collider : contact.collider) shapes_.push_back(collider.shape);
+  for (const double radius : contact.radius) shapes_.emplace_back(Sphere{radius});
+  for (const auto& triangle : contact.triangle)
+    for (const int node : triangle)
+      surface_inverse_mass_ =
+          std::max(surface_inverse_mass_, 1 / claim.scene.mass[static_cast<std::size_t>(node)]);
+}
+
+Side Sides::side(int k) const {
+  if (k >= count()) return {};
+  const auto index = static_cast<std::size_t>(k);
+  if (is_node(k)) return {-1, contact_.node[index - contact_.collider.size()]};
+  const int body = contact_.collider[index].body;
+  return {body, claim_.scene.bodies[static_cast<std::size_t>(body)].node};
+}
+
+PlacedShape Sides::placed(int k, const State& state) const {
+  const auto index = static_cast<std::size_t>(k);
+  const Side own = side(k);
+  Frame frame{state.x.col(own.node)};
+  if (own.body >= 0) {
+    const Frame& inner = contact_.collider[index].frame;
+    frame.rotation = state.orientation[static_cast<std::size_t>(own.body)].toRotationMatrix();
+    frame = {frame.place(inner.origin), frame.rotation * inner.rotation};
+  }
+  return {&shapes_[index], frame};
+}
+
+Vec3 Sides::velocity(int k, const Vec3& point) const {
+  const Side own = side(k);
+  const Vec3 v = claim_.end.v.col(own.node);
+  if (own.body < 0) return v;
+  const auto& orientation = claim_.end.orientation[static_cast<std::size_t>(own.body)];
+  return v + (orientation * Vec3(claim_.end.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
+}
+
+double Sides::lever(int k, const Vec3& point) const {
+  const Side own = side(k);
+  return own.body < 0 ? 0.0 : (point - claim_.end.x.col(own.node)).norm();
+}
+
+double Sides::inverse_mass(int k, double lever) const {
+  const Side own = side(k);
+  if (own.of_surface()) return 2 * surface_inverse_mass_;  // weights of at most 1 whose squares sum to 2
+  double inverse = 1 / claim_.scene.mass[static_cast<std::size_t>(own.node)];
+  if (own.body >= 0 && lever > 0)
+    inverse += lever * lever / claim_.scene.bodies[static_cast<std::size_t>(own.body)].inertia.minCoeff();
+  return inverse;
+}
+
+const ContactLaw& Sides::law(int a, int b) const {
+  const auto material = [&](int k) {
+    return k < count() ? contact_.material(static_cast<std::size_t>(k)) : contact_.surface_material;
+  };
+  return contact_.law[static_cast<std::size_t>(material(a) * contact_.materials + material(b))];
+}
+
+}  // namespace pbd::reference

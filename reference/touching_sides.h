@@ -1,0 +1,41 @@
+// The two sides of a contact as a claim counts them: what carries them, and how they move.
+#pragma once
+
+#include "step_claim.h"
+#include "step_equations.h"
+#include "support.h"
+
+namespace pbd::reference {
+
+/// A collider or node of a scene's contact.
+struct Side {
+  int body = -1, node = -1;  // a body and its node, or a node; neither: of a surface
+  bool of_surface() const { return node < 0; }
+};
+
+class Sides {
+ public:
+  Sides(const StepClaim& claim, const Contact& contact, const StepModel& model);
+
+  /// Colliders, then the effect's nodes.
+  int count() const { return static_cast<int>(shapes_.size()); }
+  Side side(int k) const;
+  PlacedShape placed(int k, const State& state) const;
+  bool is_node(int k) const { return k >= static_cast<int>(contact_.collider.size()); }
+
+  /// m/s, of the point of a side at the step's end.
+  Vec3 velocity(int k, const Vec3& point) const;
+  /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
+  double inverse_mass(int k, double lever) const;
+  double lever(int k, const Vec3& point) const;
+  const ContactLaw& law(int a, int b) const;
+
+ private:
+  const StepClaim& claim_;
+  const Contact& contact_;
+  const StepModel& model_;
+  std::vector<Shape> shapes_;
+  double surface_inverse_mass_ = 0;  // 1/kg
+};
+
+}  // namespace pbd::reference

@@ -1,0 +1,72 @@
+// Steps of the solver are judged as they are done; a claim that is changed by one number is told.
+#include "harness/step_checks.h"
+
+#include <catch2/catch.hpp>
+
+#include "results.h"
+#include "scenes/contacts.h"
+#include "scenes/scene_file.h"
+
+using namespace pbdcheck;
+using namespace pbdcheck::test;
+
+namespace {
+
+pbd::Method method_of(const char* relaxation) {
+  pbd::Method method;
+  method.relaxation = relaxation;
+  return method;
+}
+
+}  // namespace
+
+TEST_CASE("no step of a scene that comes with the program is refuted") {
+  for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    const TemporaryFolder folder;
+    const double duration = 5 * read_scene_file(entry.path()).step_s;
+    const auto ran = run_program({"simulate", entry.path(), "--check", "--set",
+                                  "step.duration_s=" + std::to_string(duration), "-o", folder.path});
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.out, Catch::StartsWith("checked: 5 steps by ") && Catch::Contains("none refuted"));
+    const auto record = record_of(folder.path);
+    CHECK(record["status"] == "complete");
+    CHECK(record["checks"]["steps"] == 5);
+    CHECK(record["checks"]["compared"] >= 5);
+    CHECK(rows_of(folder.path / "checks.csv").size() == 1);
+  }
+}
+
+TEST_CASE("a contact force that is another is told with step, number and bound") {
+  pbd::Workspace workspace(column(2), method_of("direct"));
+  pbd::State state = workspace.scene().initial;
+  StepChecks checks;
+  constexpr double h = 0.01;
+  for (int number = 1; number <= 3; ++number) {
+    const pbd::State start = state;
+    const auto report = pbd::step(workspace, h, state);
+    auto claim = claim_of(workspace.scene(), workspace, start, state, h, report);
+    if (number == 2) claim.contacts.front().force *= 1.01;
+    checks.add(number, claim, report.status, false);
+  }
+  CHECK(checks.judged() == 3);
+  CHECK(checks.refuted_steps() == 1);
+  REQUIRE_FALSE(checks.refuted().empty());
+  CHECK(checks.refuted().front().step == 2);
+  CHECK_THAT(checks.text(), Catch::StartsWith("refuted: 1 of 3 steps, the first at step 2: momentum off by"));
+}
+
+TEST_CASE("a step that missed its tolerance claims nothing") {
+  pbd::Method method = method_of("gauss_seidel");
+  method.max_outer = method.max_sweeps = 1;
+  pbd::Workspace workspace(column(4), method);
+  pbd::State state = workspace.scene().initial;
+  const pbd::State start = state;
+  const auto report = pbd::step(workspace, 0.01, state);
+  REQUIRE(report.status == pbd::Status::not_converged);
+  StepChecks checks;
+  checks.add(1, claim_of(workspace.scene(), workspace, start, state, 0.01, report), report.status, false);
+  CHECK(checks.judged() == 0);
+  CHECK(checks.text() == "checked: 0 steps by 0 numbers, none refuted (1 missed their tolerance)");
+}

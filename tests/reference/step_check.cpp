@@ -1,0 +1,215 @@
+// A true step, made by hand, is not refuted; with one number of it changed it is, by the check of that law.
+#include "step_check.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "rigid_model.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using reference::ClaimedContact;
+using reference::Findings;
+using reference::StepCheck;
+using reference::StepClaim;
+
+namespace {
+
+constexpr double h = 0.01, g = 9.81;
+
+/// A step and all that is claimed of it, to be changed by one number.
+struct Step {
+  Scene scene;
+  State end;
+  std::vector<std::vector<double>> forces;
+  std::vector<ClaimedContact> contacts;
+  double scale = 1;
+
+  explicit Step(Scene stated) : scene(std::move(stated)), end(scene.initial) {
+    forces.resize(scene.effects.size());
+    end.time += h;
+  }
+
+  /// x and R where the end velocities take them.
+  void move() {
+    end.x = scene.initial.x + h * end.v;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      end.orientation[b] = reference::turned_by(scene.initial.orientation[b], h * end.spin.col(int(b)));
+  }
+
+  Findings judge(double tolerance = 1e-8) const {
+    StepClaim claim{.scene = scene, .start = scene.initial, .end = end, .h = h};
+    claim.tolerance = tolerance;
+    claim.scale = scale;
+    claim.forces = forces;
+    claim.contacts = contacts;
+    return StepCheck(scene).judge(claim);
+  }
+};
+
+/// Names of the checks that refute it, each once.
+std::set<std::string> refuted(const Step& step) {
+  std::set<std::string> names;
+  for (const auto& finding : step.judge().refuted) names.insert(finding.check);
+  return names;
+}
+
+using Names = std::set<std::string>;
+
+Step free_fall() {
+  Scene scene;
+  add_node(scene, Vec3(0, 0, 1), 2, Vec3(1, 0, 0));
+  scene.effects.emplace_back(Gravity{});
+  Step step(scene);
+  step.end.v.col(0).z() -= h * g;
+  step.move();
+  return step;
+}
+
+/// A box of 4 kg and 0.1 m height on the ground, as contacts() counts them: 0 the ground, 1 the box.
+Step box_on_ground(double friction, double speed) {
+  pbdcheck::BodyScene scene(ContactLaw{.friction = friction}, g);
+  scene.ground();
+  scene.box({0.2, 0.2, 0.1}, 4, {.position = {0, 0, 0.05}, .velocity = {speed, 0, 0}});
+  Step step(scene.finish());
+  const double drag = speed > 0 ? friction * 4 * g : 0;
+  step.end.v.col(1).x() -= h * drag / 4;
+  step.move();
+  // Friction turns the box forward: the pressure moves so far ahead that it does not turn.
+  const double ahead = drag * 0.05 / (4 * g), share = ahead / 0.2;
+  for (const double x : {-0.1, 0.1})
+    for (const double y : {-0.1, 0.1}) {
+      const double part = 0.25 + (x > 0 ? share : -share) / 2;
+      step.contacts.push_back({.collider = {1, 0},
+                               .point = step.end.x.col(1) + Vec3(x, y, -0.05),
+                               .normal = Vec3::UnitZ(),
+                               .force = {-drag * part, 0, 4 * g * part},
+                               .gap = 0});
+    }
+  return step;
+}
+
+/// Balls of 0.1 m; the first meets the second, without restitution, and both go on together.
+Step balls() {
+  pbdcheck::BodyScene scene(ContactLaw{.friction = 0}, 0);
+  scene.ball(0.1, 1, {.position = {-0.102, 0, 0}, .velocity = {1, 0, 0}});
+  scene.ball(0.1, 3, {.position = {0.1, 0, 0}});
+  Step step(scene.finish());
+  // The gap of 2 mm closes: v0 - v1 = 0.2 m/s, v0 + 3 v1 = 1 m/s.
+  const double after = 0.2;
+  step.end.v.col(0).x() = after + 0.2;
+  step.end.v.col(1).x() = after;
+  step.move();
+  step.contacts.push_back({.collider = {0, 1},
+                           .point = (step.end.x.col(0) + step.end.x.col(1)) / 2,
+                           .normal = -Vec3::UnitX(),
+                           .force = {-3 * after / h, 0, 0},
+                           .gap = 0});
+  return step;
+}
+
+/// A mass on a hard link of 1 m, moving: the free step projected onto the circle.
+Step pendulum() {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1, 0, 0), 2, Vec3(0, 0, -1));
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
+  Step step(scene);
+  const Vec3 free = Vec3(1, 0, -h * (1 + h * g)), to = free.normalized();
+  step.end.v.col(1) = (to - Vec3(1, 0, 0)) / h;
+  step.end.x.col(1) = to;
+  step.forces[1] = {-2 * (free.norm() - 1) / (h * h)};  // M (x1 - free)/h^2 = J^T gamma
+  return step;
+}
+
+}  // namespace
+
+TEST_CASE("a true step is not refuted") {
+  CHECK(refuted(free_fall()).empty());
+  CHECK(refuted(box_on_ground(0.5, 0)).empty());
+  CHECK(refuted(box_on_ground(0.5, 1)).empty());
+  CHECK(refuted(balls()).empty());
+  CHECK(refuted(pendulum()).empty());
+  CHECK(free_fall().judge().compared >= 4);
+}
+
+TEST_CASE("motion: positions follow the velocities, what is fixed stays") {
+  Step step = free_fall();
+  step.end.x(0, 0) += 1e-9;
+  CHECK(refuted(step) == Names{"motion"});
+  Step held = pendulum();
+  held.end.v(1, 0) = 1e-9;
+  CHECK(refuted(held) == Names{"motion"});
+  Step lost = free_fall();
+  lost.end.v(0, 0) = std::nan("");
+  CHECK_FALSE(refuted(lost).empty());
+}
+
+TEST_CASE("momentum: speed from nowhere, a force that is another, a spin that nothing gives") {
+  Step step = free_fall();
+  step.end.v.col(0) *= 1 + 1e-6;  // energy
+  step.move();
+  CHECK(refuted(step) == Names{"momentum"});
+
+  Step box = box_on_ground(0.5, 0);
+  box.contacts[0].force *= 1.01;
+  CHECK(refuted(box) == Names{"angular momentum", "momentum"});
+
+  Step spun = balls();
+  spun.end.spin.col(1) = Vec3(0, 0, 1e-4);
+  spun.move();
+  CHECK(refuted(spun) == Names{"angular momentum"});
+
+  Step link = pendulum();
+  link.forces[1][0] *= 1.01;
+  CHECK(refuted(link) == Names{"momentum"});
+  link.forces[1].clear();
+  CHECK(refuted(link).count("momentum") == 1);
+}
+
+TEST_CASE("constraints: a link is as long as it is to be") {
+  Step step = pendulum();
+  step.end.v(0, 1) += 1e-6;  // a length of 1e-8 m a step
+  step.move();
+  CHECK(refuted(step).count("constraints") == 1);
+}
+
+TEST_CASE("contacts: force, cone, slip, gap and depth") {
+  Step turned = box_on_ground(0.5, 1);
+  for (auto& contact : turned.contacts) contact.force.x() *= -1;
+  CHECK(refuted(turned) == Names{"angular momentum", "momentum", "sliding"});
+
+  Step beyond = box_on_ground(0.5, 1);
+  beyond.scene.effects.back() = [&] {
+    auto contact = std::get<Contact>(beyond.scene.effects.back());
+    contact.law[0].friction = 0.49;
+    return contact;
+  }();
+  CHECK(refuted(beyond) == Names{"friction", "sliding"});
+
+  Step idle = box_on_ground(0.5, 1);
+  idle.contacts[0].force.x() *= 0.9;  // another takes its share
+  idle.contacts[1].force.x() += 0.1 / 0.9 * idle.contacts[0].force.x();
+  CHECK(refuted(idle).count("sliding") == 1);
+
+  Step pulls = box_on_ground(0.5, 0);
+  for (const int sign : {-1, 1}) {  // two pull as others push more
+    pulls.contacts[sign < 0 ? 0 : 1].force.z() += 20 * sign;
+    pulls.contacts[sign < 0 ? 3 : 2].force.z() += 20 * sign;
+  }
+  CHECK(refuted(pulls).count("contact pulls") == 1);
+
+  Step open = balls();
+  open.contacts[0].gap = 1e-6;
+  CHECK(refuted(open) == Names{"open contact"});
+  open.contacts[0].gap = -1e-6;
+  CHECK(refuted(open) == Names{"gap told"});
+
+  Step deep = balls();  // as if they had not met
+  deep.contacts.clear();
+  deep.end.v = deep.scene.initial.v;
+  deep.move();
+  CHECK(refuted(deep) == Names{"depth"});
+}

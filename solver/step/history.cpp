@@ -155,7 +155,17 @@ void History::end_step(double h, const StepSystem& system, bool missed, State& s
   }
   state.time += h;
   if (integrator_->keeps != Keeps::nothing) h_ = h;
-  if (problem.bodies.count() > 0 || system.rows.contacts) ended_ = state;
+  keep_end(system, state);
+}
+
+void History::diverge(const StepSystem& system, const State& state) {
+  h_ = 0;
+  missed_ = true;
+  keep_end(system, state);
+}
+
+void History::keep_end(const StepSystem& system, const State& state) {
+  if (system.problem.bodies.count() > 0 || system.rows.contacts) ended_ = state;
 }
 
 }  // namespace pbd

@@ -23,7 +23,7 @@ class History {
 
   /// The step diverged and leaves `state` as it was: the next one is a start, and from there one after a
   /// miss.
-  void diverge(const State& state) { h_ = 0, missed_ = true, ended_ = state; }
+  void diverge(const StepSystem& system, const State& state);
 
   /// m/s^2, of the last step begun.
   const Points& given_accelerations() const { return acceleration_; }
@@ -33,6 +33,7 @@ class History {
  private:
   bool goes_on(const StepSystem& system, const State& state) const;
   bool is_where_it_ended(const State& state) const;
+  void keep_end(const StepSystem& system, const State& state);
   void carry_on(double h, bool goes_on, StepSystem& system);
   void set_map(double h, bool goes_on, Problem& problem);
   bool begin_sources(StepSystem& system);

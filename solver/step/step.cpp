@@ -211,7 +211,7 @@ void StepRun::end(double h, State& state) {
     clear_impulses(system.rows);
     forget(system.solver);
     w.contraction.forget();
-    w.history.diverge(state);
+    w.history.diverge(system, state);
   } else {
     w.contraction.update(system, on_potential(w.outer), progress);
     report.contraction = w.contraction.value();

@@ -58,14 +58,14 @@ Scene hanging_bars(double ratio) {
 }  // namespace
 
 TEST_CASE("steps that are cut off gain no energy") {
-  const auto [name, scene] = GENERATE(table<std::string, Scene>({{"column", column(8)},
+  const auto [name, scene] = GENERATE(table<std::string, Scene>({{"column", column(5)},
                                                                  {"heavy above light", column(5, 10)},
-                                                                 {"pyramid", pyramid(4)},
+                                                                 {"pyramid", pyramid(3)},
                                                                  {"pile", pile()},
                                                                  {"bars", hanging_bars(1)},
                                                                  {"heavy bar", hanging_bars(100)}}));
   const auto relaxation = GENERATE(from_range(solvers_of_contact()));
-  constexpr int steps = 30;
+  constexpr int steps = 20;
   const double height = scene.initial.x.cwiseAbs().maxCoeff();  // m
   for (const int outer_iterations : {1, 3, 10, 30}) {
     const Method method = cut_off(relaxation, outer_iterations);

@@ -115,9 +115,8 @@ bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const 
 
 class Depths {
  public:
-  Depths(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
-         Findings& findings)
-      : claim_(claim), contact_(contact), sides_(claim, contact, model), level_(level), findings_(findings) {}
+  Depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings)
+      : claim_(claim), contact_(contact), sides_(claim, contact), level_(level), findings_(findings) {}
 
   void check_all();
 
@@ -193,9 +192,8 @@ void Depths::check_all() {
 
 }  // namespace
 
-void check_contacts(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
-                    Findings& findings) {
-  const Sides sides(claim, contact, model);
+void check_contacts(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
+  const Sides sides(claim, contact);
   for (const ClaimedContact& claimed : claim.contacts) {
     const Open open = open_of(claim, claimed, sides, level);
     check_force(claim, claimed, open, findings);
@@ -204,9 +202,8 @@ void check_contacts(const StepClaim& claim, const Contact& contact, const StepMo
   }
 }
 
-void check_depths(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
-                  Findings& findings) {
-  Depths(claim, contact, model, level, findings).check_all();
+void check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
+  Depths(claim, contact, level, findings).check_all();
 }
 
 }  // namespace pbd::reference

@@ -20,15 +20,13 @@
 // beside other than half spaces, and surfaces.
 #pragma once
 
-#include "step_equations.h"
+#include "step_claim.h"
 
 namespace pbd::reference {
 
-void check_contacts(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
-                    Findings& findings);
+void check_contacts(const StepClaim& claim, const Contact& contact, double level, Findings& findings);
 
 /// Depth of all pairs of colliders, and of nodes in colliders.
-void check_depths(const StepClaim& claim, const Contact& contact, const StepModel& model, double level,
-                  Findings& findings);
+void check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings);
 
 }  // namespace pbd::reference

@@ -43,8 +43,8 @@ Findings StepCheck::judge(const StepClaim& claim) const {
     check_constraints(claim, *model_, level, findings);
   for (const Effect& effect : claim.scene.effects)
     if (const auto* contact = std::get_if<Contact>(&effect); contact != nullptr && has_contact_rule(claim)) {
-      check_contacts(claim, *contact, *model_, level, findings);
-      check_depths(claim, *contact, *model_, level, findings);
+      check_contacts(claim, *contact, level, findings);
+      check_depths(claim, *contact, level, findings);
     }
   return findings;
 }

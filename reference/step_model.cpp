@@ -56,15 +56,13 @@ StepModel make_step_model(const Scene& scene) {
   std::vector<std::array<int, 2>> constraint(static_cast<std::size_t>(model.rigid.rows()));
   for (std::size_t i = 0; i < model.rigid.element_row.size(); ++i) {
     const Element& e = model.rigid.nodes.elements[i];
-    for (int k = 0; k < e.rows; ++k)
-      constraint[static_cast<std::size_t>(model.rigid.element_row[i] + k)] = {e.effect, e.entry};
+    for (int k = 0; k < e.rows; ++k) constraint[model.rigid.element_row[i] + k] = {e.effect, e.entry};
   }
   int last = -1, entry = 0;
   for (const Joint& joint : model.rigid.joints) {
     entry = joint.effect == last ? entry + 1 : 0;
     last = joint.effect;
-    for (int k = 0; k < joint.rows; ++k)
-      constraint[static_cast<std::size_t>(joint.row + k)] = {joint.effect, entry};
+    for (int k = 0; k < joint.rows; ++k) constraint[joint.row + k] = {joint.effect, entry};
   }
   for (const auto& [effect, number] : constraint) describe(scene, effect, number, model);
   return model;

@@ -5,8 +5,7 @@
 
 namespace pbd::reference {
 
-Sides::Sides(const StepClaim& claim, const Contact& contact, const StepModel& model)
-    : claim_(claim), contact_(contact), model_(model) {
+Sides::Sides(const StepClaim& claim, const Contact& contact) : claim_(claim), contact_(contact) {
   for (const Collider& collider : contact.collider) shapes_.push_back(collider.shape);
   for (const double radius : contact.radius) shapes_.emplace_back(Sphere{radius});
   for (const auto& triangle : contact.triangle)
@@ -37,7 +36,7 @@ PlacedShape Sides::placed(int k, const State& state) const {
 
 Vec3 Sides::velocity(int k, const Vec3& point) const {
   const Side own = side(k);
-  const Vec3 v = claim_.end.v.col(own.node);
+  Vec3 v = claim_.end.v.col(own.node);
   if (own.body < 0) return v;
   const auto& orientation = claim_.end.orientation[static_cast<std::size_t>(own.body)];
   return v + (orientation * Vec3(claim_.end.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
@@ -61,7 +60,7 @@ const ContactLaw& Sides::law(int a, int b) const {
   const auto material = [&](int k) {
     return k < count() ? contact_.material(static_cast<std::size_t>(k)) : contact_.surface_material;
   };
-  return contact_.law[static_cast<std::size_t>(material(a) * contact_.materials + material(b))];
+  return contact_.law[material(a) * contact_.materials + material(b)];
 }
 
 }  // namespace pbd::reference

@@ -15,7 +15,7 @@ struct Side {
 
 class Sides {
  public:
-  Sides(const StepClaim& claim, const Contact& contact, const StepModel& model);
+  Sides(const StepClaim& claim, const Contact& contact);
 
   /// Colliders, then the effect's nodes.
   int count() const { return static_cast<int>(shapes_.size()); }
@@ -33,7 +33,6 @@ class Sides {
  private:
   const StepClaim& claim_;
   const Contact& contact_;
-  const StepModel& model_;
   std::vector<Shape> shapes_;
   double surface_inverse_mass_ = 0;  // 1/kg
 };

@@ -1,6 +1,7 @@
 // Contact of cloth with itself and with other cloth.
 #include "body_scenes.h"
 #include "contact_runs.h"
+#include "linear/linear_names.h"
 #include "mesh.h"
 
 using namespace pbd;

@@ -2,6 +2,7 @@
 // turns, dampers before they are met, overlaps that part.
 #include "body_scenes.h"
 #include "contact_runs.h"
+#include "linear/linear_names.h"
 #include "mesh.h"
 #include "scenes/contacts.h"
 

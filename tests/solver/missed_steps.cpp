@@ -34,7 +34,7 @@ Method cut_off(std::string_view relaxation, int outer_iterations) {
 
 std::vector<std::string_view> solvers_of_contact() {
   std::vector<std::string_view> all = general_solver_names();
-  all.push_back("direct");
+  all.emplace_back("direct");
   return all;
 }
 

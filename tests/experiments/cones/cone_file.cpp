@@ -85,9 +85,8 @@ TEST_CASE("Siconos' large blocks are read, and what may stand behind mu") {
   const VectorXd &q = p.problem.free_velocity, &mu = p.problem.friction;
   REQUIRE(mu.size() % 2 == 0);
   check_same(read_cone_file(folder.write("b.dat", blocks(w, q, mu, false, 6))).problem, p.problem);
-  const std::string solution = text(p.impulse);
-  for (const std::string& tail : {std::string("0\n"), std::string("1\n") + solution, solution,
-                                  solution + solution, "1\n" + solution + solution})
+  const std::string solution = text(p.impulse), twice = solution + solution;
+  for (const std::string& tail : {std::string("0\n"), "1\n" + solution, solution, twice, "1\n" + twice})
     check_same(read_cone_file(folder.write("t.dat", dense(w, q, mu) + tail)).problem, p.problem);
 }
 

@@ -2,7 +2,9 @@
 // solve: each claim is evaluated by the judges' own values, derivatives and shapes and compared with what the
 // step's tolerance leaves open.
 //
-//   level       = tolerance scale + rounding (sqrt(J)): both of the step's residuals are below it
+//   level       = tolerance scale + rounding (sqrt(J)): both of the step's residuals are below it. The scale
+//   of
+//               implicit_euler is the judge's own, by states and given forces; of others it is the one told
 //   motion      x1 - x0 - h v1 (m), the turn R1 against R0 exp(h w1) (rad); fixed things keep their
 //   velocities momentum    g = M (v1 - v0) - h (f + J^T gamma + contact forces), of bodies' rotations with
 //   the torques

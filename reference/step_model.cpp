@@ -48,6 +48,29 @@ void take_told_normals(RigidModel& model) {
     }
 }
 
+/// |v1 - v0|_M + |v_free - v0|_M by the states and given forces alone, sqrt(J); of implicit_euler.
+double scale_of(const StepClaim& claim, const RigidModel& model) {
+  double changed = 0, freely = 0;
+  for (std::size_t i = 0; i < model.nodes.first.size(); ++i)
+    if (const int u = model.nodes.first[i]; u >= 0) {
+      const auto node = static_cast<Eigen::Index>(i);
+      changed += model.nodes.mass(u) * (claim.end.v.col(node) - claim.start.v.col(node)).squaredNorm();
+      freely += (claim.h * model.nodes.force.segment<3>(u)).squaredNorm() / model.nodes.mass(u);
+    }
+  for (std::size_t b = 0; b < model.rotors.size(); ++b) {
+    const Rotor& rotor = model.rotors[b];
+    if (rotor.unknown < 0) continue;
+    const auto body = static_cast<Eigen::Index>(b);
+    const Vec3 before = claim.start.spin.col(body), after = claim.end.spin.col(body);
+    Vec3 torque = claim.start.orientation[b].conjugate() * rotor.torque;
+    if (model.gyroscopic == GyroscopicTorque::at_start)
+      torque -= before.cross(rotor.inertia.cwiseProduct(before));
+    changed += rotor.inertia.dot((after - before).cwiseAbs2());
+    freely += (claim.h * torque).cwiseAbs2().cwiseQuotient(rotor.inertia).sum();
+  }
+  return std::sqrt(changed) + std::sqrt(freely);
+}
+
 }  // namespace
 
 StepModel make_step_model(const Scene& scene) {
@@ -94,7 +117,8 @@ double level_of(const StepClaim& claim, const StepModel& model) {
   }
   for (const Joint& joint : model.rigid.joints)
     size = std::max({size, joint.point[0].norm(), joint.point[1].norm()});
-  return claim.tolerance * claim.scale +
+  const bool told = explicit_forces(claim) || !is_euler_step(claim);
+  return claim.tolerance * (told ? claim.scale : scale_of(claim, model.rigid)) +
          step_rounding * (std::sqrt(speed) + std::sqrt(mass) * size / claim.h);
 }
 

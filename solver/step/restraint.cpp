@@ -9,8 +9,7 @@
 namespace pbd {
 namespace {
 
-/// Energy that constraint i, which misses r, stores (J), `scale` the time by which its impulse is its force,
-/// s.
+/// Energy that constraint i, which misses r, stores (J). Its impulse is `scale` (s) times its force.
 template <class Block>
 double stored(const Block& block, std::size_t i, const typename Block::Value& r, double d, double scale) {
   using Value = typename Block::Value;

@@ -1,6 +1,5 @@
 // What a missed step hands on gains no energy beyond what forces bring. Of each component (columns that rows
-// connect) with velocities u beside a motion of its own and accelerations f by given forces, the step's gain
-// is
+// connect), velocities u beside a motion of its own, accelerations f by given forces, the step's gain is
 //   |u|_M^2/2 - |u_l|_M^2/2 - f.M (x - x_l) + Psi(x) - Psi(x_l),
 // Psi the elastic energy, and of each hard constraint and contact that misses r the energy that meeting it
 // alone takes, r^T N_ii^-1 r/2. A solution that begins with all constraints met gains nothing: impulses act

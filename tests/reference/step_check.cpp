@@ -169,6 +169,14 @@ TEST_CASE("momentum: speed from nowhere, a force that is another, a spin that no
   CHECK(refuted(link).count("momentum") == 1);
 }
 
+TEST_CASE("the scale that is told does not loosen a bound") {
+  Step step = free_fall();
+  step.end.v.col(0) *= 1 + 1e-6;
+  step.move();
+  step.scale = 1e9;
+  CHECK(refuted(step) == Names{"momentum"});
+}
+
 TEST_CASE("constraints: a link is as long as it is to be") {
   Step step = pendulum();
   step.end.v(0, 1) += 1e-6;  // a length of 1e-8 m a step

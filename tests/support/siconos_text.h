@@ -8,18 +8,21 @@
 
 namespace pbdcheck::test {
 
-inline std::string text(const Eigen::MatrixXd& numbers) {  // column by column
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+inline std::string text(const MatrixXd& numbers) {  // column by column
   std::string all;
   for (const double value : numbers.reshaped()) all += fmt::format("{:.17g} ", value);
   return all + "\n";
 }
 
-inline std::string dense(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, const Eigen::VectorXd& mu) {
+inline std::string dense(const MatrixXd& w, const VectorXd& q, const VectorXd& mu) {
   return fmt::format("3\n{0}\n0\n{1}\n{1}\n{1}\t{1}\n", mu.size(), w.rows()) + text(w) + text(q) + text(mu);
 }
 
 /// A sparse W as Siconos 4.4.0 has CSparse 3.2.0 print it, in six digits, and what stands before it.
-inline std::string sparse_head(const Eigen::MatrixXd& w, bool by_columns) {
+inline std::string sparse_head(const MatrixXd& w, bool by_columns) {
   const auto rows = w.rows();
   std::string file =
       fmt::format("3\n{0}\n2\n{1}\n{1}\n{2}\nCSparse Version 3.2.0, Sept 12, 2017.  Copyright (c) ", rows / 3,
@@ -36,14 +39,13 @@ inline std::string sparse_head(const Eigen::MatrixXd& w, bool by_columns) {
   return file;
 }
 
-inline std::string sparse(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, const Eigen::VectorXd& mu,
-                          bool by_columns) {
+inline std::string sparse(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_columns) {
   return sparse_head(w, by_columns) + text(q) + text(mu);
 }
 
 /// All blocks of `size` rows, each written column by column, or row by row.
-inline std::string blocks(const Eigen::MatrixXd& w, const Eigen::VectorXd& q, const Eigen::VectorXd& mu,
-                          bool by_rows, Eigen::Index size = 3) {
+inline std::string blocks(const MatrixXd& w, const VectorXd& q, const VectorXd& mu, bool by_rows,
+                          Eigen::Index size = 3) {
   const auto n = w.rows() / size;
   std::string file = fmt::format("3\n{0}\n1\n{1}\n{1}\n{2}\n{3}\n{3}\n", mu.size(), w.rows(), n * n, n);
   for (int side = 0; side < 2; ++side)

@@ -15,8 +15,6 @@
 using namespace pbdcheck;
 using namespace pbdcheck::test;
 using namespace pbd::reference;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 namespace {
 

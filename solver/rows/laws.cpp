@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 /// Of p_t -> bound p_t/|p_t|, bound = mu p_n with dp_n by `normal`.
 void scale_tangent(double mu, double bound, const Vector3d& z, const Eigen::RowVector3d& normal,
                    Matrix3d& derivative) {
-  const double length = std::hypot(z[1], z[2]);
+  const double length = length_of(z[1], z[2]);
   const Eigen::Vector2d along = z.tail<2>() / length;
   derivative.bottomRows<2>() = mu * along * normal;
   derivative.bottomRightCorner<2, 2>() +=
@@ -22,7 +22,7 @@ void scale_tangent(double mu, double bound, const Vector3d& z, const Eigen::RowV
 }
 
 Matrix3d cone_derivative(double mu, const Vector3d& z) {
-  const double tangential = std::hypot(z[1], z[2]);
+  const double tangential = length_of(z[1], z[2]);
   Matrix3d derivative = Matrix3d::Zero();
   if (z[0] < 0 && mu * tangential <= -z[0]) return derivative;
   if (tangential <= mu * z[0]) return Matrix3d::Identity();
@@ -36,7 +36,7 @@ Matrix3d cone_derivative(double mu, const Vector3d& z) {
 Matrix3d disc_derivative(double mu, const Vector3d& z) {
   Matrix3d derivative = Matrix3d::Zero();
   if (!(z[0] > 0)) return derivative;
-  if (std::hypot(z[1], z[2]) <= mu * z[0]) return Matrix3d::Identity();
+  if (length_of(z[1], z[2]) <= mu * z[0]) return Matrix3d::Identity();
   derivative(0, 0) = 1;
   scale_tangent(mu, mu * z[0], z, Eigen::RowVector3d(1, 0, 0), derivative);
   return derivative;
@@ -69,7 +69,7 @@ Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
   double rounding = 0;
   const auto excess_at = [&](double t) {
     p.tail<2>() = (t - 1) * ((1 - t) * a + t * scale).inverse() * b;
-    const double lifted = coupling.dot(p.tail<2>()), tangential = std::hypot(p[1], p[2]);
+    const double lifted = coupling.dot(p.tail<2>()), tangential = length_of(p[1], p[2]);
     p[0] = pressed - lifted;
     rounding = 16 * std::numeric_limits<double>::epsilon() * (tangential + mu * (pressed + std::abs(lifted)));
     return tangential - mu * p[0];
@@ -100,7 +100,7 @@ ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Ve
                                                         : box_derivative(mu, z);
     return {derivative, derivative};
   }
-  const double slip = std::hypot(step[1], step[2]);
+  const double slip = length_of(step[1], step[2]);
   z[0] -= mu * slip;
   const Matrix3d derivative = cone_derivative(mu, z);
   Matrix3d shifted = Matrix3d::Identity();  // d(step - mu |step_t| e_n) by step
@@ -110,10 +110,11 @@ ProjectionDerivative project_derivative(Friction law, double mu, const Eigen::Ve
 
 Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n, const Eigen::Vector3d& q,
                               const Eigen::Vector3d& start) {
-  const double slip = std::hypot(q[1], q[2]);
+  const double slip = length_of(q[1], q[2]);
   if (q[0] >= (law == Friction::cone ? mu * slip : 0.0)) return Eigen::Vector3d::Zero();
   constexpr double singular = 1e-12;  // of a determinant over that of equal eigenvalues
-  if (n.determinant() > singular * std::pow(n.trace() / 3, 3)) {
+  const double mean = n.trace() / 3;
+  if (n.determinant() > singular * mean * mean * mean) {
     Eigen::Vector3d sticking = -n.inverse() * q;
     if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
     if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);

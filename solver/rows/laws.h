@@ -20,9 +20,14 @@
 
 namespace pbd {
 
+/// Not std::hypot, a sixth of the time of all sweeps: squares of what one contact is given do not overflow.
+inline double length_of(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
 /// The point of {|p_t| <= mu p_n} nearest to p.
 inline Eigen::Vector3d project_to_cone(double mu, const Eigen::Vector3d& p) {
-  const double tangential = std::hypot(p[1], p[2]);
+  const double tangential = length_of(p[1], p[2]);
   if (p[0] < 0 && mu * tangential <= -p[0])
     return Eigen::Vector3d::Zero();  // first: mu = 0 holds nothing back
   if (tangential <= mu * p[0]) return p;
@@ -39,9 +44,9 @@ inline Eigen::Vector3d project(Friction law, double mu, const Eigen::Vector3d& p
     case Friction::cone:
       return project_to_cone(mu, to);
     case Friction::coulomb:
-      return project_to_cone(mu, {to[0] - mu * std::hypot(step[1], step[2]), to[1], to[2]});
+      return project_to_cone(mu, {to[0] - mu * length_of(step[1], step[2]), to[1], to[2]});
     case Friction::disc: {
-      const double normal = std::max(0.0, to[0]), tangential = std::hypot(to[1], to[2]);
+      const double normal = std::max(0.0, to[0]), tangential = length_of(to[1], to[2]);
       const double share = tangential > mu * normal ? mu * normal / tangential : 1.0;
       return {normal, share * to[1], share * to[2]};
     }

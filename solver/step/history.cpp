@@ -110,7 +110,7 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .inverse_mass = problem.inverse_mass,
           .warm_start = problem.method.warm_start,
           .continued = continued_,
-          .after_miss = continued_ && missed_};
+          .after_miss = after_miss()};
 }
 
 bool History::widen(StepSystem& system) const {

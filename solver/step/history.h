@@ -25,6 +25,9 @@ class History {
   /// miss.
   void diverge(const StepSystem& system, const State& state);
 
+  /// True if the step begun goes on from the end of one that missed.
+  bool after_miss() const { return continued_ && missed_; }
+
   /// m/s^2, of the last step begun.
   const Points& given_accelerations() const { return acceleration_; }
 

@@ -25,6 +25,15 @@ double stored(const Block& block, std::size_t i, const typename Block::Value& r,
   return -d / scale * impulse.dot(r + block.compliance[i] * impulse / 2);
 }
 
+/// What hard constraint i, as it is missed at v, takes to be met against its impulse (N s m/s).
+template <class Block>
+double left_open(const Block& block, std::size_t i, const Points& v) {
+  if (block.compliance[i](0, 0) > 0) return 0;
+  const typename Block::Value r = block.residual(v, i, Block::Value::Zero());
+  return block.bounded() ? -block.impulse[i][0] * r[0]  // friction brakes, and gives nothing back
+                         : -block.impulse[i].dot(r);
+}
+
 }  // namespace
 
 /// The largest t of at most 1.
@@ -105,24 +114,70 @@ void Restraint::add_stored(const StepSystem& system, const Points& v, double sig
   }
 }
 
-void Restraint::restrain(StepSystem& system, const Points& given) {
+/// What hard rows, linearised at x(v), leave open.
+void Restraint::find_open(const StepSystem& system, const Points& v) {
+  const StepMap& map = system.problem.map;
+  open_.assign(components_.of_column.size(), 0);
+  for (Motion& motion : motions_) motion.open = 0;
+  for (const Slot& slot : system.slots) {
+    const double scale = slot.source->kind().contacts ? map.h : map.s;
+    for_each_block(slot.view(system.rows), [&](const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const double open = map.d / scale * left_open(block, i, v);
+        const int component = components_.of(block.node[i]);
+        if (!(open > 0) || component < 0) continue;
+        motions_[component].open += open;
+        for (const int column : block.node[i])
+          if (components_.of_column[column] >= 0) {
+            open_[column] += open;
+            break;
+          }
+      }
+    });
+  }
+}
+
+bool Restraint::restrain(StepSystem& system, const Points& given) {
   find_motions(system);
   add_kinetic(system, given);
-  linearise_at(system, system.at.v);
-  add_stored(system, system.at.v, 1);
   rest_.setZero(3, system.at.v.cols());
   linearise_at(system, rest_);
   add_stored(system, rest_, -1);
+  find_open(system, rest_);
+  linearise_at(system, system.at.v);
+  add_stored(system, system.at.v, 1);
+  for (std::size_t column = 0; column < lost_.size(); ++column)
+    if (const int component = components_.of_column[column]; component >= 0)
+      motions_[component].lost += lost_[column];
+  for (Motion& motion : motions_) motion.most += std::min(motion.lost, motion.open);
+  bool slowed = false;
   for (int column = 0; column < system.problem.bodies.columns(); ++column) {
     const int component = components_.of_column[column];
     if (component < 0) continue;
     const Motion& motion = motions_[component];
     const double share = motion.share();
     if (share == 1) continue;
+    slowed = true;
     const bool turns = column >= system.problem.bodies.nodes();
     const Vec3 own = turns ? Vec3::Zero() : motion.own;
     system.at.v.col(column) = own + share * (system.at.v.col(column) - own);
   }
+  for (Motion& motion : motions_) {
+    const double share = motion.share(), returned = std::min(motion.lost, motion.open);
+    const double left = motion.most - share * (share * motion.gained + motion.linear);
+    motion.lost = std::max(0.0, motion.lost - returned + left);
+  }
+  return slowed;
+}
+
+void Restraint::keep_lost(const StepSystem& system) {
+  find_open(system, system.at.v);
+  lost_.assign(open_.size(), 0);
+  for (std::size_t column = 0; column < open_.size(); ++column)
+    if (open_[column] > 0) {
+      const Motion& motion = motions_[components_.of_column[column]];
+      lost_[column] = motion.lost * (open_[column] / motion.open);
+    }
 }
 
 }  // namespace pbd

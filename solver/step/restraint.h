@@ -3,9 +3,12 @@
 //   |u|_M^2/2 - |u_l|_M^2/2 - f.M (x - x_l) + Psi(x) - Psi(x_l),
 // Psi the elastic energy, and of each hard constraint and contact that misses r the energy that meeting it
 // alone takes, r^T N_ii^-1 r/2. A solution that begins with all constraints met gains nothing: impulses act
-// against motion. Where the gain is above 0, u is multiplied by the largest t < 1 that makes it 0, Psi taken
-// as linear in t. So what missed steps leave open is energy that they have spent. A component's own motion is
-// that of its centre of mass; where it is held from outside, the slowest of what holds it.
+// against motion. One that begins with hard constraints missed gains what meeting them takes against their
+// impulses p, -p.r: a sunken stack is lifted. Where the gain is above what the component may take back, u is
+// multiplied by the largest t < 1 that makes it that, Psi taken as linear in t. It may take back what the
+// missed steps before have lost beside what forces bring, up to the sum of -p.r where the step begins: so
+// what missed steps leave open is energy that they have spent. A component's own motion is that of its centre
+// of mass; where it is held from outside, the slowest of what holds it.
 //
 // Limits: what holds a component is taken not to turn. The angular momentum of what nothing holds is lost
 // with u; scaled impulses would keep it, and let joints and overlaps go.
@@ -18,9 +21,15 @@ namespace pbd {
 
 class Restraint {
  public:
-  /// Slows the iterate's v if it gains energy; rows and x are to be refreshed then. `given` are the
-  /// accelerations by given forces (m/s^2).
-  void restrain(StepSystem& system, const Points& given);
+  /// Slows the iterate's v if it gains energy, and returns whether it did: rows and x are to be refreshed
+  /// then. Linearises the rows at v. `given` are the accelerations by given forces (m/s^2).
+  bool restrain(StepSystem& system, const Points& given);
+
+  /// Keeps for the next step what has been lost where rows, refreshed at the restrained iterate, are open.
+  void keep_lost(const StepSystem& system);
+
+  /// The next step does not follow a missed one.
+  void forget() { lost_.clear(); }
 
  private:
   struct Motion {                             // of a component
@@ -28,16 +37,19 @@ class Restraint {
     double mass = 0;                          // kg, where it is not held
     double slowest = infinity;                // m/s, of what holds it
     double gained = 0, linear = 0, most = 0;  // J: the gain is t^2 gained + t linear - most
+    double lost = 0, open = 0;                // J: by missed steps since the last solved one; sum of -p.r
     double share() const;
   };
 
   void find_motions(const StepSystem& system);
   void add_stored(const StepSystem& system, const Points& v, double sign);
+  void find_open(const StepSystem& system, const Points& v);
   void add_kinetic(const StepSystem& system, const Points& given);
 
   Components components_;
   std::vector<Motion> motions_;
-  Points rest_;  // m/s, zero
+  std::vector<double> open_, lost_;  // J, of each column; what it loses is empty after a solved step
+  Points rest_;                      // m/s, zero
 };
 
 }  // namespace pbd

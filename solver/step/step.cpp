@@ -102,6 +102,7 @@ void StepRun::begin(double h, const State& state) {
   }
   w.history.begin_step(h, state, system);
   if (!w.method.warm_start) clear_impulses(system.rows);
+  if (!w.history.after_miss() || !w.method.warm_start) w.restraint.forget();
   system.at.v = system.problem.start_v;
   pbd::begin(w.outer, system);
   const auto& inverse_mass = system.problem.inverse_mass;
@@ -196,9 +197,11 @@ void StepRun::take_best() {
 void StepRun::restrain() {
   if (report.status != Status::not_converged || !solves_step(w.outer) || !w.history.integrator().contact)
     return;
-  w.restraint.restrain(w.system, w.history.given_accelerations());
-  forget(w.outer);
-  measure_here();
+  if (w.restraint.restrain(w.system, w.history.given_accelerations())) {
+    forget(w.outer);
+    measure_here();
+  }
+  w.restraint.keep_lost(w.system);
 }
 
 void StepRun::end(double h, State& state) {

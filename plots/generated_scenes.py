@@ -1,10 +1,13 @@
-"""How do random scenes end, and is every step that says ok one?"""
+"""How do random scenes end, is every step that says ok one, and is its answer the only one?"""
 
 import numpy as np
 
 from common import draw_failed, figure, footnote, on_log, panels, shared_legend
 from styles import BLACK, FALLBACK, style
 from selecting import failed, good, reasons_note
+
+# Of a variant's first step beside that of the scene as it is.
+OUTCOMES = ("the same", "told apart by the tolerance alone", "another solution", "not told", "one missed")
 
 
 @figure("generated_scenes", "outcomes", table="outcomes")
@@ -43,4 +46,22 @@ def sample(frame):
            ylabel="error against Newton, relative")
     shared_legend(fig, [ax])
     footnote(fig, reasons_note(failed(frame, "claim", "error")))
+    return fig
+
+
+@figure("generated_worlds", "agreement", table="agreement")
+def agreement(frame):
+    """Bars of the first steps of each variant by what became of them beside the scene as it is."""
+    variants = list(frame["variant"].unique())
+    fig, (ax,) = panels(1, height=0.3 * len(variants) + 0.8)
+    fig.set_figwidth(6.5)
+    left = np.zeros(len(variants))
+    for k, outcome in enumerate(OUTCOMES):
+        width = frame[frame["outcome"] == outcome].groupby("variant")["first_steps"].sum().reindex(variants).fillna(0).to_numpy()
+        ax.barh(variants, width, left=left, height=0.6, label=outcome, color=FALLBACK[k][0], edgecolor="white")
+        left += width
+    ax.invert_yaxis()
+    ax.grid(axis="y", visible=False)
+    ax.set(xlabel="first steps")
+    shared_legend(fig, [ax], columns=2)
     return fig

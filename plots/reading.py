@@ -25,7 +25,8 @@ RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": s
 TEXT = {"benchmark", "solver", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
         "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "method", "case", "name", "unit", "gate", "reference_status",
-        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law"}
+        "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law", "variant",
+        "check", "what", "kind"}
 
 
 class InputError(Exception):

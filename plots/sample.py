@@ -13,7 +13,7 @@ from sample_cost import METHOD_COLUMNS, effects_cost, method_points, rival_newto
 from sample_files import write, write_run
 from sample_motion import damping, direction
 from sample_outer import contraction, outer_convergence, stability_map
-from sample_robustness import generated_scenes, point_hard_cases
+from sample_robustness import generated_scenes, generated_worlds, point_hard_cases
 from sample_solvers import conditioning, dual_vs_primal, inexact, inner_convergence, mesh_refinement
 from sample_time import energy, time_order
 
@@ -36,7 +36,7 @@ def write_all(directory):
                        mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
                        friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,
-                       effects_cost, point_hard_cases, generated_scenes, judges):
+                       effects_cost, point_hard_cases, generated_scenes, generated_worlds, judges):
         experiment(directory)
         name = experiment.__name__
         write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS)

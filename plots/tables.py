@@ -98,6 +98,10 @@ TABLES = {
     ("generated_scenes", "outcomes"): "relaxation steps claim_largest status reason",
     ("generated_scenes", "sample"): "scene nodes step_s outer relaxation outer_iterations sweeps residual "
                                     "residual_judged claim error reference_status status reason",
+    ("generated_worlds", "refuted"): "world variant step check what number bound",
+    ("generated_worlds", "broken"): "world kind reason",
+    ("generated_worlds", "ends"): "status steps",
+    ("generated_worlds", "agreement"): "variant first_steps outcome",
     (".", "compare"): METHOD + " method",
 }
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
@@ -113,7 +117,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id statement quantity measured bound verdict"
-OWN_TABLES = ("verdicts",)  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

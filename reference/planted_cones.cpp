@@ -10,13 +10,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Dense random rows.
-struct Rows {
+struct RowsOfCones {
   int contacts = 10, coordinates = 40;
   double mass_decades = 0.3, both_zero = 0;
   bool duplicated = false;
 };
 
-PlantedCone dense(FrictionLaw law, std::uint64_t seed, const Rows& rows) {
+PlantedCone dense(FrictionLaw law, std::uint64_t seed, const RowsOfCones& rows) {
   Random random(seed);
   MatrixXd j =
       MatrixXd::NullaryExpr(3 * rows.contacts, rows.coordinates, [&] { return random.between(-1, 1); });

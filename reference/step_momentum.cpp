@@ -79,6 +79,8 @@ void Balance::add_constraints(const Vector& gamma, Findings& findings) {
     RowVector own = gamma.segment(block.row, block.rows());
     const bool no_row = explicit_forces(claim_) && !block.hard && own.hasNaN();
     if (no_row) own = -solve(Eigen::MatrixXd(block.compliance), Vector(block.value));
+    if (no_row && block.rows() == 1)
+      own[0] = std::clamp(own[0], model_.bounds[row][0], model_.bounds[row][1]);
     const bool unknown_force = model_.own_frame[row] || (no_row && model_.damped[row]);
     if (unknown_force) findings.leave_out("momentum: what a damped joint acts on");
     const double size = at.x.cwiseAbs().maxCoeff();

@@ -58,6 +58,9 @@ const std::vector<Experiment>& experiments() {
       {"point_hard_cases", "Does one method without settings survive the scenes that solvers fail on?",
        point_hard_cases},
       {"generated_scenes", "Does a step that says ok tell the truth, whatever the scene?", generated_scenes},
+      {"generated_worlds",
+       "Is a step of anything that says ok true, and the only one that the same scene in other words has?",
+       generated_worlds},
   };
   return list;
 }

@@ -14,7 +14,7 @@ from sections.energy import energy
 from sections.motion import damping, direction
 from sections.outer import contraction, outer_convergence, stability_map
 from sections.relaxations import conditioning, inexact, inner_convergence
-from sections.robustness import generated_scenes, point_hard_cases
+from sections.robustness import generated_scenes, generated_worlds, point_hard_cases
 from sections.time import time_order
 
 NO_TABLE = "The run left no table."
@@ -24,7 +24,7 @@ SECTIONS = {function.__name__: function for function in (
     mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
     friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
     work_precision, rival_newton,
-    effects_cost, point_hard_cases, generated_scenes)}
+    effects_cost, point_hard_cases, generated_scenes, generated_worlds)}
 
 
 def section_of(results, experiment):

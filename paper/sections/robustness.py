@@ -81,3 +81,40 @@ def sample_text(sample):
             f"{int((solvable['status'] == 'diverged').sum())} as diverged. The median of the relative errors of those that are ok "
             f"is {number(both['error'].median())}; {int((both['error'] > 1e-3).sum())} are larger than 1e-3. Of the "
             f"{len(other)} that Newton's method did not solve, {int((other['status'] == 'ok').sum())} end as ok.")
+
+
+def generated_worlds(results):
+    section = Section(
+        "Is a step of anything that says ok true, and its answer the only one?",
+        "Random scenes of bodies of all shapes, joints with limits and motors, cloth, solids, ropes, damping and contact of all laws, "
+        "each by a method of its own. Code that shares nothing with the solver's rows judges each step that says ok. The first step is "
+        "made again of the same scene in other words, turned, mirrored, in other units, in another order, and by other methods.",
+        figures=[Figure("generated_worlds_agreement", "The first step of each variant beside that of the scene as it is, where both say "
+                        "ok. Told apart by the tolerance alone: at 1e-11 both agree. Another solution: at 1e-11 they still differ, and both "
+                        "are judged as true.")])
+    ends, refuted = results.table("generated_worlds", "ends"), results.table("generated_worlds", "refuted")
+    agreement, broken = results.table("generated_worlds", "agreement"), results.table("generated_worlds", "broken")
+    if refuted is not None and ends is not None:
+        steps = ends.set_index("status")["steps"]
+        scenes = refuted["world"].nunique()
+        section.paragraphs.append(
+            (f"{counted(scenes, 'scene')} have steps that say ok and are refuted. " if scenes else "No step that says ok is refuted. ")
+            + f"Of {counted(int(steps.sum()), 'step')} {int(steps.get('ok', 0))} end as ok, {int(steps.get('not_converged', 0))} as not "
+            f"converged and {int(steps.get('diverged', 0))} as diverged.")
+    if broken is not None and len(broken):
+        section.tables.append(Table("Scenes that were refused, threw or ceased to be finite.", ["world", "kind", "reason"],
+                                    [[f"{r['world']:.0f}", r["kind"], r["reason"]] for _, r in broken.iterrows()]))
+    if agreement is not None:
+        told = agreement.groupby("outcome")["first_steps"].sum()
+        section.paragraphs.append(
+            f"Beside the scene as it is, {int(told.get('the same', 0))} first steps end alike, "
+            f"{int(told.get('told apart by the tolerance alone', 0))} alike at a tighter tolerance; "
+            f"{int(told.get('another solution', 0))} end at another solution of the same step, which the judge does not refute either: the "
+            f"motion is not unique there. Of {int(told.get('not told', 0))} that differ the tighter step missed, so that this is not told.")
+    if refuted is not None and len(refuted):
+        worst = refuted.drop_duplicates(["world", "check"]).head(20)
+        section.tables.append(Table(
+            "What is refuted, the first 20.", ["world", "variant", "step", "check", "number", "bound", "what"],
+            [[f"{r['world']:.0f}", r["variant"], f"{r['step']:.0f}", r["check"], number(r["number"]), number(r["bound"]), r["what"]]
+             for _, r in worst.iterrows()]))
+    return section

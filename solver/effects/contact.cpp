@@ -53,9 +53,9 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   block.bounds[i] = {};
   RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, place.inverse_mass, i);
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
-  sums.squared += squared_residual(block, i, r);
   const double size = value_rounding * largest_coordinate(contact, found, place.at) / place.map.d;
-  sums.rounding_squared += size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0);
+  sums.add(squared_residual(block, i, r),
+           size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0));
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
 

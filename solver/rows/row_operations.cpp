@@ -30,11 +30,10 @@ void RowOperations<R, K>::linearise(const RowPlace& place, const Value& value, d
   block.bias[i] = value / place.map.d - block.jacobian[i] * block.gather(place.v, i);
   const bool singular = invert_diagonal(block, place.inverse_mass, i);
   const Value r = value / place.map.d + block.compliance[i] * block.impulse[i];
-  sums.squared += singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r);
   const double rounding = value_rounding * size / place.map.d;
-  sums.rounding_squared +=
-      rounding * rounding *
-      block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal());
+  sums.add(singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r),
+           rounding * rounding *
+               block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal()));
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
 

@@ -25,12 +25,21 @@ struct RowResidual {
   /// The same of the rounding errors of c(x): 8 unit roundoffs of the constraint's largest coordinate along
   /// each row of J.
   double rounding_squared = 0;
+  /// The part of `squared` of constraints that miss more than their own rounding.
+  double beyond_rounding_squared = 0;
   /// sum_i |W J_i^T p_i|_M^2: what each constraint's impulse does alone.
   double impulses_squared = 0;
 
+  /// Adds a constraint's.
+  void add(double missed, double rounding) {
+    squared += missed;
+    rounding_squared += rounding;
+    if (!(missed <= rounding)) beyond_rounding_squared += missed;
+  }
   RowResidual& operator+=(const RowResidual& other) {
     squared += other.squared;
     rounding_squared += other.rounding_squared;
+    beyond_rounding_squared += other.beyond_rounding_squared;
     impulses_squared += other.impulses_squared;
     return *this;
   }

@@ -1,58 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string_view>
 
+#include "step/levels.h"
 #include "step/workspace.h"
 #include "validate.h"
 
 namespace pbd {
 namespace {
-
-constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
-constexpr std::string_view not_finite = "not finite";
-
-/// What the residuals of a step are compared with.
-struct Levels {
-  double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
-  double primal_rounding = 0, dual_rounding = 0;  // what rounding makes of the residuals
-  double first = 0;                               // the larger of residual and scale at the first iterate
-  double last_residual = infinity;                // of this step
-};
-
-/// Residuals, scale and rounding level of the iterate.
-void measure(const StepSystem& system, const RowResidual& found, Levels& levels, Progress& progress) {
-  const auto& inverse_mass = system.problem.inverse_mass;
-  progress.dual = std::sqrt(found.squared);
-  progress.primal = std::hypot(mass_distance(inverse_mass, system.at.v, system.at.rebuilt),
-                               std::sqrt(system.at.torque_missed));
-  progress.scale = mass_distance(inverse_mass, system.at.v, system.problem.start_v) + levels.free_change;
-  const double impulses = std::sqrt(found.impulses_squared);
-  const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
-  levels.primal_rounding = 8 * rounding_unit * (levels.free_speed + (balance ? impulses : 0.0));
-  levels.dual_rounding = 8 * rounding_unit * levels.free_speed + std::sqrt(found.rounding_squared);
-}
-
-/// Sets status and reason; true if the outer iteration is to end.
-bool finished(const Method& method, const Levels& levels, const Progress& progress, Report& report) {
-  constexpr double blown_up = 1e8;  // growth beyond any transient
-  if (!std::isfinite(progress.primal) || !std::isfinite(progress.dual) || !std::isfinite(progress.scale)) {
-    report.status = Status::diverged;
-    report.reason = not_finite;
-  } else if (progress.primal <= std::max(method.tolerance * progress.scale, levels.primal_rounding) &&
-             progress.dual <= std::max(method.tolerance * progress.scale, levels.dual_rounding)) {
-    report.status = Status::ok;
-    report.reason = "";
-  } else if (progress.residual() > blown_up * levels.first) {
-    report.status = Status::diverged;
-    report.reason = "residual grew beyond 1e8 times its start and the scale there";
-  } else {
-    report.status = Status::not_converged;
-    report.reason = "outer iterations spent";
-    return progress.outer_iterations >= method.max_outer;
-  }
-  return true;
-}
 
 /// Iterates with the rows that count where all later ones are worse than the start alone: on the way to a
 /// solution one may well be better in sum and miss more constraints.

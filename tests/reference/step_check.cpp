@@ -25,6 +25,7 @@ struct Step {
   std::vector<std::vector<double>> forces;
   std::vector<ClaimedContact> contacts;
   double scale = 1;
+  std::string_view integrator = "implicit_euler";
 
   explicit Step(Scene stated) : scene(std::move(stated)), end(scene.initial) {
     forces.resize(scene.effects.size());
@@ -40,6 +41,7 @@ struct Step {
 
   Findings judge(double tolerance = 1e-8) const {
     StepClaim claim{.scene = scene, .start = scene.initial, .end = end, .h = h};
+    claim.integrator = integrator;
     claim.tolerance = tolerance;
     claim.scale = scale;
     claim.forces = forces;
@@ -124,7 +126,31 @@ Step pendulum() {
   return step;
 }
 
+/// A body of 1 kg that a stretched link of limited force pulls towards a fixed one, by explicit forces.
+Step limited_link(std::vector<ForceBounds> bounds) {
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3(1.5, 0, 0), 1, Vec3::Ones());
+  scene.effects.emplace_back(BodyDistance{.body = {{0, 1}},
+                                          .point = {{Vec3::Zero(), Vec3::Zero()}},
+                                          .rest_length = {1},
+                                          .compliance = {0.01},
+                                          .bounds = std::move(bounds)});
+  Step step(scene);
+  step.integrator = "symplectic_euler";
+  step.end.v.col(1).x() = -h * 10;  // of 50 N at most 10
+  step.move();
+  step.forces[0] = {std::nan("")};
+  return step;
+}
+
 }  // namespace
+
+TEST_CASE("explicit forces stay within their limits") {
+  CHECK(refuted(limited_link({{-10, 10}})).empty());
+  CHECK(refuted(limited_link({{-20, 20}})) == Names{"momentum"});
+  CHECK(refuted(limited_link({})) == Names{"momentum"});
+}
 
 TEST_CASE("a true step is not refuted") {
   CHECK(refuted(free_fall()).empty());

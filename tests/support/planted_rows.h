@@ -76,7 +76,7 @@ inline Eigen::VectorXd spectrum(const Rows& rows, int nodes) {
   });
   Eigen::VectorXd weights(3 * nodes);
   for (int k = 0; k < weights.size(); ++k) weights[k] = rows.inverse_mass[static_cast<std::size_t>(k / 3)];
-  n += jacobian * weights.asDiagonal() * jacobian.transpose();
+  n += reference::product_transposed(jacobian * weights.asDiagonal(), jacobian);
   each([&](const auto& block, std::size_t, int row) {
     diagonal.block(row, row, block.rows, block.rows) = n.block(row, row, block.rows, block.rows);
   });

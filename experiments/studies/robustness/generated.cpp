@@ -1,49 +1,15 @@
 #include "studies/robustness/generated.h"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include <fmt/format.h>
 
 #include "harness/experiment.h"
 #include "mesh.h"
+#include "studies/robustness/random.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-/// Random numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t begin) : engine_(begin) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
-  bool happens(double probability) { return uniform(0, 1) < probability; }
-  int below(int count) { return static_cast<int>(uniform(0, count)); }
-  Vec3 vector(double size) {
-    const double x = uniform(-size, size), y = uniform(-size, size), z = uniform(-size, size);
-    return {x, y, z};
-  }
-
-  /// K different nodes of `count`.
-  template <std::size_t K>
-  std::array<int, K> nodes(int count) {
-    std::array<int, K> picked;
-    for (std::size_t a = 0; a < K;) {
-      picked[a] = below(count);
-      if (std::find(picked.begin(), picked.begin() + a, picked[a]) == picked.begin() + a) ++a;
-    }
-    return picked;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 constexpr double present = 0.4;  // probability of each effect, of hard rows a third
 
@@ -100,7 +66,7 @@ void add_anchors(Random& random, Scene& scene) {
 void add_links(Random& random, Scene& scene) {
   Distance effect;
   for (int i = 1 + random.below(2 * scene.nodes()); i > 0; --i) {
-    const auto node = random.nodes<2>(scene.nodes());
+    const auto node = random.different<2>(scene.nodes());
     const double length = (scene.initial.x.col(node[0]) - scene.initial.x.col(node[1])).norm();
     effect.node.push_back(node);
     effect.rest_length.push_back(length * random.uniform(0.5, 1.5));
@@ -112,7 +78,7 @@ void add_links(Random& random, Scene& scene) {
 void add_hinges(Random& random, Scene& scene) {
   Bending effect;
   for (int i = 1 + random.below(scene.nodes()); i > 0; --i) {
-    effect.node.push_back(random.nodes<4>(scene.nodes()));
+    effect.node.push_back(random.different<4>(scene.nodes()));
     effect.rest_angle.push_back(random.uniform(-1, 1));
     effect.compliance.push_back(random.happens(1.0 / 3) ? 0 : random.decades(-6, 2));
   }
@@ -124,7 +90,7 @@ void add_triangles(Random& random, Scene& scene) {
   effect.material = material(random);
   if (random.happens(1.0 / 3)) effect.material.young = infinity;
   for (int i = 1 + random.below(scene.nodes()); i > 0; --i) {
-    const auto node = random.nodes<3>(scene.nodes());
+    const auto node = random.different<3>(scene.nodes());
     effect.node.push_back(node);
     effect.rest.push_back(rest_shape(random, scene, node));
   }
@@ -134,7 +100,7 @@ void add_triangles(Random& random, Scene& scene) {
 void add_tets(Random& random, Scene& scene, Strain strain) {
   TetStrain effect{.node = {}, .rest = {}, .material = material(random), .strain = strain};
   for (int i = 1 + random.below(scene.nodes()); i > 0; --i) {
-    auto node = random.nodes<4>(scene.nodes());
+    auto node = random.different<4>(scene.nodes());
     Eigen::Matrix<double, 3, 4> rest = rest_shape(random, scene, node);
     if (tet_volume(rest) < 0) {
       std::swap(node[0], node[1]);

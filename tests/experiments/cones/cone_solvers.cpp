@@ -1,10 +1,10 @@
 // An unsymmetric W by problems with its symmetric part: where that converges, and how it ends elsewhere.
 #include "cones/cone_solvers.h"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "dense.h"
 #include "planted_family.h"
 
 using namespace pbdcheck;
@@ -20,13 +20,14 @@ constexpr double asked = 1e-8;
 ConeProblem unsymmetric(FrictionLaw law, double size) {
   ConeProblem problem = draw_planted("full_rank", law, 1).problem;
   const MatrixXd s = problem.delassus;
-  const MatrixXd root = s.llt().matrixL();
+  const auto eigen = symmetric_eigen(s);
+  const MatrixXd root = eigen.vectors * eigen.values.cwiseSqrt().asDiagonal();
   MatrixXd skew = MatrixXd::NullaryExpr(s.rows(), s.cols(), [](Eigen::Index i, Eigen::Index j) {
     return std::sin(static_cast<double>(i * i + 3 * j));
   });
   skew = (skew - skew.transpose()).eval();
-  skew *= size / skew.jacobiSvd().singularValues()(0);  // that of L^-1 K L^-T is that of S^-1/2 K S^-1/2
-  problem.delassus = (s + root * skew * root.transpose()).sparseView();
+  const double norm = std::sqrt(symmetric_eigen(transposed_product(skew, skew)).values.maxCoeff());
+  problem.delassus = (s + size / norm * congruence(skew, root.transpose())).sparseView();
   return problem;
 }
 

@@ -1,0 +1,197 @@
+#include "studies/robustness/same_scene.h"
+
+#include <numeric>
+
+namespace pbdcheck {
+
+using namespace pbd;
+
+namespace {
+
+/// Vectors of bodies' and shapes' own frames; diagonal.
+Eigen::Matrix3d own(const Isometry& by) {
+  return Vec3(by.turn.determinant(), 1, 1).asDiagonal();
+}
+
+Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Eigen::Matrix3d& before,
+                          const Eigen::Matrix3d& after) {
+  return Eigen::Quaterniond(before * orientation.toRotationMatrix() * after).normalized();
+}
+
+struct Moving {
+  explicit Moving(const Isometry& isometry)
+      : by(isometry), mirror(own(isometry)), sense(isometry.turn.determinant() < 0 ? -1 : 1) {}
+
+  void operator()(Gravity& e) const { e.acceleration = by.turn * e.acceleration; }
+  void operator()(ExternalForce& e) const {
+    for (auto& force : e.force) force = by.turn * force;
+  }
+  void operator()(Anchor& e) const {
+    for (auto& target : e.target) target = by.shift + by.turn * target;
+  }
+  void operator()(Distance&) const {}
+  void operator()(Bending& e) const {
+    for (auto& angle : e.rest_angle) angle *= sense;
+  }
+  void operator()(TriangleStrain& e) const {
+    for (auto& rest : e.rest) rest = by.turn * rest;
+  }
+  void operator()(TetStrain& e) const {
+    for (std::size_t i = 0; i < e.node.size(); ++i) {
+      e.rest[i] = by.turn * e.rest[i];
+      if (sense > 0) continue;
+      std::swap(e.node[i][0], e.node[i][1]);
+      e.rest[i].col(0).swap(e.rest[i].col(1));
+    }
+  }
+  void operator()(ExternalTorque& e) const {
+    for (auto& torque : e.torque) torque = sense * (by.turn * torque);
+  }
+  void operator()(Gyroscopic&) const {}
+  void operator()(PointJoint& e) const { points(e); }
+  void operator()(AxisJoint& e) const { pairs(e.axis); }
+  void operator()(PerpendicularJoint& e) const { pairs(e.axis); }
+  void operator()(RotationJoint& e) const {
+    for (auto& rest : e.rest) rest = turned(rest, mirror, mirror);
+  }
+  void operator()(LineJoint& e) const {
+    points(e);
+    for (auto& axis : e.axis) axis = mirror * axis;
+  }
+  void operator()(BodyDistance& e) const { points(e); }
+  void operator()(AngleJoint& e) const {
+    for (auto& axis : e.axis) axis = sense * (mirror * axis);
+    pairs(e.reference);
+  }
+  void operator()(SlideJoint& e) const {
+    points(e);
+    for (auto& axis : e.axis) axis = mirror * axis;
+  }
+  void operator()(Attachment& e) const {
+    for (auto& point : e.point) point = mirror * point;
+  }
+  void operator()(Contact& e) const {
+    for (auto& collider : e.collider) {
+      collider.frame = {mirror * collider.frame.origin, mirror * collider.frame.rotation * mirror};
+      collider.shape = std::visit([&](const auto& shape) { return mirrored(shape); }, collider.shape);
+    }
+    if (sense < 0)
+      for (auto& triangle : e.triangle) std::swap(triangle[0], triangle[1]);
+  }
+
+ private:
+  Isometry by;
+  Eigen::Matrix3d mirror;
+  double sense;
+
+  template <class Pairs>
+  void pairs(Pairs& vectors) const {
+    for (auto& pair : vectors)
+      for (auto& vector : pair) vector = mirror * vector;
+  }
+  template <class Joint>
+  void points(Joint& e) const {
+    pairs(e.point);
+  }
+  /// Shapes without points of their own are their own mirror images.
+  template <class S>
+  Shape mirrored(const S& shape) const {
+    if constexpr (requires { shape.surface; }) {
+      if (sense > 0) return shape;
+      TriangleMesh surface{mirror * shape.surface.x, shape.surface.triangles};
+      for (auto& triangle : surface.triangles) std::swap(triangle[0], triangle[1]);
+      return S(std::move(surface));
+    } else {
+      return shape;
+    }
+  }
+};
+
+std::vector<int> inverse(const std::vector<int>& order) {
+  std::vector<int> where(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    where[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  return where;
+}
+
+/// Numbers, alone or in lists of fixed size.
+struct Renumber {
+  const std::vector<int>& where;
+
+  void operator()(int& number) const { number = where[static_cast<std::size_t>(number)]; }
+  template <class List>
+  void operator()(List& numbers) const {
+    for (auto& each : numbers) (*this)(each);
+  }
+};
+
+struct Renumbering {
+  Renumber node, body;
+
+  template <class E>
+  void operator()(E& effect) const {
+    if constexpr (requires { effect.node; }) node(effect.node);
+    if constexpr (requires { effect.body; }) body(effect.body);
+    if constexpr (std::is_same_v<E, Contact>) {
+      for (auto& collider : effect.collider) body(collider.body);
+      node(effect.triangle);
+      body(effect.apart);
+      std::reverse(effect.collider.begin(), effect.collider.end());
+      std::reverse(effect.node.begin(), effect.node.end());
+      std::reverse(effect.radius.begin(), effect.radius.end());
+      std::reverse(effect.node_material.begin(), effect.node_material.end());
+    }
+  }
+};
+
+}  // namespace
+
+State moved(const State& state, const Isometry& by) {
+  const Eigen::Matrix3d mirror = own(by);
+  State to = state;
+  to.x = (by.turn * state.x).colwise() + by.shift;
+  to.v = by.turn * state.v;
+  for (auto& orientation : to.orientation) orientation = turned(orientation, by.turn, mirror);
+  to.spin = mirror.determinant() * mirror * state.spin;
+  return to;
+}
+
+Scene moved(Scene scene, const Isometry& by) {
+  scene.initial = moved(scene.initial, by);
+  for (auto& effect : scene.effects) std::visit(Moving(by), effect);
+  return scene;
+}
+
+Order any_order(const Scene& scene, Random& random) {
+  return {random.order(scene.nodes()), random.order(static_cast<int>(scene.bodies.size())),
+          random.order(static_cast<int>(scene.effects.size()))};
+}
+
+State reordered(const State& state, const Order& order) {
+  State to = state;
+  to.x = state.x(Eigen::all, order.node);
+  to.v = state.v(Eigen::all, order.node);
+  to.spin = state.spin(Eigen::all, order.body);
+  for (std::size_t i = 0; i < order.body.size(); ++i)
+    to.orientation[i] = state.orientation[static_cast<std::size_t>(order.body[i])];
+  return to;
+}
+
+Scene reordered(const Scene& scene, const Order& order) {
+  const auto node = inverse(order.node), body = inverse(order.body);
+  const Renumbering renumbering{{node}, {body}};
+  Scene to;
+  to.initial = reordered(scene.initial, order);
+  for (const int i : order.node) to.mass.push_back(scene.mass[static_cast<std::size_t>(i)]);
+  for (const int i : order.body) {
+    to.bodies.push_back(scene.bodies[static_cast<std::size_t>(i)]);
+    renumbering.node(to.bodies.back().node);
+  }
+  for (const int i : order.effect) {
+    to.effects.push_back(scene.effects[static_cast<std::size_t>(i)]);
+    std::visit(renumbering, to.effects.back());
+  }
+  return to;
+}
+
+}  // namespace pbdcheck

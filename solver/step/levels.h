@@ -1,0 +1,30 @@
+// What the residuals of a step are compared with, and what follows.
+#pragma once
+
+#include <limits>
+
+#include "outer/step_system.h"
+#include "step/report.h"
+
+namespace pbd {
+
+inline constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
+inline constexpr std::string_view not_finite = "not finite";
+
+/// What the residuals of a step are compared with.
+struct Levels {
+  double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
+  double primal_rounding = 0, dual_rounding = 0;  // what rounding makes of the residuals
+  double velocity_rounding = 0;                   // of it, that of velocities
+  double beyond_rounding = 0;                     // dual residual of what misses more than its own rounding
+  double first = 0;                               // the larger of residual and scale at the first iterate
+  double last_residual = infinity;                // of this step
+};
+
+/// Residuals, scale and rounding level of the iterate.
+void measure(const StepSystem& system, const RowResidual& found, Levels& levels, Progress& progress);
+
+/// Sets status and reason; true if the outer iteration is to end.
+bool finished(const Method& method, const Levels& levels, const Progress& progress, Report& report);
+
+}  // namespace pbd

@@ -21,7 +21,8 @@
 // hard constraints, and contacts under newmark. Nodes of surfaces that press on themselves or each other are
 // judged by their sum, since it is not told how a contact's force is shared among them; bodies in contact
 // under symplectic_euler by their linear momentum. Damped constraints are not judged by their values, and
-// what damped point joints and attachments act on not by its momentum. The energy of a step is not judged:
+// what damped point joints and attachments act on not by its momentum. Angles of pi, where they jump, are
+// left out. The energy of a step is not judged:
 // where momentum and constraints hold it follows.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dense.h"
 #include "step_rows.h"
@@ -61,11 +62,17 @@ void check_motion(const StepClaim& claim, Findings& findings) {
   findings.require("motion", "orientations, rad", turned, step_rounding * (1 + claim.h * spin));
 }
 
+bool at_jump(const StepModel& model, const Block& block, double value, double size) {
+  return model.angle[static_cast<std::size_t>(block.row)] &&
+         !(std::numbers::pi - std::abs(value) > step_rounding * (1 + size * block.jacobian.norm()));
+}
+
 void check_constraints(const StepClaim& claim, const StepModel& model, double level, Findings& findings) {
   Vector gamma;
   if (!gather_forces(claim, model.rigid, gamma)) gamma.setConstant(model.rigid.rows(), std::nan(""));
   const Vector value = values_at(model.rigid, placement_of(claim.end));
   const bool hard_alone = !is_euler_step(claim) || explicit_forces(claim);
+  const double size = claim.end.x.cwiseAbs().maxCoeff();
   double squared = 0, most = -1;
   std::size_t worst = 0;
   const auto add = [&](const Block& block) {
@@ -78,6 +85,8 @@ void check_constraints(const StepClaim& claim, const StepModel& model, double le
     const RowMatrix n = metric_of(model.rigid, block, claim.h);
     if (block.hard && is_singular(n))
       return findings.leave_out("constraints: those whose rows depend on each other");
+    if (at_jump(model, block, value[block.row], size))
+      return findings.leave_out("constraints: angles at their jump");
     const RowVector own = gamma.segment(block.row, block.rows());
     RowVector missed = value.segment(block.row, block.rows());
     if (!block.hard) missed += block.compliance * own;

@@ -15,6 +15,7 @@ inline constexpr double step_rounding = 64 * std::numeric_limits<double>::epsilo
 struct StepModel {
   RigidModel rigid;
   std::vector<bool> damped;                   // of each row
+  std::vector<bool> angle;                    // taken modulo 2 pi
   std::vector<bool> own_frame;                // damped in the frame of a's body: J is another one
   std::vector<std::array<double, 2>> bounds;  // of each row's force
   std::vector<std::string> name;              // of each row's constraint
@@ -26,6 +27,10 @@ StepModel make_step_model(const Scene& scene);
 /// begins (`explicit_forces`) or ends.
 bool is_euler_step(const StepClaim& claim);
 bool explicit_forces(const StepClaim& claim);
+
+/// True if the value of an angle is so near to pi, where it jumps, that rounded positions of this `size` (m)
+/// tell which way it turns.
+bool at_jump(const StepModel& model, const Block& block, double value, double size);
 
 /// What both residuals of the step may be at most, sqrt(J).
 double level_of(const StepClaim& claim, const StepModel& model);

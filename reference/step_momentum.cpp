@@ -81,16 +81,23 @@ void Balance::add_constraints(const Vector& gamma, Findings& findings) {
     if (no_row) own = -solve(Eigen::MatrixXd(block.compliance), Vector(block.value));
     if (no_row && block.rows() == 1)
       own[0] = std::clamp(own[0], model_.bounds[row][0], model_.bounds[row][1]);
-    const bool unknown_force = model_.own_frame[row] || (no_row && model_.damped[row]);
-    if (unknown_force) findings.leave_out("momentum: what a damped joint acts on");
     const double size = at.x.cwiseAbs().maxCoeff();
+    const double rounded =
+        no_row ? solve(Eigen::MatrixXd(block.compliance), Vector(Vector::Constant(block.rows(), size))).norm()
+               : 0;
+    const bool jumps = no_row && at_jump(model_, block, block.value[0], size);
+    const bool damps = model_.own_frame[row] || (no_row && model_.damped[row]);
+    const bool unknown_force = jumps || damps;
+    if (jumps) findings.leave_out("momentum: what an angle at its jump acts on");
+    if (damps) findings.leave_out("momentum: what a damped joint acts on");
     each_moving(model_.rigid, block, [&](int unknown, int offset) {
       if (unknown_force) leave_out(unknown);
       const auto columns = block.jacobian.middleCols<3>(offset);
       add(unknown, -claim_.h * (columns.transpose() * own));
-      // Rounded positions turn the directions of a length by their size over it, and change a lever.
+      // Rounded positions turn the directions of a length by their size over it, change a lever, and the
+      // value that a compliant constraint's force is computed of.
       terms_.segment<3>(unknown).array() +=
-          claim_.h * columns.norm() * own.norm() * (1 + size * columns.norm());
+          claim_.h * columns.norm() * (own.norm() * (1 + size * columns.norm()) + rounded);
     });
   });
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "harness/constraint_name.h"
 #include "harness/files.h"
 #include "harness/interrupt.h"
 #include "harness/probes.h"
@@ -29,10 +30,13 @@ struct Totals {
   std::int64_t row_updates = 0;
   double worst_residual = 0;
   std::int64_t worst_step = 0;
+  std::string worst_constraint;     // empty where none is told
   std::int64_t steps_in_parts = 0;  // that diverged as a whole
   int most_parts = 1;
 
-  void add(const pbd::Report& report, int parts) {
+  /// `name` tells a constraint.
+  template <class Name>
+  void add(const pbd::Report& report, int parts, const Name& name) {
     ++steps;
     steps_in_parts += parts > 1;
     most_parts = std::max(most_parts, parts);
@@ -43,6 +47,7 @@ struct Totals {
     if (!std::isnan(worst_residual) && !(report.residual() <= worst_residual)) {
       worst_residual = report.residual();
       worst_step = steps;
+      worst_constraint = report.worst ? name(*report.worst) : "";
     }
   }
   std::int64_t missed() const { return steps - by_status[0]; }
@@ -98,9 +103,10 @@ class Output {
 
 /// The worst step, which may have no finite residual.
 std::string worst_text(const Totals& totals) {
-  return std::isfinite(totals.worst_residual)
-             ? fmt::format("the worst with {:.3g} (step {})", totals.worst_residual, totals.worst_step)
-             : fmt::format("step {} without a finite residual", totals.worst_step);
+  if (!std::isfinite(totals.worst_residual))
+    return fmt::format("step {} without a finite residual", totals.worst_step);
+  const auto most = totals.worst_constraint.empty() ? "" : ", most of it of " + totals.worst_constraint;
+  return fmt::format("the worst with {:.3g} (step {}{})", totals.worst_residual, totals.worst_step, most);
 }
 
 nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& workspace) {
@@ -115,6 +121,7 @@ nlohmann::ordered_json report_json(const Totals& totals, const pbd::Workspace& w
           {"steps_by_status", steps},
           {"worst_residual", totals.worst_residual},
           {"worst_step", totals.worst_step},
+          {"worst_constraint", totals.worst_constraint},
           {"steps_in_parts", totals.steps_in_parts},
           {"most_parts", totals.most_parts},
           {"outer_iterations", totals.outer_iterations},
@@ -160,7 +167,10 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, 
   };
   while (totals.steps < file.steps && lost.empty()) {
     const pbd::Report report = checks != nullptr ? stepper.advance(state, judge) : stepper.advance(state);
-    totals.add(report, stepper.parts());
+    totals.add(report, stepper.parts(), [&](const pbd::ConstraintIndex& worst) {
+      return constraint_name(file, worst,
+                             stepper.parts() == 1 ? workspace.contacts() : std::vector<pbd::ContactForce>{});
+    });
     if (report.status == pbd::Status::diverged)
       return fmt::format("step {} diverged, in parts, too: {}", totals.steps, report.reason);
     if (stepper.parts() > 1 && totals.steps_in_parts == 1)

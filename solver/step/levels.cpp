@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rows/laws.h"
 #include "rows/mass_norm.h"
 
 namespace pbd {
@@ -49,6 +50,25 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
     return progress.outer_iterations >= method.max_outer;
   }
   return true;
+}
+
+std::optional<ConstraintIndex> worst_constraint(const StepSystem& system) {
+  std::optional<ConstraintIndex> worst;
+  double most = 0;
+  for (const Slot& slot : system.slots) {
+    if (slot.eliminated) continue;  // its impulses are what its rows ask for
+    std::size_t before = 0;         // of the slot's constraints
+    for_each_block(slot.view(system.rows), [&](const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const double missed = squared_residual(block, i, block.residual(system.at.v, i, block.impulse[i]));
+        if (!(missed > most)) continue;
+        most = missed;
+        worst = {slot.effect, slot.source->kind().contacts ? before + i : block.entry(i)};
+      }
+      before += block.size();
+    });
+  }
+  return worst;
 }
 
 }  // namespace pbd

@@ -27,4 +27,7 @@ void measure(const StepSystem& system, const RowResidual& found, Levels& levels,
 /// Sets status and reason; true if the outer iteration is to end.
 bool finished(const Method& method, const Levels& levels, const Progress& progress, Report& report);
 
+/// The constraint of rows, linearised at the iterate, that misses most; none where all are met.
+std::optional<ConstraintIndex> worst_constraint(const StepSystem& system);
+
 }  // namespace pbd

@@ -5,11 +5,18 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "geometry.h"
 
 namespace pbd {
+
+/// A constraint by its effect's index in the scene and its own in the effect; a contact by its place among
+/// the effect's in `Workspace::contacts`.
+struct ConstraintIndex {
+  std::size_t effect = 0, constraint = 0;
+};
 
 enum class Status { ok, not_converged, diverged };
 inline constexpr std::array<std::string_view, 3> status_names{"ok", "not_converged", "diverged"};
@@ -24,10 +31,11 @@ struct Report {
   double primal = 0;
   double dual = 0;
   double scale = 0;
-  double contraction = std::nan("");  // of plain at the step's end: what it multiplies an error by; an
-                                      // estimate, for quasi_newton an upper bound
-  std::string_view linear_part;       // the linear solver, of `direct` the part, that worked last; empty if
-                                      // nothing was relaxed
+  double contraction = std::nan("");     // of plain at the step's end: what it multiplies an error by; an
+                                         // estimate, for quasi_newton an upper bound
+  std::optional<ConstraintIndex> worst;  // of a step that missed: what has the largest part of `dual`
+  std::string_view linear_part;  // the linear solver, of `direct` the part, that worked last; empty if
+                                 // nothing was relaxed
 
   /// Largest residual relative to `scale`; 0 if that vanishes and what is left is rounding.
   double residual() const {

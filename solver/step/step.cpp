@@ -164,6 +164,7 @@ void StepRun::end(double h, State& state) {
     report.status = Status::diverged;
     report.reason = not_finite;
   }
+  if (report.status != Status::ok && report.reason != not_finite) report.worst = worst_constraint(system);
   if (report.status == Status::diverged) {
     clear_impulses(system.rows);
     forget(system.solver);

@@ -15,6 +15,7 @@
 #include "studies/robustness/generated_world.h"
 #include "studies/robustness/same_scene.h"
 #include "studies/robustness/units.h"
+#include "validate.h"
 
 namespace pbdcheck {
 namespace {
@@ -170,7 +171,8 @@ void simulate(const World& world, Outcome& outcome) {
         std::max(outcome.slowest, std::chrono::duration<double>(SteadyClock::now() - start).count());
     ++outcome.ended[static_cast<std::size_t>(report.status)];
     outcome.finite = outcome.finite && state.x.allFinite() && state.v.allFinite() && state.spin.allFinite();
-    if (!outcome.finite || report.status == Status::diverged) break;
+    const bool flies = !(state.v.cwiseAbs().maxCoeff() <= most_speed);  // no scene may begin so
+    if (!outcome.finite || flies || report.status == Status::diverged) break;
     checks.add(k, claim_of(world.scene, workspace, begun, state, world.h, report), report.status, false);
   }
   for (const auto& [k, finding] : checks.refuted())

@@ -48,8 +48,35 @@ TEST_CASE("a step that misses its tolerance is counted, warned about, and makes 
                                 "method.relaxation=gauss_seidel", "--set", "method.max_outer=1", "--set",
                                 "method.max_sweeps=1", "-o", folder.path});
   CHECK(ran.exit_code == 1);
-  CHECK_THAT(ran.err, Catch::Contains("warning: 5 of 5 steps missed the tolerance"));
+  CHECK_THAT(ran.err, Catch::Contains("warning: 5 of 5 steps missed the tolerance") &&
+                          Catch::Contains(", most of it of distance "));
   CHECK(record_of(folder.path)["report"]["steps_by_status"]["not_converged"] == 5);
+}
+
+TEST_CASE("a cable that is pulled apart says which joint cannot be met") {
+  const TemporaryFolder folder;
+  std::string text = "[gravity]\n[step]\nstep_s = 0.01\nsteps = 20\n";
+  const auto body = [&](const std::string& name, double x, const std::string& rest) {
+    text += "[[rigid_body]]\nname = \"" + name + "\"\nshape = \"sphere\"\nradius_m = 0.05\nposition_m = [" +
+            std::to_string(x) + ", 0, 0]\n" + rest;
+  };
+  const auto joint = [&](const std::string& name, const std::string& a, const std::string& b, double x) {
+    text += "[[joint]]\nname = \"" + name + "\"\nkind = \"ball\"\nbodies = [\"" + a + "\", \"" + b +
+            "\"]\npoint_m = [" + std::to_string(x) + ", 0, 0]\n";
+  };
+  body("first", 0.5, "mass_kg = 1\n");
+  body("second", 1.5, "mass_kg = 1\n");
+  body("puller", 2, "held = \"moving\"\nvelocity_m_s = [1, 0, 0]\n");
+  joint("wall", "world", "first", 0);
+  joint("middle", "first", "second", 1);
+  joint("pull", "second", "puller", 2);
+  const auto scene = folder.write("cable.toml", text);
+  const auto ran = run_program({"simulate", scene, "-o", folder.path});
+  INFO(ran.err);
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Catch::Contains(", most of it of the point_joint of joint "));
+  const auto report = record_of(folder.path)["report"];
+  CHECK_THAT(report["worst_constraint"].get<std::string>(), Catch::StartsWith("the point_joint of joint "));
 }
 
 TEST_CASE("an interrupted simulation exits with 3 and leaves complete files of what was done") {

@@ -115,8 +115,13 @@ void Balance::add_force(int body, int node, const Vec3& point, const Vec3& force
   terms_.segment<3>(turn).array() += claim_.h * force.norm() * (point.norm() + lever.norm());
 }
 
-/// Nodes of surfaces that are pressed count by their sum alone.
+/// Nodes of surfaces that are pressed count by their sum alone, if all of them count.
 void Balance::sum_up_surface(const Contact& contact) {
+  for (const auto& triangle : contact.triangle)
+    for (const int node : triangle)
+      if (const int u = model_.rigid.nodes.first[static_cast<std::size_t>(node)];
+          u >= 0 && left_out_[static_cast<std::size_t>(u / 3)])
+        surface_mass_ = infinity;
   for (const auto& triangle : contact.triangle)
     for (const int node : triangle) {
       const int u = model_.rigid.nodes.first[static_cast<std::size_t>(node)];
@@ -181,7 +186,8 @@ double Balance::gyroscopic_factor() const {
 
 void Balance::require_sum(double level, Findings& findings) const {
   if (!(surface_mass_ > 0)) return;
-  if (std::isinf(surface_mass_)) return findings.leave_out("momentum: surfaces in contact that are held");
+  if (std::isinf(surface_mass_))
+    return findings.leave_out("momentum: surfaces in contact that are held or known in part");
   const double root = std::sqrt(surface_mass_);  // |sum g|^2 <= sum m sum |g|^2/m
   findings.require("momentum", "nodes of surfaces", surface_rest_.norm() / root,
                    level + step_rounding * surface_terms_.norm() / root);

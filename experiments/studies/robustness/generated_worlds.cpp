@@ -171,7 +171,9 @@ void simulate(const World& world, Outcome& outcome) {
         std::max(outcome.slowest, std::chrono::duration<double>(SteadyClock::now() - start).count());
     ++outcome.ended[static_cast<std::size_t>(report.status)];
     outcome.finite = outcome.finite && state.x.allFinite() && state.v.allFinite() && state.spin.allFinite();
-    const bool flies = !(state.v.cwiseAbs().maxCoeff() <= most_speed);  // no scene may begin so
+    // No scene may begin so fast, and nothing that spins so has an orientation.
+    const bool flies =
+        !(state.v.cwiseAbs().maxCoeff() <= most_speed) || !(state.spin.cwiseAbs().maxCoeff() <= most_speed);
     if (!outcome.finite || flies || report.status == Status::diverged) break;
     checks.add(k, claim_of(world.scene, workspace, begun, state, world.h, report), report.status, false);
   }

@@ -11,7 +11,8 @@
 // of mass; where it is held from outside, the slowest of what holds it.
 //
 // Limits: what holds a component is taken not to turn. The angular momentum of what nothing holds is lost
-// with u; scaled impulses would keep it, and let joints and overlaps go.
+// with u; scaled impulses would keep it, and let joints and overlaps go. With warm_start off nothing is taken
+// back: what has sunk stays until a step is solved.
 #pragma once
 
 #include "outer/components.h"

@@ -10,24 +10,33 @@ from selecting import failed, good, reasons_note
 OUTCOMES = ("the same", "told apart by the tolerance alone", "another solution", "not told", "one missed")
 
 
-@figure("generated_scenes", "outcomes", table="outcomes")
-def outcomes(frame):
-    """Bars of the steps of each relaxation by outcome and reason."""
-    kinds = frame.assign(kind=frame["status"] + frame["reason"].map(lambda text: f": {text}" if text else ""))
-    relaxations = list(frame["relaxation"].unique())
-    fig, (ax,) = panels(1, height=0.3 * len(relaxations) + 0.8)
+def stacked(counts, kinds, xlabel):
+    """One bar for each row of a table of counts, in the order of its index, with a part for each kind."""
+    fig, (ax,) = panels(1, height=0.3 * len(counts) + 0.8)
     fig.set_figwidth(6.5)
-    left = np.zeros(len(relaxations))
-    for k, (kind, rows) in enumerate(sorted(kinds.groupby("kind"), key=lambda entry: entry[0] != "ok")):
-        width = rows.groupby("relaxation")["steps"].sum().reindex(relaxations).fillna(0).to_numpy()
-        ax.barh(relaxations, width, left=left, height=0.6, label=kind, color=FALLBACK[k % len(FALLBACK)][0],
-                edgecolor="white", hatch="" if k < len(FALLBACK) else "//")
+    left = np.zeros(len(counts))
+    for k, kind in enumerate(kinds):
+        width = counts[kind].to_numpy() if kind in counts else np.zeros(len(counts))
+        ax.barh(list(counts.index), width, left=left, height=0.6, label=kind, color=FALLBACK[k % len(FALLBACK)][0],
+                hatch="" if k < len(FALLBACK) else "//")
         left += width
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
-    ax.set(xlabel="steps")
+    ax.set(xlabel=xlabel)
     shared_legend(fig, [ax], columns=2)
     return fig
+
+
+def summed(frame, row, kind, count):
+    """Sums of `count`, rows in the table's order, a column for each kind."""
+    return frame.assign(kind=kind).pivot_table(index=row, columns="kind", values=count, aggfunc="sum", fill_value=0, sort=False)
+
+
+@figure("generated_scenes", "outcomes", table="outcomes")
+def outcomes(frame):
+    """Bars of the steps of each relaxation by outcome and reason."""
+    counts = summed(frame, "relaxation", frame["status"] + frame["reason"].map(lambda text: f": {text}" if text else ""), "steps")
+    return stacked(counts, sorted(counts, key=lambda kind: (kind != "ok", kind)), "steps")
 
 
 @figure("generated_scenes", "sample", table="sample")
@@ -52,16 +61,4 @@ def sample(frame):
 @figure("generated_worlds", "agreement", table="agreement")
 def agreement(frame):
     """Bars of the first steps of each variant by what became of them beside the scene as it is."""
-    variants = list(frame["variant"].unique())
-    fig, (ax,) = panels(1, height=0.3 * len(variants) + 0.8)
-    fig.set_figwidth(6.5)
-    left = np.zeros(len(variants))
-    for k, outcome in enumerate(OUTCOMES):
-        width = frame[frame["outcome"] == outcome].groupby("variant")["first_steps"].sum().reindex(variants).fillna(0).to_numpy()
-        ax.barh(variants, width, left=left, height=0.6, label=outcome, color=FALLBACK[k][0], edgecolor="white")
-        left += width
-    ax.invert_yaxis()
-    ax.grid(axis="y", visible=False)
-    ax.set(xlabel="first steps")
-    shared_legend(fig, [ax], columns=2)
-    return fig
+    return stacked(summed(frame, "variant", frame["outcome"], "first_steps"), OUTCOMES, "first steps")

@@ -2,28 +2,28 @@
 // solve: each claim is evaluated by the judges' own values, derivatives and shapes and compared with what the
 // step's tolerance leaves open.
 //
-//   level       = tolerance scale + rounding (sqrt(J)): both of the step's residuals are below it. The scale
-//   of
-//               implicit_euler is the judge's own, by states and given forces; of others it is the one told
-//   motion      x1 - x0 - h v1 (m), the turn R1 against R0 exp(h w1) (rad); fixed things keep their
-//   velocities momentum    g = M (v1 - v0) - h (f + J^T gamma + contact forces), of bodies' rotations with
-//   the torques
-//               about their centres: |g| in the metric of inverse masses <= level, so each node's share is
+//   level       = tolerance scale + rounding (sqrt(J)): both residuals of the step are below it. The scale of
+//               implicit_euler is the judge's own, by states and given forces; of others it is the one told.
+//   motion      x1 - x0 - h v1 (m), and the turn R1 against R0 exp(h w1) (rad); what is fixed keeps its
+//               velocities.
+//   momentum    g = M (v1 - v0) - h (f + J^T gamma + contact forces), of rotations with the torques about
+//               the bodies' centres: |g| in the metric of inverse masses <= level.
 //   constraints r = c + A gamma: sqrt(sum r^T (h^2 J W J^T + A)^-1 r) <= level; of bounded forces what the
-//               bounds leave of a change -r/N
+//               bounds leave of a change -r/N.
 //   contacts    contact_check.h
 //
 // J and c are taken at the step's end; under symplectic_euler J where it begins. What an error of the
 // impulses of W J^T p costs is counted in the same metric, so that no conditioning enters a bound. Rounding
-// is 64 units of the largest terms: a sum of some ten terms, each rounded a few times.
+// is 64 units of the largest terms: a sum of some ten terms, each rounded a few times. A turn h w is rounded
+// in proportion to itself.
 //
-// Limits: momentum of implicit_euler (directions at the end) and symplectic_euler alone, of other integrators
-// hard constraints, and contacts under newmark. Nodes of surfaces that press on themselves or each other are
-// judged by their sum, since it is not told how a contact's force is shared among them; bodies in contact
-// under symplectic_euler by their linear momentum. Damped constraints are not judged by their values, and
-// what damped point joints and attachments act on not by its momentum. Angles of pi, where they jump, are
-// left out. The energy of a step is not judged:
-// where momentum and constraints hold it follows.
+// Limits: momentum is judged of implicit_euler (directions at the end) and symplectic_euler, of other
+// integrators hard constraints alone, and contacts under newmark. Nodes of surfaces that press on themselves
+// or each other are judged by their sum, since it is not told how a contact's force is shared among them;
+// bodies in contact under symplectic_euler by their linear momentum. Damped constraints are not judged by
+// their values, and what damped point joints and attachments act on not by its momentum. Angles of pi, where
+// they jump, are left out. The energy of a step is not judged: where momentum and constraints hold it
+// follows.
 #pragma once
 
 #include <optional>

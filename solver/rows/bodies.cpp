@@ -75,6 +75,13 @@ void Bodies::place(const Points& x, std::vector<Pose>& poses) const {
   }
 }
 
+double Bodies::largest_turn(const Points& x) const {
+  double largest = 0;
+  for (int b = 0; b < count(); ++b)
+    largest = std::max(largest, x.col(column(b)).cwiseQuotient(radius_[b]).norm());
+  return largest;
+}
+
 double Bodies::largest_radius() const {
   double largest = 0;
   for (const Vec3& radius : radius_) largest = std::max(largest, radius.maxCoeff());

@@ -11,6 +11,9 @@ namespace pbd {
 inline constexpr double rounding_unit = std::numeric_limits<double>::epsilon();
 inline constexpr std::string_view not_finite = "not finite";
 
+/// Of a body in a step, rad: the rounding of more exceeds 1e-8 rad.
+inline constexpr double most_turn = 1e-8 / rounding_unit;
+
 /// What the residuals of a step are compared with.
 struct Levels {
   double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M

@@ -9,9 +9,9 @@
 namespace pbd {
 namespace {
 
-/// Energy that constraint i, which misses r, stores (J). Its impulse is `scale` (s) times its force.
+/// Energy that constraint i, which misses r, stores (J). `share`: a displacement's d over the s of impulses.
 template <class Block>
-double stored(const Block& block, std::size_t i, const typename Block::Value& r, double d, double scale) {
+double stored(const Block& block, std::size_t i, const typename Block::Value& r, double share) {
   using Value = typename Block::Value;
   if (!(block.compliance[i](0, 0) > 0)) {
     const Value change = allowed(block, i, Value::Zero(), -block.inverse_diagonal[i] * r);
@@ -22,7 +22,7 @@ double stored(const Block& block, std::size_t i, const typename Block::Value& r,
     impulse[0] = std::clamp(-r[0] / block.compliance[i](0, 0), block.bounds[i].lower, block.bounds[i].upper);
   else
     impulse = -solve_definite(block.compliance[i], r);
-  return -d / scale * impulse.dot(r + block.compliance[i] * impulse / 2);
+  return -share * impulse.dot(r + block.compliance[i] * impulse / 2);
 }
 
 /// What hard constraint i, as it is missed at v, takes to be met against its impulse (N s m/s).
@@ -32,6 +32,19 @@ double left_open(const Block& block, std::size_t i, const Points& v) {
   const typename Block::Value r = block.residual(v, i, Block::Value::Zero());
   return block.bounded() ? -block.impulse[i][0] * r[0]  // friction brakes, and gives nothing back
                          : -block.impulse[i].dot(r);
+}
+
+/// f(block, i, component, share as in `stored`) for each constraint that can move something.
+template <class F>
+void each_moving(const StepSystem& system, const Components& components, F&& f) {
+  const StepMap& map = system.problem.map;
+  for (const Slot& slot : system.slots) {
+    const double share = map.d / (slot.source->kind().contacts ? map.h : map.s);
+    for_each_block(slot.view(system.rows), [&](const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        if (const int component = components.of(block.node[i]); component >= 0) f(block, i, component, share);
+    });
+  }
 }
 
 }  // namespace
@@ -100,41 +113,24 @@ void Restraint::add_kinetic(const StepSystem& system, const Points& given) {
 
 /// `sign` times what the rows, linearised at x(v), store.
 void Restraint::add_stored(const StepSystem& system, const Points& v, double sign) {
-  const StepMap& map = system.problem.map;
-  for (const Slot& slot : system.slots) {
-    const double scale = slot.source->kind().contacts ? map.h : map.s;
-    for_each_block(slot.view(system.rows), [&](const auto& block) {
-      for (std::size_t i = 0; i < block.size(); ++i) {
-        const int component = components_.of(block.node[i]);
-        if (component < 0) continue;
-        const auto r = block.residual(v, i, std::remove_cvref_t<decltype(block.bias[i])>::Zero());
-        motions_[component].linear += sign * stored(block, i, r, map.d, scale);
-      }
-    });
-  }
+  each_moving(system, components_,
+              [&]<class Block>(const Block& block, std::size_t i, int component, double share) {
+                const typename Block::Value r = block.residual(v, i, Block::Value::Zero());
+                motions_[component].linear += sign * stored(block, i, r, share);
+              });
 }
 
-/// What hard rows, linearised at x(v), leave open.
+/// What hard rows, linearised at x(v), leave open; of each it counts for the first column that moves.
 void Restraint::find_open(const StepSystem& system, const Points& v) {
-  const StepMap& map = system.problem.map;
   open_.assign(components_.of_column.size(), 0);
   for (Motion& motion : motions_) motion.open = 0;
-  for (const Slot& slot : system.slots) {
-    const double scale = slot.source->kind().contacts ? map.h : map.s;
-    for_each_block(slot.view(system.rows), [&](const auto& block) {
-      for (std::size_t i = 0; i < block.size(); ++i) {
-        const double open = map.d / scale * left_open(block, i, v);
-        const int component = components_.of(block.node[i]);
-        if (!(open > 0) || component < 0) continue;
-        motions_[component].open += open;
-        for (const int column : block.node[i])
-          if (components_.of_column[column] >= 0) {
-            open_[column] += open;
-            break;
-          }
-      }
-    });
-  }
+  each_moving(system, components_, [&](const auto& block, std::size_t i, int component, double share) {
+    const double open = share * left_open(block, i, v);
+    if (!(open > 0)) return;
+    motions_[component].open += open;
+    const auto moves = [&](int column) { return components_.of_column[column] >= 0; };
+    open_[*std::find_if(block.node[i].begin(), block.node[i].end(), moves)] += open;
+  });
 }
 
 bool Restraint::restrain(StepSystem& system, const Points& given) {

@@ -1,6 +1,6 @@
 #include "studies/robustness/same_scene.h"
 
-#include <numeric>
+#include <algorithm>
 
 namespace pbdcheck {
 

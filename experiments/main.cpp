@@ -127,7 +127,7 @@ void add_cone(CLI::App& app, ConeOptions& options) {
       ->add_option("--relaxation", options.relaxation,
                    "A judge of contact problems (`list references`), or a relaxation that solves any rows "
                    "(of `list relaxations` not ldlt, "
-                   "semismooth_newton, augmented_lagrangian)")
+                   "semismooth_newton, augmented_lagrangian), or siconos_nsgs, siconos_nsn_ac, siconos_admm")
       ->capture_default_str();
   command->add_option("--tolerance", options.tolerance, "Largest natural residual, |r - P_K(r - u)| / |q|")
       ->capture_default_str();

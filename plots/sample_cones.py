@@ -18,7 +18,7 @@ def cone_problems(directory):
                     missed = i == 3
                     solves.append((*first, "cone_ipopt", 1e-8, 1e-5 if missed else 1e-11, 1e-12, 1e-12, 1e-9,
                                    2e-3 if missed else 1e-9, 90, 0.03 * scale / i, *(MISSED if missed else ("ok", ""))))
-                for k, relaxation in enumerate(("gauss_seidel", "jacobi", "direct")):
+                for k, relaxation in enumerate(("gauss_seidel", "jacobi", "direct") + ("siconos_nsgs",) * (law == "coulomb")):
                     for tolerance in (1e-4, 1e-8):
                         missed = (k, i, tolerance) == (1, 2, 1e-8)
                         solves.append((*first, relaxation, tolerance, 1e-5 if missed else 0.9 * tolerance, 1e-12, 1e-12, tolerance,

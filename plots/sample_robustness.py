@@ -42,6 +42,8 @@ def generated_worlds(directory):
           [(3, "as it is", 2, "momentum", "node 4", 2e-5, 1e-6), (7, "turned", 0, "depth", "colliders 1 and 2", 3e-3, 1e-6)])
     write(directory, "generated_worlds", "broken", "world kind reason", [(5, "refused", "mass of node 0: got 0; allowed: above 0")])
     write(directory, "generated_worlds", "ends", "status steps", [("ok", 3900), ("not_converged", 80), ("diverged", 12)])
+    write(directory, "generated_worlds", "apart", "world variant difference turn_rad outcome",
+          [(20, "other order", 0.12, 0.57, "another solution"), (449, "other linear solver", 0.99, 6.2, "not told")])
     write(directory, "generated_worlds", "agreement", "variant first_steps outcome",
           [(variant, count, outcome) for variant in ("turned", "mirrored", "other order") for count, outcome in
            ((450, "the same"), (10, "told apart by the tolerance alone"), (3, "another solution"), (2, "not told"), (20, "one missed"))])

@@ -14,6 +14,7 @@ STYLES = {
     "gauss_seidel": (BLUE, "o", "-"), "jacobi": (ORANGE, "s", "--"), "nesterov_jacobi": (GREEN, "^", "-."),
     "conjugate_gradients": (PURPLE, "P", (0, (5, 1))),
     "direct": (BLACK, "D", ":"),
+    "siconos_nsgs": ("#888888", "X", "-"), "siconos_nsn_ac": ("#8c564b", "h", "--"), "siconos_admm": ("#bcbd22", "p", "-."),
     "cone_interior_point": (SKY, "*", "-"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),

@@ -101,6 +101,7 @@ TABLES = {
     ("generated_worlds", "refuted"): "world variant step check what number bound",
     ("generated_worlds", "broken"): "world kind reason",
     ("generated_worlds", "ends"): "status steps",
+    ("generated_worlds", "apart"): "world variant difference turn_rad outcome",
     ("generated_worlds", "agreement"): "variant first_steps outcome",
     (".", "compare"): METHOD + " method",
 }

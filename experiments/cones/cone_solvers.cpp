@@ -10,11 +10,28 @@
 #include "error.h"
 #include "harness/interrupt.h"
 #include "linear/linear_names.h"
+#include "rivals/siconos.h"
 #include "scenes/choices.h"
 
 namespace pbdcheck {
 
 using namespace pbd::reference;
+
+namespace {
+
+ConeSolution solve_by_siconos(std::string_view name, const ConeTask& task) {
+  const auto& [delassus, free_velocity, friction] = task.problem;
+  auto answer =
+      pbd::rivals::siconos(name, {delassus, free_velocity, friction}, task.tolerance, task.most_sweeps);
+  ConeSolution found;
+  found.impulse = std::move(answer.impulse);
+  found.iterations = answer.iterations;
+  found.seconds = answer.seconds;
+  certify(task.problem, task.law, task.tolerance, found);
+  return found;
+}
+
+}  // namespace
 
 const std::vector<ConeSolver>& cone_solvers() {
   static const std::vector<ConeSolver> list = [] {
@@ -22,11 +39,18 @@ const std::vector<ConeSolver>& cone_solvers() {
       return [=](const ConeTask& task) { return solve(task.problem, task.law, task.tolerance); };
     };
     const std::vector<std::string> judged{"coulomb", "cone"};
-    std::vector<ConeSolver> all{{"cone_interior_point", judged, judge(cone_interior_point), true},
-                                {"cone_ipopt", judged, judge(cone_ipopt), true}};
+    std::vector<ConeSolver> all{
+        {"cone_interior_point", judged, judge(cone_interior_point), ConeSolverKind::judge},
+        {"cone_ipopt", judged, judge(cone_ipopt), ConeSolverKind::judge}};
     for (const auto name : pbd::general_solver_names())
       all.push_back({std::string(name), cone_laws(),
-                     [name](const ConeTask& task) { return relax_cone(name, task); }, false});
+                     [name](const ConeTask& task) { return relax_cone(name, task); },
+                     ConeSolverKind::relaxation});
+    for (const auto name : pbd::rivals::siconos_names)
+      all.push_back({std::string(name),
+                     {"coulomb"},
+                     [name](const ConeTask& task) { return solve_by_siconos(name, task); },
+                     ConeSolverKind::rival});
     return all;
   }();
   return list;
@@ -73,7 +97,7 @@ ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task) {
       why = "W's symmetric part is not solved: " + missed;
     else if (k - improved >= patience)
       why = "splitting W does not contract";
-    else if (!solver.judge && sweeps >= task.most_sweeps)
+    else if (solver.kind == ConeSolverKind::relaxation && sweeps >= task.most_sweeps)
       why = "no sweeps are left";
     else
       continue;
@@ -88,6 +112,7 @@ ConeSolution solve_as_given(const ConeSolver& solver, const ConeTask& task) {
 }
 
 ConeSolution solve_file(const ConeSolver& solver, const ConeFile& file, FrictionLaw law, double tolerance) {
+  if (solver.kind == ConeSolverKind::rival) return solver.solve({file.problem, law, tolerance, most_sweeps});
   if (law != FrictionLaw::cone && file.asymmetry > symmetric_within)
     return solve_as_given(solver, {file.problem, law, tolerance, most_sweeps});
   const ConeProblem symmetrised = symmetric(file.problem);

@@ -13,14 +13,17 @@ namespace pbdcheck {
 /// That relaxations may take to solve a problem.
 inline constexpr int most_sweeps = 200000;
 
+/// Judges and rivals share no code with the solver; judges know no sweeps; rivals take W as it is.
+enum class ConeSolverKind { judge, relaxation, rival };
+
 struct ConeSolver {
   std::string name;
   std::vector<std::string> laws;
   std::function<pbd::reference::ConeSolution(const ConeTask&)> solve;
-  bool judge;  // shares no code with the solver; knows no sweeps
+  ConeSolverKind kind;
 };
 
-/// Judges, and the solver's relaxations; the first is the default.
+/// Judges, the solver's relaxations, and rivals; the first is the default.
 const std::vector<ConeSolver>& cone_solvers();
 
 /// Names of all laws.

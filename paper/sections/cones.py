@@ -13,7 +13,8 @@ def cone_problems(results):
         "|r_T| <= mu r_N and u in its dual, perpendicular; Coulomb's law asks the same of u + mu |u_T| n. Solutions are drawn first "
         "and q is made to fit, in eight families, so that the velocity sought is known. Who solves them is certified by the natural "
         "residual |r - P(r - u)| / |q| alone. The solver's relaxations see the same problem as rows whose response is a column of W; "
-        "they are timed to 1e-4 and to 1e-8, the judges to the one answer they give.",
+        "they are timed to 1e-4 and to 1e-8, the judges to the one answer they give. Of Coulomb's law three solvers of Siconos "
+        "[@acary2018solving] stand beside them, with as many iterations to spend.",
         figures=[
             Figure("cone_problems_profiles", "Performance profiles: the share of the problems solved to a residual, over the time "
                    "taken as a multiple of the fastest's, by law."),
@@ -21,7 +22,7 @@ def cone_problems(results):
                    "has masses from 1 to 1e4 kg, more rows "
                    "than coordinates, and contacts with neither impulse nor velocity.")])
     solves = results.table("cone_problems", "solves")
-    section.tell(solves, solves_text, solves_table, apart_text)
+    section.tell(solves, solves_text, rivals_text, solves_table, apart_text)
     if solves is not None and len(apart(solves)):
         section.tell(solves, apart_table)
     return section.tell(results.table("cone_problems", "large"), large_text)
@@ -34,6 +35,22 @@ def solves_text(frame):
         for key, rows in tightest(frame).groupby(["law", "relaxation"], sort=False)) + \
         f". Solves that missed ended after {span(frame[frame['status'] != 'ok']['sweeps'])} iterations" \
         ". Under Coulomb's law a problem may have several solutions, so the planted velocity is not expected there."
+
+
+def rivals_text(frame):
+    """The solver's relaxations beside Siconos', under the law that both know."""
+    rows = tightest(frame[(frame["law"] == "coulomb") & ~frame["relaxation"].str.startswith("cone_")])
+    within = rows[rows["natural_residual"] <= rows["tolerance"]]
+    solved = within.groupby("relaxation", sort=False).size().sort_values(ascending=False, kind="stable")
+    times = within.pivot_table(index=["family", "number"], columns="relaxation", values="wall_s")
+    theirs = times.columns.str.startswith("siconos_")
+    by_them, by_us = times.loc[:, theirs].notna().any(axis="columns"), times.loc[:, ~theirs].notna().any(axis="columns")
+    by_all = times.dropna()
+    return (f"Of {len(rows[['family', 'number']].drop_duplicates())} problems under Coulomb's law, within {number(rows['tolerance'].min())}: "
+            + ", ".join(f"`{name}` {count}" for name, count in solved.items())
+            + f". Siconos alone solves {int((by_them & ~by_us).sum())} of them, our relaxations alone {int((by_us & ~by_them).sum())}"
+            + f". Median ms on the {len(by_all)} that all of these solve: "
+            + ", ".join(f"`{name}` {number(1e3 * median)}" for name, median in by_all.median().sort_values().items()) + ".")
 
 
 def solves_table(frame):

@@ -94,6 +94,7 @@ def generated_worlds(results):
                         "are judged as true.")])
     ends, refuted = results.table("generated_worlds", "ends"), results.table("generated_worlds", "refuted")
     agreement, broken = results.table("generated_worlds", "agreement"), results.table("generated_worlds", "broken")
+    apart = results.table("generated_worlds", "apart")
     if refuted is not None and ends is not None:
         steps = ends.set_index("status")["steps"]
         scenes = refuted["world"].nunique()
@@ -109,8 +110,15 @@ def generated_worlds(results):
         section.paragraphs.append(
             f"Beside the scene as it is, {int(told.get('the same', 0))} first steps end alike, "
             f"{int(told.get('told apart by the tolerance alone', 0))} alike at a tighter tolerance; "
-            f"{int(told.get('another solution', 0))} end at another solution of the same step, which the judge does not refute either: the "
-            f"motion is not unique there. Of {int(told.get('not told', 0))} that differ the tighter step missed, so that this is not told.")
+            f"{int(told.get('another solution', 0))} end elsewhere at a tighter tolerance, too, and the judge refutes neither: the step has "
+            f"more than one solution, or the judge cannot tell them. Of {int(told.get('not told', 0))} that differ the tighter step missed, "
+            f"so that this is not told.")
+    if apart is not None and len(apart):
+        section.tables.append(Table(
+            "First steps that end apart, the first 20: by how much of the step's scale, and how far a body turns.",
+            ["world", "variant", "difference", "largest turn, rad", "outcome"],
+            [[f"{r['world']:.0f}", r["variant"], number(r["difference"]), number(r["turn_rad"]), r["outcome"]]
+             for _, r in apart.head(20).iterrows()]))
     if refuted is not None and len(refuted):
         worst = refuted.drop_duplicates(["world", "check"]).head(20)
         section.tables.append(Table(

@@ -1,4 +1,5 @@
-// How well are contact problems with friction solved whose answer was planted?
+// How well are contact problems with friction solved whose answer was planted? By judges, the solver's
+// relaxations, and Siconos.
 #include "cones/cone_solvers.h"
 
 #include <fmt/format.h>
@@ -88,7 +89,8 @@ struct Found {
 /// or five. Of large problems the judge takes the convex ones.
 bool taken(const ConeSolver& solver, FrictionLaw law, const NamedCone& p, bool full) {
   const bool convex = law == FrictionLaw::cone, ipopt = solver.name == "cone_ipopt";
-  if (!solver.judge) return true;
+  if (solver.kind == ConeSolverKind::rival) return !convex;
+  if (solver.kind == ConeSolverKind::relaxation) return true;
   if (p.large()) return convex && !ipopt;
   return convex || !ipopt || p.number <= (full ? 5 : 1);
 }
@@ -104,11 +106,12 @@ class Solves {
     judged_.resize(0);
     for (const ConeSolver& solver : cone_solvers()) {
       if (!taken(solver, law, p, context_.full())) continue;
-      if (!solver.judge) add(p, law, solver, {p.planted.problem, law, loose, sweeps});
+      if (solver.kind != ConeSolverKind::judge) add(p, law, solver, {p.planted.problem, law, loose, sweeps});
       const bool first = solver.name == "cone_interior_point";
       const ConeSolution last =
           add(p, law, solver, {p.planted.problem, law, first ? certain : tightest, sweeps});
-      if (!solver.judge && p.demanded) found.relaxed[solver.name].add(last.measures.natural_residual);
+      if (solver.kind == ConeSolverKind::relaxation && p.demanded)
+        found.relaxed[solver.name].add(last.measures.natural_residual);
       if (first) {
         found.residual.add(last.measures.natural_residual);
         found.error.add(largest_entry(last.velocity - p.planted.velocity));

@@ -103,7 +103,8 @@ class Tables {
 
 void friction_cone(Context& context) {
   const Scene scene = pile();
-  context.begin(2 * std::ssize(cone_solvers()));
+  context.begin(2 * std::count_if(cone_solvers().begin(), cone_solvers().end(),
+                                  [](const ConeSolver& each) { return each.kind != ConeSolverKind::rival; }));
   Tables tables(context);
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::coulomb}) {
     const std::string name(friction_law_names[static_cast<std::size_t>(law)]);
@@ -112,9 +113,11 @@ void friction_cone(Context& context) {
     const double stiffest = symmetric_eigen(problem.delassus).values.maxCoeff();
     const JudgedCone by{problem, law, name, cone_interior_point(problem, law, cone_tolerance), stiffest};
     for (const ConeSolver& solver : cone_solvers()) {
+      if (solver.kind == ConeSolverKind::rival) continue;
       const ConeTask task{problem, law, cone_tolerance, most_sweeps};
-      const ConeSolution found =
-          solver.judge ? solver.solve(task) : relax_cone(solver.name, step.rows, step.v_free, task);
+      const ConeSolution found = solver.kind == ConeSolverKind::judge
+                                     ? solver.solve(task)
+                                     : relax_cone(solver.name, step.rows, step.v_free, task);
       const double share = tables.add(by, solver.name, found);
       context.advance(name + " " + solver.name);
       if (solver.name == "cone_ipopt" && found.outcome != Outcome::ok)

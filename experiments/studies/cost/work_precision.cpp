@@ -139,7 +139,7 @@ Points judge_contact_points(const Case& each, reference::FrictionLaw law, Table&
   const std::string friction(reference::friction_law_names[static_cast<std::size_t>(law)]);
   Points exact;
   for (const ConeSolver& judge : cone_solvers()) {
-    if (!judge.judge) continue;
+    if (judge.kind != ConeSolverKind::judge) continue;
     if (judge.name == "cone_ipopt" && law == reference::FrictionLaw::coulomb) {
       add_point(table, {each, friction}, "judge", judge.name, 0,
                 {.wall_s = std::nan(""), .error = std::nan("")}, "skipped", "minutes under Coulomb's law");

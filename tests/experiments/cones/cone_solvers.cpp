@@ -42,7 +42,7 @@ ConeSolver counted(int& calls, double impulse, const std::string& reason) {
             found.reason = reason;
             return found;
           },
-          true};
+          ConeSolverKind::judge};
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, 
       const double missed = squared_residual(block, i, r, change);
       Free free = Free::all;
       if (!block.frictional()) {
-        if (change.isZero(0) && !full.isZero(0)) free = Free::none;
+        if (change.isZero(0) && !keeps(block, i, block.impulse[i] + full)) free = Free::none;
         change.setZero();
-      } else if (const typename Block::Value to = block.impulse[i] + full; cut(block, i, to) == to) {
+      } else if (keeps(block, i, block.impulse[i] + full)) {
         change.setZero();  // it sticks
       } else {
         if constexpr (Block::rows == 3)
@@ -48,6 +48,23 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, 
     }
   });
   return changed;
+}
+
+/// Of a step along the direction until the first impulse is at a bound.
+double ConjugateGradients::length_to_bounds(const Rows& rows) const {
+  double length = infinity;
+  std::size_t first_row = 0;
+  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+    if constexpr (Block::rows == 1)
+      for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
+        const double along = direction_[first_row + i];
+        const double bound = along < 0 ? block.bounds[i].lower : block.bounds[i].upper;
+        if (along != 0 && block.bounds[i].freedom == Freedom::lawful)
+          length = std::min(length, std::max(0.0, (bound - block.impulse[i][0]) / along));
+      }
+    first_row += block.size() * Block::rows;
+  });
+  return length;
 }
 
 PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
@@ -91,7 +108,7 @@ PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds 
     if (beta > 0) return {std::sqrt(moved + product)};  // begin anew
     return {std::sqrt(moved), moved == 0};              // nothing left to gain along J
   }
-  const double length = -slope / curvature;
+  const double length = std::min(-slope / curvature, rows.contacts ? infinity : length_to_bounds(rows));
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] += length * entries(direction_, block, first_row, i);

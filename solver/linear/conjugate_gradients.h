@@ -10,9 +10,11 @@ namespace pbd {
 /// together, s^T N s = |u|_M^2 + s^T Sigma s needs no further pass: a sweep costs as much as Jacobi's. The
 /// residual is taken anew each sweep. Impulses with bounds: those that a step of block Jacobi would leave at
 /// a bound take no part; where their set changes, or the step along s is cut at a bound, the next direction
-/// begins anew (active sets, as in polyak1969conjugate). Of a sliding contact the normal impulse alone takes
-/// part; the others, and an opening one's, are first moved as its law asks: half way between a step of block
-/// Jacobi and what the contact alone would do, which by itself may go in circles.
+/// begins anew (active sets, as in polyak1969conjugate). Without contacts no step goes beyond the first
+/// bound; of many contacts it would reach one a sweep, so that all are cut behind it. Of a sliding contact
+/// the normal impulse alone takes part; the others, and an opening one's, are first moved as its law asks:
+/// half way between a step of block Jacobi and what the contact alone would do, which by itself may go in
+/// circles.
 class ConjugateGradients {
  public:
   static constexpr std::string_view name = "conjugate_gradients";
@@ -21,6 +23,7 @@ class ConjugateGradients {
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 
  private:
+  double length_to_bounds(const Rows& rows) const;
   bool find_free(Rows& rows, Points& v, BlockSeconds seconds, double& squared);
 
   std::vector<double> direction_, last_;  // s, and the last D^-1 r; one entry a row

@@ -129,7 +129,8 @@ bool Ldlt::find_held(Rows& rows, Points& v) {
             const typename Block::Value full =
                 -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
             const typename Block::Value change = allowed(block, i, block.impulse[i], full);
-            const bool held = change != full;
+            // Not by `change`: that is less than `full` by rounding of the impulse, too.
+            const bool held = !keeps(block, i, block.impulse[i] + full);
             changed |= held != held_[b][i];
             held_[b][i] = held;
             if (!held) continue;

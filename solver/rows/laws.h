@@ -142,6 +142,12 @@ typename Block::Value cut(const Block& block, std::size_t i, const typename Bloc
   return p + allowed(block, i, p, Block::Value::Zero());
 }
 
+/// True if that cut takes nothing of p.
+template <class Block>
+bool keeps(const Block& block, std::size_t i, const typename Block::Value& p) {
+  return cut(block, i, p) == p;
+}
+
 /// The impulse of contact i alone that its law asks for where its row misses r.
 template <class Block>
 typename Block::Value solved_impulse(const Block& block, std::size_t i, const typename Block::Value& r) {

@@ -62,6 +62,51 @@ TEST_CASE("a limit stops a hinge, pushes only while it is reached, and holds the
     }
 }
 
+TEST_CASE("a motor of limited torque works on an arm that rests on its limit, by every linear solver") {
+  constexpr double h = 0.005, most_torque = 1, most_angle = 0.3;  // s, N m, rad
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  for (const auto& [x, mass] : {std::pair{0.2, 2.0}, std::pair{0.6, 1.0}})
+    add_body(scene, Vec3(x, 0, 0), mass, mass / 12 * Vec3(0.02, 0.17, 0.17));  // bars of 0.4 x 0.1 x 0.1 m
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Gyroscopic{});
+  scene.effects.emplace_back(PointJoint{
+      {{0, 1}, {1, 2}}, {{Vec3::Zero(), Vec3(-0.2, 0, 0)}, {Vec3(0.2, 0, 0), Vec3(-0.2, 0, 0)}}, {0, 0}});
+  const Vec3 y = Vec3::UnitY(), x = Vec3::UnitX();
+  scene.effects.emplace_back(AxisJoint{{{0, 1}, {1, 2}}, {{y, y}, {y, y}}, {0, 0}});
+  scene.effects.emplace_back(AngleJoint{{{0, 1}, {1, 2}},
+                                        {y, y},
+                                        {{x, x}, {x, x}},
+                                        {most_angle, 0},
+                                        {0, -2},
+                                        {0, 0},
+                                        {},
+                                        {{-infinity, 0}, {-most_torque, most_torque}}});
+  for (const std::string relaxation :
+       {"gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct"}) {
+    INFO(relaxation);
+    Method method;
+    method.relaxation = relaxation;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    int missed = 0, rests = 0, limited = 0;
+    for (int k = 0; k < 200; ++k) {
+      const Report report = step(workspace, h, state);
+      missed += report.status != Status::ok;
+      const std::vector<double> torque = workspace.forces(4);  // N m
+      CHECK(torque[0] <= 0);
+      CHECK(std::abs(torque[1]) <= most_torque * (1 + 1e-12));
+      limited += std::abs(torque[1]) == Approx(most_torque).epsilon(1e-12);
+      if (torque[0] == 0) continue;
+      ++rests;
+      CHECK(std::atan2(-state.x(2, 1), state.x(0, 1)) == Approx(most_angle).epsilon(1e-6));
+    }
+    CHECK(missed == 0);
+    CHECK(rests > 50);
+    CHECK(limited > 50);
+  }
+}
+
 TEST_CASE("a slack rope does nothing, compliant or not, whatever the integrator starts with") {
   const double compliance = GENERATE(0.0, 1e-3);
   Scene scene;

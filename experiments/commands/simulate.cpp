@@ -101,11 +101,13 @@ class Output {
   std::optional<BodySurfaces> surfaces_;
 };
 
-/// The worst step, which may have no finite residual.
+/// The worst step. Its residual is NaN if it diverged, infinite where nothing moves: there is no scale.
 std::string worst_text(const Totals& totals) {
-  if (!std::isfinite(totals.worst_residual))
+  if (std::isnan(totals.worst_residual))
     return fmt::format("step {} without a finite residual", totals.worst_step);
   const auto most = totals.worst_constraint.empty() ? "" : ", most of it of " + totals.worst_constraint;
+  if (std::isinf(totals.worst_residual))
+    return fmt::format("the worst where nothing moves (step {}{})", totals.worst_step, most);
   return fmt::format("the worst with {:.3g} (step {}{})", totals.worst_residual, totals.worst_step, most);
 }
 

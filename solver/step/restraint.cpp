@@ -54,7 +54,8 @@ double Restraint::Motion::share() const {
   constexpr double rounding = 1e-12;
   const double limit = std::max(most, 0.0);
   if (gained + linear <= limit + rounding * (gained + std::abs(linear))) return 1;
-  return 2 * limit / (linear + std::sqrt(linear * linear + 4 * gained * limit));
+  const double root = std::sqrt(linear * linear + 4 * gained * limit);
+  return linear > 0 ? 2 * limit / (linear + root) : (root - linear) / (2 * gained);  // neither is 0/0
 }
 
 void Restraint::find_motions(const StepSystem& system) {

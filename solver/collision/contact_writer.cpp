@@ -50,13 +50,21 @@ void ContactWriter::rewrite(const ContactPoint& contact, std::uint64_t key, doub
   write(contact, key, gap);
 }
 
+double ContactWriter::gap_of(const ContactPoint& contact) const {
+  const bool same = contact.swapped == swapped;
+  return touching(contact, same ? frame_a : frame_b, same ? frame_b : frame_a).gap;
+}
+
 double ContactWriter::least() const {
   double gap = infinity;
-  for (std::size_t i = begin; i < out.size(); ++i) {
-    const bool same = out[i].swapped == swapped;
-    gap = std::min(gap, touching(out[i], same ? frame_a : frame_b, same ? frame_b : frame_a).gap);
-  }
+  for (std::size_t i = begin; i < out.size(); ++i) gap = std::min(gap, gap_of(out[i]));
   return gap;
+}
+
+void ContactWriter::drop_deeper(double gap) const {
+  const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto deeper = [&](const ContactPoint& contact) { return gap_of(contact) < gap; };
+  out.erase(std::remove_if(from, out.end(), deeper), out.end());
 }
 
 ContactPoint on_point(const Vec3& point_a, double radius_a, const Vec3& point_b, double radius_b) {

@@ -40,6 +40,12 @@ struct ContactWriter {
 
   /// The least gap (m) of what is written; infinite if nothing is.
   double least() const;
+
+  /// Drops what is written with a smaller gap (m): along another direction the shapes overlap less.
+  void drop_deeper(double gap) const;
+
+ private:
+  double gap_of(const ContactPoint& contact) const;
 };
 
 /// Contact points by kind (contact_point.h), with the features' radii (m).

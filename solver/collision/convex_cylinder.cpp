@@ -175,6 +175,30 @@ struct CylinderPair {
                      writer.key(Feature::node, deepest, Feature::axis, 0), gap);
   }
 
+  /// The edge, or where `arc` is at a node one that meets there, across the rim next to it, along which they
+  /// overlap least; false if they do by more than `apart` along each, or other features by more.
+  bool write_across_rim(int edge, double arc, double apart) const {
+    const Vec3 y = point(edge, arc), tangent = b.rim_tangent(y);
+    const int node = end(edge, arc), rim = (y - b.centre).dot(b.axis) < 0 ? -1 : 1;
+    const Vec3 on_rim = b.cap(rim) + b.radius * tangent.cross(b.axis);
+    CylinderAxis best{apart + tiny, CylinderAxis::Of::edge, -1, {}};
+    for (int e = 0; e < a.edge_count(); ++e) {
+      const Vec3 across = a.along[e].cross(tangent);
+      const bool meets = e == edge || (node >= 0 && (a.edge(e).node[0] == node || a.edge(e).node[1] == node));
+      if (!(meets && across.norm() > rounding)) continue;
+      const Vec3 normal = (across.dot(y - b.centre) < 0 ? -1 : 1) * across.normalized();
+      const double here = lowest(normal) - b.support(normal);
+      const bool farthest = std::abs(normal.dot(y - on_rim) - here) <= tiny;  // of both shapes
+      if (farthest && here > best.apart) best = {here, CylinderAxis::Of::edge, e, normal};
+    }
+    if (best.i < 0) return false;
+    const double gap = best.apart - a.radius;
+    writer.drop_deeper(gap - tiny);
+    writer.rewrite(on_edges(y, a.along[best.i], a.radius, on_rim, tangent, 0, best.normal),
+                   writer.key(Feature::edge, best.i, Feature::rim, rim + 1), gap);
+    return true;
+  }
+
   void write() const {
     const CylinderAxis cap = cap_axis(), face = face_axis();
     CylinderAxis best = face.apart > cap.apart ? face : cap;
@@ -198,13 +222,12 @@ struct CylinderPair {
       edge = e;
       arc = s;
     }
-    // Apart if the plane between the nearest points is between the shapes; else a face cuts the cylinder.
-    const Vec3 normal = b.place(point(edge, arc)).normal;
+    // Apart if the plane between the nearest points is between the shapes; else a face cuts the cylinder, or
+    // the edge a rim.
+    const Vec3 y = point(edge, arc), normal = b.place(y).normal;
     const bool apart = nearest > tiny && lowest(normal) - b.support(normal) > tiny;
-    if (apart || best.apart > tiny)
-      write_edge_point(edge, arc);
-    else
-      write_axis(best);
+    if (apart || best.apart > tiny) return write_edge_point(edge, arc);
+    if (!write_across_rim(edge, arc, best.apart)) write_axis(best);
   }
 };
 

@@ -18,8 +18,39 @@ void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double f
                [&](const Vec3& x) { return (x - b.centre).cross(b.axis).norm() <= b.radius + slack; });
   for (const int end : {-1, 1}) {
     const Vec3 y = a.on_rim(end, nearest_angle(a, end, b));
-    write_point(y, 0, Feature::rim, end + 1, b, writer);
+    write_point(y, 0, Feature::rim, nearest_of_rim(end), b, writer);
   }
+}
+
+/// A direction along which they may be apart.
+struct Way {
+  double apart = -infinity;  // m; negative: they overlap by as much
+  Vec3 normal = Vec3::Zero();
+};
+
+/// The best of b's normals at the points of a's rims that are nearest to it, or deepest in it, and of those
+/// across both rims there.
+void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, Way& best) {
+  const Vec3 apart = a.centre - b.centre;
+  const auto look = [&](const Vec3& across) {
+    if (!(across.norm() > rounding)) return;
+    const Vec3 normal = (across.dot(apart) < 0 ? -1 : 1) * across.normalized();
+    const double here = normal.dot(apart) - a.support(normal) - b.support(normal);
+    if (here > best.apart) best = {here, normal};
+  };
+  for (const int end : {-1, 1}) {
+    const Vec3 y = a.on_rim(end, nearest_angle(a, end, b));
+    look(b.place(y).normal);
+    look(a.axis.cross(y - a.cap(end)).normalized().cross(b.rim_tangent(y)));
+  }
+}
+
+/// What they overlap by along a normal that is no feature's own, at the deepest points of both.
+ContactPoint across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal) {
+  const auto end_towards = [&](const Vec3& axis, const Vec3& n) { return axis.dot(n) < 0 ? -1 : 1; };
+  const int end = end_towards(b.axis, normal);
+  const Vec3 farthest = touching(on_plane_by_rim(b, end, b.centre, -normal, 0), {}, {}).point_a;
+  return on_plane_by_rim(a, end_towards(a.axis, -normal), farthest, normal, 0);
 }
 
 /// a's rim at `end`, its point nearest to b's axis, against b's side.
@@ -88,8 +119,14 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   look(axes.apart, tiny);
   look(apart - apart.dot(b.axis) * b.axis, tiny);
   if (beside == -infinity) look(b.across, 0);
-  const double most = std::max({over_a, over_b, beside});
+  double most = std::max({over_a, over_b, beside});
   if (most >= writer.reach.margin) return;
+  Way rims;
+  if (most <= 0) {
+    look_along_rims(a, b, rims);
+    look_along_rims(b, a, rims);
+    if (rims.apart > most + tiny) most = rims.apart;
+  }
 
   const Vec3 y_a = from_a + axes.s * a.axis;
   const ContactPoint edges =
@@ -112,13 +149,8 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
                         a.place(from_b + axes.t * b.axis).distance <= tiny;
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
   if (most == beside && beside == along_both) return writer.write(edges, sides_key, most);
-  if (most == beside) {
-    const auto end_towards = [&](const Vec3& axis, const Vec3& n) { return axis.dot(n) < 0 ? -1 : 1; };
-    const int end = end_towards(b.axis, normal);
-    const Vec3 farthest = touching(on_plane_by_rim(b, end, b.centre, -normal, 0), {}, {}).point_a;
-    return writer.write(on_plane_by_rim(a, end_towards(a.axis, -normal), farthest, normal, 0), sides_key,
-                        most);
-  }
+  if (most == beside || most == rims.apart)
+    return writer.rewrite(across_rims(a, b, most == beside ? normal : rims.normal), sides_key, most);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, writer);

@@ -19,6 +19,11 @@ constexpr int rim_point(int end, int k) {
   return (rim_points + 1) * (end + 1) + k;
 }
 
+/// Of its nearest point: another one than those.
+constexpr int nearest_of_rim(int end) {
+  return rim_point(2, 0) + end + 1;
+}
+
 /// Numbers in keys of a rim or cap that edges cross: others than end + 1, which those have whose nearest
 /// point is there. `sign` tells where an edge comes in and goes out.
 constexpr int left_over(int end) {

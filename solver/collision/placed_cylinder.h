@@ -30,6 +30,8 @@ struct PlacedCylinder {
   double size() const { return 2 * (radius + half); }  // m, at least the diameter
   Vec3 cap(int end) const { return centre + end * half * axis; }
   Vec3 on_rim(int end, double angle) const;
+  /// Along the rims where they are nearest to x; unit, zero on the axis.
+  Vec3 rim_tangent(const Vec3& x) const { return axis.cross(x - centre).normalized(); }
   Place place(const Vec3& x) const;
   /// Of the farthest point along the unit vector n, measured from the centre (m).
   double support(const Vec3& n) const;

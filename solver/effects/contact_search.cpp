@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace pbd {
 
@@ -193,47 +192,6 @@ void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
   }
   for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, contacts);
   if (surfaces_) add_surfaces(start.x, contacts);
-}
-
-bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
-                               const ContactLists& contacts) {
-  if (far_.empty()) return false;
-  const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
-  for (Pair& pair : far_) pair.least_start = pair.least_end = infinity;
-  for (const auto& list : contacts)
-    for (const ActiveContact& contact : list) {
-      if (contact.of_surfaces) continue;
-      const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{contact.pair()}, in_order);
-      if (pair == far_.end() || pair->collider != contact.pair()) continue;
-      const auto gap = [&](const Configuration& at) {
-        return touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at)).gap;
-      };
-      if (!contact.late) pair->least_start = std::min(pair->least_start, gap(start));
-      pair->least_end = std::min(pair->least_end, gap(end));
-    }
-  bool seen = false;
-  for (const Pair& pair : far_) {
-    const auto [first, second] = pair.collider;
-    const Motion &one = motions_[first], &two = motions_[second];
-    const double slack = overlooked * round_radius_of(one, two);
-    const double deepest = std::min(pair.least_start, 0.0);  // m, as it begins: what overlaps gets no deeper
-    found_.clear();
-    const Frame at_first = placed_frame(first, end), at_second = placed_frame(second, end);
-    generate(*one.shape, at_first, *two.shape, at_second, Reach{slack}, scratch_, found_);
-    for (const ContactPoint& point : found_) {
-      const auto& [at_a, at_b] =
-          point.swapped ? std::tie(at_second, at_first) : std::tie(at_first, at_second);
-      const double gap = touching(point, at_a, at_b).gap;
-      if (!(gap < std::min(pair.least_end, deepest) - slack)) continue;
-      const auto known = late_contact({first, second}, point.key);
-      ActiveContact& contact = known == late_.end() ? late_.emplace_back() : *known;
-      contact = active(point, first, second);
-      contact.late = true;
-      contact.target = deepest;
-      seen = true;
-    }
-  }
-  return seen;
 }
 
 }  // namespace pbd

@@ -77,7 +77,8 @@ class ContactSearch {
   };
   struct Pair {
     std::array<int, 2> collider;
-    double least_start = infinity, least_end = infinity;  // m, gaps that its contacts tell of
+    double least_end = infinity;  // m, gap that its contacts tell of
+    double deepest = 0;           // m, as it begins: what overlaps gets no deeper
   };
   struct Displacement {
     double shift, turn;  // m, rad
@@ -96,6 +97,14 @@ class ContactSearch {
   ActiveContact active(const ContactPoint& point, int first, int second) const;
   std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
   Frame placed_frame(int collider, const Configuration& at) const;
+
+  // Late contacts: late_contacts.cpp.
+  Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
+  double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
+                          double share, double reach);
+  void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
+                        double allowed, double behind);
+  bool find_overlapping(Pair& pair, const Configuration& start, const Configuration& end);
 
   const Contact& effect_;
   AllowedPairs allowed_;

@@ -88,6 +88,36 @@ TEST_CASE("contacts of cylinders are nearest points, with a proof") {
   if (kind == "node" || kind == "sphere") CHECK(worst.shallow == 0);
 }
 
+TEST_CASE("what has just entered a cylinder is as deep in it as it went") {
+  constexpr double entered = 1e-10, allowed = 1e-7;  // m; the normal of nearest points is known to 1e-8
+  const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder");
+  Random random(17);
+  int seen = 0, deep = 0;
+  for (int number = 0; number < 2000; ++number) {
+    const Shape a = random_shape(kind, random), b = random_shape("cylinder", random);
+    const Frame at_b{random.vector(), random.rotation()};
+    Frame at_a{at_b.place(random.uniform(0, 2) * random.vector().normalized()), random.rotation()};
+    const auto nearest = [&] {
+      Touching best;
+      best.gap = infinity;
+      for (const auto& contact : contacts(a, at_a, b, at_b, 1.0)) {
+        Touching t = touch(contact, at_a, at_b);
+        if (contact.swapped) t.normal *= -1;
+        if (t.gap < best.gap) best = t;
+      }
+      return best;
+    };
+    const Touching apart = nearest();
+    if (!(apart.gap > 0 && apart.gap < 1)) continue;
+    at_a.origin -= (apart.gap + entered) * apart.normal;
+    ++seen;
+    if (!(std::abs(nearest().gap) <= allowed)) ++deep;
+  }
+  INFO(kind << " of " << seen);
+  CHECK(seen > 200);
+  CHECK(deep == 0);
+}
+
 TEST_CASE("the least gap over a half space is the height of the lowest point") {
   const auto kind =
       GENERATE(as<std::string>(), "node", "sphere", "capsule", "box", "hull", "cylinder", "mesh");

@@ -141,7 +141,7 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
   for (const ActiveContact& contact : late_)
     if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
-  if (bounded && travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
+  if (bounded && wary * travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
     far_.push_back({{first, second}});
 }
 

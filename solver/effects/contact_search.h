@@ -11,10 +11,11 @@
 //
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
-// in the face behind. Pairs that go so far that this is above 1e-4 r are looked at again where the solved
-// step ends, and what overlaps there by more, and by more than from the start, joins the step's contacts; not
-// on a half space, all of whose contacts are exact as bodies move. Of polyhedra r is half
-// their least width, which is no bound but what random steps hold to (tests/solver/contact_motion.cpp).
+// in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) is above
+// 1e-4 r are looked at again where the solved step ends, and what overlaps there by more, and by more than
+// from the start, joins the step's contacts; not on a half space, all of whose contacts are exact as bodies
+// move. Of polyhedra r is half their least width. Neither is a bound, but what random steps hold to
+// (tests/solver/contact_motion.cpp).
 #pragma once
 
 #include <array>
@@ -61,6 +62,7 @@ class ContactSearch {
  private:
   /// How deep pairs may be that are not looked at again, of the radius of what is round of them.
   static constexpr double overlooked = 1e-4;
+  static constexpr double wary = 16;  // times what a ball makes of its travel
 
   struct Motion {        // of a collider in this step
     Shape node_shape;    // of a node

@@ -8,6 +8,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -104,7 +105,8 @@ void generated_worlds(Context& context) {
   Table agreement = context.table("agreement", {"variant", "first_steps", "outcome"});
   std::array<std::int64_t, status_names.size()> ended{};
   std::map<std::pair<std::string, Agreement>, std::int64_t> agreements;
-  double refutations = 0, not_finite = 0, thrown = 0, refused = 0, unexplained = 0, slowest = 0;
+  double refutations = 0, not_finite = 0, thrown = 0, refused = 0, unexplained = 0;
+  std::pair<double, std::int64_t> slowest{0, 0};  // s, and its world
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Outcome& outcome = all[i];
     const auto world = static_cast<std::int64_t>(i);
@@ -116,7 +118,7 @@ void generated_worlds(Context& context) {
     if (!outcome.thrown.empty()) broken.row({world, "thrown", outcome.thrown}), ++thrown;
     if (!outcome.finite) broken.row({world, "not finite", ""}), ++not_finite;
     for (std::size_t k = 0; k < ended.size(); ++k) ended[k] += outcome.ended[k];
-    slowest = std::max(slowest, outcome.slowest);
+    slowest = std::max(slowest, {outcome.slowest, world});
     for (const Comparison& each : outcome.compared) {
       ++agreements[{each.variant, each.agreement}];
       if (each.agreement == Agreement::same || each.agreement == Agreement::missed) continue;
@@ -139,7 +141,8 @@ void generated_worlds(Context& context) {
                   "where no body turns by half a radian, the same scene in other words or by another method "
                   "ends alike wherever both say ok",
                   "first steps that end apart and no tighter tolerance brings together", unexplained, 0);
-  context.verdict("worlds.slowest", "no step takes longer than a minute", "s, the slowest step", slowest, 60);
+  context.verdict("worlds.slowest", "no step takes longer than a minute",
+                  fmt::format("s, the slowest step (of world {})", slowest.second), slowest.first, 60);
   for (Table* table : {&refuted, &broken, &ends, &apart, &agreement}) table->close();
 }
 

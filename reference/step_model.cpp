@@ -102,7 +102,7 @@ bool explicit_forces(const StepClaim& claim) {
 }
 
 double level_of(const StepClaim& claim, const StepModel& model) {
-  double speed = 0, mass = 0, turn = 0, size = claim.end.x.cwiseAbs().maxCoeff();
+  double speed = 0, mass = 0, size = claim.end.x.cwiseAbs().maxCoeff();
   const auto& nodes = model.rigid.nodes;
   for (std::size_t i = 0; i < nodes.first.size(); ++i)
     if (const int u = nodes.first[i]; u >= 0) {
@@ -116,13 +116,12 @@ double level_of(const StepClaim& claim, const StepModel& model) {
     if (rotor.unknown < 0) continue;
     for (const State* state : {&claim.start, &claim.end})
       speed += rotor.inertia.dot(state->spin.col(body).cwiseAbs2());
-    turn = std::max(turn, claim.h * claim.end.spin.col(body).norm());
   }
   for (const Joint& joint : model.rigid.joints)
     size = std::max({size, joint.point[0].norm(), joint.point[1].norm()});
   const bool told = explicit_forces(claim) || !is_euler_step(claim);
   return claim.tolerance * (told ? claim.scale : scale_of(claim, model.rigid)) +
-         step_rounding * (std::sqrt(speed) + std::sqrt(mass) * size * (1 + turn) / claim.h);
+         step_rounding * (std::sqrt(speed) + std::sqrt(mass) * size / claim.h);
 }
 
 }  // namespace pbd::reference

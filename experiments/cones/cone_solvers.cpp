@@ -21,8 +21,12 @@ namespace {
 
 ConeSolution solve_by_siconos(std::string_view name, const ConeTask& task) {
   const auto& [delassus, free_velocity, friction] = task.problem;
-  auto answer =
-      pbd::rivals::siconos(name, {delassus, free_velocity, friction}, task.tolerance, task.most_sweeps);
+  const pbd::rivals::ContactProblem problem{delassus, free_velocity, friction};
+  if (!pbd::rivals::siconos_takes(problem))
+    throw pbd::SetupError("W with " + std::string(name), "an entry by which Siconos ends the program",
+                          "a positive diagonal, and entries from 1e-12 to 1e12 1/kg");
+  auto answer = pbd::rivals::siconos(name, problem, task.tolerance, task.most_sweeps);
+  throw_if_interrupted();
   ConeSolution found;
   found.impulse = std::move(answer.impulse);
   found.iterations = answer.iterations;

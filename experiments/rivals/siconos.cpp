@@ -48,11 +48,19 @@ MatrixHolder blocks_of(NumericsMatrix& triplets) {
 
 }  // namespace
 
+bool siconos_takes(const ContactProblem& problem) {
+  constexpr double least = 1e-12, most = 1e12;  // 1/kg
+  const Eigen::VectorXd diagonal = problem.delassus.diagonal();
+  const double largest =
+      problem.delassus.coeffs().size() > 0 ? problem.delassus.coeffs().abs().maxCoeff() : 0;
+  return (diagonal.array() >= least).all() && largest <= most;
+}
+
 ContactSolution siconos(std::string_view name, const ContactProblem& problem, double tolerance,
                         int most_iterations) {
   ContactSolution found;
   found.impulse.setZero(problem.free_velocity.size());
-  if (found.impulse.size() == 0) return found;
+  if (found.impulse.size() == 0 || !siconos_takes(problem)) return found;
   const int id = ids[std::find(siconos_names.begin(), siconos_names.end(), name) - siconos_names.begin()];
   MatrixHolder matrix = triplets_of(problem.delassus);
   if (id == SICONOS_FRICTION_3D_NSGS) matrix = blocks_of(*matrix);

@@ -10,7 +10,7 @@ namespace pbd::rivals {
 
 /// u = W r + q; contact i owns rows 3 i .. 3 i + 2: normal and two tangents.
 struct ContactProblem {
-  const Eigen::SparseMatrix<double>& delassus;  // W, 1/kg, need not be symmetric
+  const Eigen::SparseMatrix<double>& delassus;  // W, 1/kg; symmetric for admm
   const Eigen::VectorXd& free_velocity;         // q, m/s
   const Eigen::VectorXd& friction;              // of each contact
 };
@@ -27,8 +27,13 @@ struct ContactSolution {
 inline constexpr std::array<std::string_view, 3> siconos_names{"siconos_nsgs", "siconos_nsn_ac",
                                                                "siconos_admm"};
 
+/// False where Siconos' assertions would end the program: of each contact W_NN and W_TT have to be positive,
+/// and all of W between 1e-12 and 1e12 1/kg.
+bool siconos_takes(const ContactProblem& problem);
+
 /// Until Siconos' own measure, |r - P_K(r - u - mu |u_T| e_N)| / |q|, is within the tolerance, or for so many
-/// iterations, of Newton's method 1000 at most.
+/// iterations, of Newton's method 1000 at most. What it cannot take it does not solve: the impulses are zero.
+/// Not to be interrupted.
 ContactSolution siconos(std::string_view name, const ContactProblem& problem, double tolerance,
                         int most_iterations);
 

@@ -14,7 +14,7 @@ def cone_problems(results):
         "and q is made to fit, in eight families, so that the velocity sought is known. Who solves them is certified by the natural "
         "residual |r - P(r - u)| / |q| alone. The solver's relaxations see the same problem as rows whose response is a column of W; "
         "they are timed to 1e-4 and to 1e-8, the judges to the one answer they give. Of Coulomb's law three solvers of Siconos "
-        "[@acary2018solving] stand beside them, with as many iterations to spend.",
+        "[@acary2018solving] stand beside them, with as many iterations to spend, Newton's method 1000 at most.",
         figures=[
             Figure("cone_problems_profiles", "Performance profiles: the share of the problems solved to a residual, over the time "
                    "taken as a multiple of the fastest's, by law."),

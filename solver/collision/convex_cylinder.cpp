@@ -176,7 +176,8 @@ struct CylinderPair {
   }
 
   /// The edge, or where `arc` is at a node one that meets there, across the rim next to it, along which they
-  /// overlap least; false if they do by more than `apart` along each, or other features by more.
+  /// overlap least; false, and nothing is written, where other features lie farther, or the overlap is no
+  /// less than `apart` says.
   bool write_across_rim(int edge, double arc, double apart) const {
     const Vec3 y = point(edge, arc), tangent = b.rim_tangent(y);
     const int node = end(edge, arc), rim = (y - b.centre).dot(b.axis) < 0 ? -1 : 1;

@@ -125,8 +125,9 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   if (most <= 0) {
     look_along_rims(a, b, rims);
     look_along_rims(b, a, rims);
-    if (rims.apart > most + tiny) most = rims.apart;
   }
+  const bool by_rims = rims.apart > most + tiny;
+  if (by_rims) most = rims.apart;
 
   const Vec3 y_a = from_a + axes.s * a.axis;
   const ContactPoint edges =
@@ -149,8 +150,8 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
                         a.place(from_b + axes.t * b.axis).distance <= tiny;
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
   if (most == beside && beside == along_both) return writer.write(edges, sides_key, most);
-  if (most == beside || most == rims.apart)
-    return writer.rewrite(across_rims(a, b, most == beside ? normal : rims.normal), sides_key, most);
+  if (most == beside || by_rims)
+    return writer.rewrite(across_rims(a, b, by_rims ? rims.normal : normal), sides_key, most);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, writer);

@@ -100,7 +100,7 @@ class ContactSearch {
   std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
   Frame placed_frame(int collider, const Configuration& at) const;
 
-  // Late contacts: late_contacts.cpp.
+  // Late contacts: late_contacts.cpp. The way between is that of turns below pi.
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                           double share, double reach);

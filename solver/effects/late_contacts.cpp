@@ -53,7 +53,7 @@ void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& star
 /// which it has come to, if any are found: shapes in each other tell how they part, not how they met, and
 /// what has come over an edge would be thrown back across a face. Without any the step cannot be solved.
 bool ContactSearch::find_overlapping(Pair& pair, const Configuration& start, const Configuration& end) {
-  constexpr int halvings = 10;  // of the way: less than `overlooked` of what goes as far as it is thick
+  constexpr int halvings = 15;  // of the way: less than `overlooked` of r where a shape goes as far as 3 r
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double round = round_radius_of(one, two), slack = overlooked * round;
   const double least = generate_between(pair, start, end, 1, slack);

@@ -75,10 +75,10 @@ void Bodies::place(const Points& x, std::vector<Pose>& poses) const {
   }
 }
 
-double Bodies::largest_turn(const Points& x) const {
+double Bodies::largest_spin(const Points& v) const {
   double largest = 0;
   for (int b = 0; b < count(); ++b)
-    largest = std::max(largest, x.col(column(b)).cwiseQuotient(radius_[b]).norm());
+    largest = std::max(largest, v.col(column(b)).cwiseQuotient(radius_[b]).norm());
   return largest;
 }
 

@@ -56,8 +56,8 @@ class Bodies {
   /// Poses at positions x of all columns, since the last `begin`.
   void place(const Points& x, std::vector<Pose>& poses) const;
 
-  /// Of all bodies from where the step begins to positions x, rad.
-  double largest_turn(const Points& x) const;
+  /// The largest angular velocity at v, rad/s.
+  double largest_spin(const Points& v) const;
 
   /// Of gyration, m; 0 if there is no body.
   double largest_radius() const;

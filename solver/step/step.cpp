@@ -163,7 +163,7 @@ void StepRun::end(double h, State& state) {
   if (!system.at.x.allFinite() || !system.at.v.allFinite() || !std::isfinite(state.time + h)) {
     report.status = Status::diverged;
     report.reason = not_finite;
-  } else if (system.problem.bodies.largest_turn(system.at.x) > most_turn) {
+  } else if (h * system.problem.bodies.largest_spin(system.at.v) > most_turn) {
     report.status = Status::diverged;
     report.reason = "a body turns by more than double precision holds to 1e-8 rad";
   }

@@ -30,7 +30,18 @@ TEST_CASE("Siconos' solvers bring a mass point to rest, let it slide, and let it
   }
 }
 
-TEST_CASE("Siconos' solvers take no contact, and a W that is not symmetric") {
+TEST_CASE("Siconos' solvers are not given what ends the program") {
+  for (const double entry : {0.0, -1.0, 1e90, std::nan("")}) {
+    Eigen::Matrix3d w = Eigen::Matrix3d::Identity();
+    w(0, 0) = entry;
+    const VectorXd q = Vector3d(-1, 0, 0), friction = VectorXd::Constant(1, 0.5);
+    const Eigen::SparseMatrix<double> delassus = w.sparseView();
+    CHECK_FALSE(siconos_takes({delassus, q, friction}));
+    for (const auto name : siconos_names) CHECK(impulse_of(name, w, q, 0.5).isZero(0));
+  }
+}
+
+TEST_CASE("Siconos' solvers take no contact, and nsgs and nsn_ac a W that is not symmetric") {
   Eigen::Matrix3d w = Eigen::Matrix3d::Identity();
   w(1, 0) = 0.2;
   const Vector3d q(-1, 0.1, 0), r = -w.inverse() * q;  // sticks: |r_T| = 0.3 of r_N = 1

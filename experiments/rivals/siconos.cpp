@@ -28,6 +28,12 @@ struct ClearMatrix {
     std::free(matrix);  // Siconos took it by malloc
   }
 };
+struct DeleteOptions {
+  void operator()(SolverOptions* options) const {
+    solver_options_delete(options);  // what it points to alone
+    std::free(options);
+  }
+};
 using MatrixHolder = std::unique_ptr<NumericsMatrix, ClearMatrix>;
 
 MatrixHolder triplets_of(const Eigen::SparseMatrix<double>& matrix) {
@@ -66,8 +72,7 @@ ContactSolution siconos(std::string_view name, const ContactProblem& problem, do
   if (id == SICONOS_FRICTION_3D_NSGS) matrix = blocks_of(*matrix);
   Eigen::VectorXd q = problem.free_velocity, mu = problem.friction, velocity = found.impulse;
   FrictionContactProblem stated{3, static_cast<int>(mu.size()), matrix.get(), q.data(), mu.data()};
-  const std::unique_ptr<SolverOptions, void (*)(SolverOptions*)> options(solver_options_create(id),
-                                                                         solver_options_delete);
+  const std::unique_ptr<SolverOptions, DeleteOptions> options(solver_options_create(id));
   options->dparam[SICONOS_DPARAM_TOL] = tolerance;
   options->iparam[SICONOS_IPARAM_MAX_ITER] =
       id == SICONOS_FRICTION_3D_NSN_AC ? std::min(most_iterations, most_newton_iterations) : most_iterations;

@@ -152,7 +152,7 @@ double Depths::allowed(int i, int j, const std::vector<Vec3>& ways) const {
   const auto reach = [](const Size& size) { return std::isfinite(size.outer) ? size.outer : 0.0; };
   const double inverse = sides_.inverse_mass(i, reach(one)) + sides_.inverse_mass(j, reach(two));
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + reach(one) + reach(two);
-  return before + (std::isfinite(round) ? overlooked * round : 0.0) +  // what is overlooked comes on top
+  return std::max(before, std::isfinite(round) ? overlooked * round : 0.0) +
          (1 + sides_.law(i, j).friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;
 }
 

@@ -17,8 +17,13 @@ void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double f
     write_rims(a, b.cap(end), end * b.axis, 0, Feature::cap, end + 1, floor, writer,
                [&](const Vec3& x) { return (x - b.centre).cross(b.axis).norm() <= b.radius + slack; });
   for (const int end : {-1, 1}) {
-    const Vec3 y = a.on_rim(end, nearest_angle(a, end, b));
-    write_point(y, 0, Feature::rim, nearest_of_rim(end), b, writer);
+    const NearestAngles angles = nearest_angles(a, end, b, writer.reach.margin);
+    const auto side = [&](const Vec3& y) { return (y - a.cap(end)).dot(b.axis) > 0; };
+    for (int k = 0; k < angles.count; ++k) {
+      const Vec3 y = a.on_rim(end, angles.angle[k]);
+      const bool taken = k > 0 && side(y) == side(a.on_rim(end, angles.angle[0]));
+      write_point(y, 0, Feature::rim, nearest_of_rim(end, side(y) != taken), b, writer);
+    }
   }
 }
 
@@ -29,19 +34,53 @@ struct Way {
 };
 
 /// The best of b's normals at the points of a's rims that are nearest to it, or deepest in it, and of those
-/// across both rims there.
-void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, Way& best) {
-  const Vec3 apart = a.centre - b.centre;
+/// across both rims there; `towards` a first shape from a second, whichever a is.
+void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& towards, double reach,
+                     Way& best) {
   const auto look = [&](const Vec3& across) {
     if (!(across.norm() > rounding)) return;
-    const Vec3 normal = (across.dot(apart) < 0 ? -1 : 1) * across.normalized();
-    const double here = normal.dot(apart) - a.support(normal) - b.support(normal);
+    const Vec3 normal = (across.dot(towards) < 0 ? -1 : 1) * across.normalized();
+    const double here = normal.dot(towards) - a.support(normal) - b.support(normal);
     if (here > best.apart) best = {here, normal};
   };
-  for (const int end : {-1, 1}) {
-    const Vec3 y = a.on_rim(end, nearest_angle(a, end, b));
-    look(b.place(y).normal);
-    look(a.axis.cross(y - a.cap(end)).normalized().cross(b.rim_tangent(y)));
+  for (const int end : {-1, 1})
+    for (const double angle : nearest_angles(a, end, b, reach)) {
+      const Vec3 y = a.on_rim(end, angle);
+      look(b.place(y).normal);
+      look(a.axis.cross(y - a.cap(end)).normalized().cross(b.rim_tangent(y)));
+    }
+}
+
+/// What is between them along the unit vector, m; negative: they overlap.
+double apart_along(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal) {
+  return normal.dot(a.centre - b.centre) - a.support(normal) - b.support(normal);
+}
+
+/// To the direction next to it along which they are farthest apart: Newton's method on the sphere, where the
+/// slope is what lies between their farthest points, and rims bend it by radius over sine of the angle to
+/// the axis.
+void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
+  constexpr int most_steps = 10, most_halvings = 5;
+  for (int k = 0; k < most_steps; ++k) {
+    const Vec3 n = way.normal;
+    Vec3 between = a.centre - b.centre;
+    const Eigen::Matrix3d along_n = n * n.transpose();
+    Eigen::Matrix3d bend = a.radius * along_n + way.apart * (Eigen::Matrix3d::Identity() - along_n);
+    for (const PlacedCylinder* own : {&a, &b}) {
+      const Vec3 aside = n - n.dot(own->axis) * own->axis;
+      const double sine = aside.norm();
+      if (!(sine > rounding)) return;
+      const Vec3 along = own->axis.cross(aside / sine);
+      between -= (n.dot(own->axis) < 0 ? -1 : 1) * own->half * own->axis + own->radius * aside / sine;
+      bend += own->radius / sine * along * along.transpose();
+    }
+    const Vec3 move = bend.inverse() * (between - between.dot(n) * n);
+    double share = 1;
+    for (int i = 0; i < most_halvings && way.normal == n; ++i, share /= 2) {
+      const Vec3 next = (n + share * move).normalized();
+      if (const double here = apart_along(a, b, next); here > way.apart) way = {here, next};
+    }
+    if (way.normal == n || !(share * move.norm() > rounding)) return;
   }
 }
 
@@ -123,8 +162,9 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   if (most >= writer.reach.margin) return;
   Way rims;
   if (most <= 0) {
-    look_along_rims(a, b, rims);
-    look_along_rims(b, a, rims);
+    look_along_rims(a, b, apart, writer.reach.margin, rims);
+    look_along_rims(b, a, apart, writer.reach.margin, rims);
+    climb(a, b, rims);
   }
   const bool by_rims = rims.apart > most + tiny;
   if (by_rims) most = rims.apart;

@@ -19,9 +19,9 @@ constexpr int rim_point(int end, int k) {
   return (rim_points + 1) * (end + 1) + k;
 }
 
-/// Of its nearest point: another one than those.
-constexpr int nearest_of_rim(int end) {
-  return rim_point(2, 0) + end + 1;
+/// Of its points next to another cylinder, one on each side of its middle: others than those.
+constexpr int nearest_of_rim(int end, bool side) {
+  return rim_point(2, 0) + 2 * (end + 1) + (side ? 1 : 0);
 }
 
 /// Numbers in keys of a rim or cap that edges cross: others than end + 1, which those have whose nearest

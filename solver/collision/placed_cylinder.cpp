@@ -1,8 +1,10 @@
 #include "collision/placed_cylinder.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "collision/tolerances.h"
 
@@ -48,35 +50,41 @@ double nearest_arc(const Segment& edge, const PlacedCylinder& b) {
   return (low + high) / 2;
 }
 
-double nearest_angle(const PlacedCylinder& a, int end, const PlacedCylinder& b) {
+NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylinder& b, double reach) {
   constexpr int samples = 16, halvings = 52;  // 2^-52 of an arc is rounding
   constexpr double part = 2 * std::numbers::pi / samples;
   const auto distance = [&](double angle) { return b.place(a.on_rim(end, angle)).distance; };
   std::array<double, samples> sampled{};
   for (int k = 0; k < samples; ++k) sampled[k] = distance(k * part);
-  double best = 0, least = infinity;
+  struct Least {
+    double distance = infinity, angle = 0;
+  };
+  std::array<Least, 2> least{};
+  const auto add = [&](double angle, double at) {
+    if (at < least[1].distance) least[1] = {at, angle};
+    if (at < least[0].distance) std::swap(least[0], least[1]);
+  };
+  bool plain = false;  // a stretch of the same distance counts once
   for (int k = 0; k < samples; ++k) {
     const double here = sampled[k];
     const double before = sampled[(k + samples - 1) % samples];
     const double after = sampled[(k + 1) % samples];
     const bool level = std::max(before, after) - here < rounding * a.radius;
-    if (level && here < least) {
-      least = here;
-      best = k * part;
-    }
-    if (level || here > before || here > after || here - part * a.radius > least) continue;
+    if (level && !plain) add(k * part, here);
+    plain = level;
+    if (level || here >= before || here > after || here - part * a.radius > reach) continue;
     double low = (k - 1) * part, high = (k + 1) * part;
     for (int halving = 0; halving < halvings; ++halving) {
       const double middle = (low + high) / 2;
       const Vec3 y = a.on_rim(end, middle), along = a.axis.cross(y - a.cap(end));
       (b.place(y).normal.dot(along) < 0 ? low : high) = middle;
     }
-    const double found = distance(low);
-    if (found >= least) continue;
-    least = found;
-    best = low;
+    add(low, distance(low));
   }
-  return best;
+  NearestAngles found;
+  for (const Least& each : least)
+    if (each.distance <= reach) found.angle[found.count++] = each.angle;
+  return found;
 }
 
 }  // namespace pbd

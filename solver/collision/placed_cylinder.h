@@ -1,6 +1,8 @@
 // A cylinder placed in the world (or in a mesh's frame), and where points are relative to it.
 #pragma once
 
+#include <array>
+
 #include "collision/segments.h"
 #include "shapes.h"
 
@@ -40,8 +42,16 @@ struct PlacedCylinder {
 /// The arc of an edge's point nearest to the cylinder (m): the distance is convex, its slope is bisected.
 double nearest_arc(const Segment& edge, const PlacedCylinder& b);
 
-/// The angle of the point of a's rim that is nearest to (or deepest in) b: about the least of 16 samples,
+/// Angles of points of a rim that are nearer to (or deeper in) the other than those beside them.
+struct NearestAngles {
+  std::array<double, 2> angle{};
+  int count = 0;
+  const double* begin() const { return angle.data(); }
+  const double* end() const { return angle.data() + count; }
+};
+
+/// Of a's rim at `end`, within reach (m) of b: two where b lies across the cap. About the least of 16 samples,
 /// where the distance's slope changes its sign.
-double nearest_angle(const PlacedCylinder& a, int end, const PlacedCylinder& b);
+NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylinder& b, double reach);
 
 }  // namespace pbd

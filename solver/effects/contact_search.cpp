@@ -136,13 +136,17 @@ void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
     const std::size_t group = contact.node_side < 0 ? bodies_rough : nodes_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
   };
-  for (const ContactPoint& point : found_)
+  double deepest = 0;
+  for (const ContactPoint& point : found_) {
+    deepest = std::min(deepest, gap_of(point, one.frame, two.frame));
     if (late_contact({first, second}, point.key) == late_.end()) add(active(point, first, second));
+  }
   for (const ActiveContact& contact : late_)
     if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
-  if (bounded && wary * travel * travel > 8 * overlooked * std::pow(round_radius_of(one, two), 2))
-    far_.push_back({{first, second}});
+  const double round = round_radius_of(one, two);
+  if (bounded && wary * travel * travel > 8 * round * (overlooked * round + deepest))
+    far_.push_back({{first, second}, deepest});
 }
 
 void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,

@@ -79,8 +79,8 @@ class ContactSearch {
   };
   struct Pair {
     std::array<int, 2> collider;
+    double deepest = 0;           // m, gap as it begins, at most 0: what overlaps gets no deeper
     double least_end = infinity;  // m, gap that its contacts tell of
-    double deepest = 0;           // m, as it begins: what overlaps gets no deeper
   };
   struct Displacement {
     double shift, turn;  // m, rad
@@ -100,13 +100,16 @@ class ContactSearch {
   std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
   Frame placed_frame(int collider, const Configuration& at) const;
 
+  /// m, with the frames of the pair in the order of the colliders.
+  static double gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second);
+
   // Late contacts: late_contacts.cpp. The way between is that of turns below pi.
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                           double share, double reach);
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
-  bool find_overlapping(Pair& pair, const Configuration& start, const Configuration& end);
+  bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
 
   const Contact& effect_;
   AllowedPairs allowed_;

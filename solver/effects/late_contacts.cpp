@@ -4,14 +4,9 @@
 
 namespace pbd {
 
-namespace {
-
-/// m
-double gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second) {
+double ContactSearch::gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second) {
   return point.swapped ? touching(point, at_second, at_first).gap : touching(point, at_first, at_second).gap;
 }
-
-}  // namespace
 
 Frame ContactSearch::frame_between(int collider, const Configuration& start, const Configuration& end,
                                    double share) const {
@@ -52,16 +47,14 @@ void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& star
 /// True if a pair overlaps at `end` as none of the step's contacts tells; sets `found_` to the points by
 /// which it has come to, if any are found: shapes in each other tell how they part, not how they met, and
 /// what has come over an edge would be thrown back across a face. Without any the step cannot be solved.
-bool ContactSearch::find_overlapping(Pair& pair, const Configuration& start, const Configuration& end) {
+bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   constexpr int halvings = 15;  // of the way: less than `overlooked` of r where a shape goes as far as 3 r
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double round = round_radius_of(one, two), slack = overlooked * round;
-  const double least = generate_between(pair, start, end, 1, slack);
-  if (!(least < std::min(pair.least_end, 0.0) - slack)) return false;
-  pair.deepest = std::min(generate_between(pair, start, end, 0, slack), 0.0);
-  const double allowed = std::min(pair.least_end, pair.deepest) - slack;
-  if (!(least < allowed)) return false;
-  const double behind = pair.deepest - slack;
+  const double rounded = 1e-12 * (one.radius + one.travel + two.radius + two.travel);
+  const double behind = std::min(pair.deepest, -slack) - rounded;
+  const double allowed = std::min(pair.least_end - rounded, behind);
+  if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
   double apart = 0, overlapping = 1;
   for (int k = 0; k < halvings; ++k) {
     const double middle = (apart + overlapping) / 2;
@@ -90,7 +83,7 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
       pair->least_end = std::min(pair->least_end, gap);
     }
   bool seen = false;
-  for (Pair& pair : far_) {
+  for (const Pair& pair : far_) {
     if (!find_overlapping(pair, start, end)) continue;
     seen = true;
     for (const ContactPoint& point : found_) {

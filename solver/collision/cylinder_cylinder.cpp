@@ -86,10 +86,7 @@ void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
 
 /// What they overlap by along a normal that is no feature's own, at the deepest points of both.
 ContactPoint across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal) {
-  const auto end_towards = [&](const Vec3& axis, const Vec3& n) { return axis.dot(n) < 0 ? -1 : 1; };
-  const int end = end_towards(b.axis, normal);
-  const Vec3 farthest = touching(on_plane_by_rim(b, end, b.centre, -normal, 0), {}, {}).point_a;
-  return on_plane_by_rim(a, end_towards(a.axis, -normal), farthest, normal, 0);
+  return on_plane_by_rim(a, a.axis.dot(normal) > 0 ? -1 : 1, b.farthest(normal), normal, 0);
 }
 
 /// a's rim at `end`, its point nearest to b's axis, against b's side.

@@ -8,7 +8,7 @@ namespace pbd {
 namespace {
 
 /// Of the mesh's edge j, the point nearest to the cylinder, if that is nearest to a rim. True if it is
-/// inside.
+/// inside by more than rounding.
 bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
                        const ContactWriter& writer) {
   const auto& edge = mesh.solid.edges[j];
@@ -18,7 +18,7 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   const Segment all{from, along, length};
   const double arc = nearest_arc(all, cylinder);
   const PlacedCylinder::Place at = cylinder.place(all.at(arc));
-  if (at.distance <= 0) return true;
+  if (at.distance <= -rounding * cylinder.size()) return true;
   const auto lowest = [&](const Vec3& apart) {
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
@@ -26,6 +26,17 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
     write_point(all.at(arc), 0, Feature::edge, j, cylinder, writer);
   return false;
+}
+
+/// True if the cylinder goes through the triangle and does not end in its plane: then, unless it cuts the
+/// triangle's edges, the way from its centre through the plane to its farthest point does.
+bool pierces(const PlacedCylinder& cylinder, const ClosedMesh& mesh, int triangle, double above,
+             double support) {
+  if (!(std::abs(above) < support - rounding * cylinder.size())) return false;
+  const Vec3& normal = mesh.solid.faces[triangle].normal;
+  const Vec3 farthest = cylinder.farthest((above < 0 ? 1 : -1) * normal);
+  const Vec3 through = cylinder.centre + std::abs(above) / support * (farthest - cylinder.centre);
+  return nearest_of_triangle(mesh, triangle, through).feature == MeshPlace::Feature::face;
 }
 
 }  // namespace
@@ -39,7 +50,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
   side.nodes_of_mesh();
   const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.reach.margin);
   const ContactWriter exchanged = writer.exchanged();
-  double shallowest = -infinity;  // of the faces whose edges go through the cylinder
+  double shallowest = -infinity;  // of the faces that go through the cylinder
   int cut = -1;
   b.tree.find(AxisBox(a.centre - reach, a.centre + reach), [&](int triangle) {
     const auto& face = b.solid.faces[triangle];
@@ -57,13 +68,14 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
           lowest_about(b, node, at.normal, flat_slope + (at.distance > 0 ? writer.reach.turn : 0)))
         write_point(y, 0, Feature::node, node, a, exchanged);
     }
+    bool cuts = pierces(a, b, triangle, above, support);
     for (std::size_t k = 0; k < 3; ++k)
-      if (write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged) && above - support > shallowest) {
-        shallowest = above - support;
-        cut = triangle;
-      }
+      cuts |= write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged);
+    if (!cuts || above - support <= shallowest) return;
+    shallowest = above - support;
+    cut = triangle;
   });
-  if (writer.least() <= rounding * a.size()) return;
+  if (writer.least() <= -rounding * a.size()) return;
   MeshPlace place{};
   if (cut >= 0)
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,

@@ -14,6 +14,11 @@ Vec3 PlacedCylinder::on_rim(int end, double angle) const {
   return cap(end) + radius * (std::cos(angle) * across + std::sin(angle) * axis.cross(across));
 }
 
+Vec3 PlacedCylinder::farthest(const Vec3& n) const {
+  const Vec3 aside = n - n.dot(axis) * axis;
+  return cap(n.dot(axis) < 0 ? -1 : 1) + (aside.norm() > rounding ? radius : 0) * aside.normalized();
+}
+
 double PlacedCylinder::support(const Vec3& n) const {
   return half * std::abs(n.dot(axis)) + radius * (n - n.dot(axis) * axis).norm();
 }

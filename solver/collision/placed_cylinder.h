@@ -35,7 +35,8 @@ struct PlacedCylinder {
   /// Along the rims where they are nearest to x; unit, zero on the axis.
   Vec3 rim_tangent(const Vec3& x) const { return axis.cross(x - centre).normalized(); }
   Place place(const Vec3& x) const;
-  /// Of the farthest point along the unit vector n, measured from the centre (m).
+  /// The farthest point along the unit vector n, and how far it is from the centre along n (m).
+  Vec3 farthest(const Vec3& n) const;
   double support(const Vec3& n) const;
 };
 
@@ -50,8 +51,8 @@ struct NearestAngles {
   const double* end() const { return angle.data() + count; }
 };
 
-/// Of a's rim at `end`, within reach (m) of b: two where b lies across the cap. About the least of 16 samples,
-/// where the distance's slope changes its sign.
+/// Of a's rim at `end`, within reach (m) of b: two where b lies across the cap. About the least of 16
+/// samples, where the distance's slope changes its sign.
 NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylinder& b, double reach);
 
 }  // namespace pbd

@@ -11,11 +11,12 @@
 //
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
-// in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) is above
-// 1e-4 r are looked at again where the solved step ends, and what overlaps there by more, and by more than
-// from the start, joins the step's contacts; not on a half space, all of whose contacts are exact as bodies
-// move. Of polyhedra r is half their least width. Neither is a bound, but what random steps hold to
-// (tests/solver/contact_motion.cpp).
+// in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) takes them
+// below -1e-4 r are looked at again where the solved step ends, and what overlaps there by more than 1e-4 r,
+// and by more than where the step began, joins the step's contacts; not on a half space, all of whose
+// contacts are exact as bodies move. Of polyhedra r is half their least width. Neither is a bound, but what
+// random steps hold to (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
+// generate.h says of them, which may be too large.
 #pragma once
 
 #include <array>

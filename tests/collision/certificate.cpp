@@ -2,6 +2,7 @@
 // wide as the points are apart: each pose brings its own proof.
 #include <catch2/catch.hpp>
 
+#include "collision/bounds.h"
 #include "contact_shapes.h"
 
 using namespace pbd;
@@ -116,6 +117,32 @@ TEST_CASE("what has just entered a cylinder is as deep in it as it went") {
   INFO(kind << " of " << seen);
   CHECK(seen > 200);
   CHECK(deep == 0);
+}
+
+TEST_CASE("what has a point in common with a closed mesh is told to overlap it") {
+  const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder");
+  Random random(19);
+  int overlapping = 0, untold = 0;
+  for (int number = 0; number < 2000; ++number) {
+    const Shape a = random_shape(kind, random), b = random_shape("mesh", random);
+    const Frame at_b{random.vector(), random.rotation()},
+        at_a{at_b.place(random.uniform(0, 1) * random.vector().normalized()), random.rotation()};
+    const auto common = [&] {
+      const Vec3 x = at_a.origin + bounding_radius(a) * random.vector();
+      return outside(a, at_a, x) == 0 && outside(b, at_b, x) == 0;
+    };
+    bool overlap = false;
+    for (int k = 0; k < 200 && !overlap; ++k) overlap = common();
+    if (!overlap) continue;
+    ++overlapping;
+    double least = infinity;
+    for (const auto& contact : contacts(a, at_a, b, at_b, 1.0))
+      least = std::min(least, touch(contact, at_a, at_b).gap);
+    untold += !(least < 0);
+  }
+  INFO(kind << " of " << overlapping);
+  CHECK(overlapping > 500);
+  CHECK(untold == 0);
 }
 
 TEST_CASE("the least gap over a half space is the height of the lowest point") {

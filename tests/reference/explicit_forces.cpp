@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "body_scenes.h"
 #include "claimed_step.h"
 
 using namespace pbd;
@@ -9,17 +10,9 @@ using namespace pbd::test;
 
 namespace {
 
-/// A body of 1 kg that a stretched link of limited force pulls towards a fixed one, by explicit forces.
+/// A stretched link of limited force pulls by explicit forces.
 Step limited_link(std::vector<ForceBounds> bounds) {
-  Scene scene;
-  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
-  add_body(scene, Vec3(1.5, 0, 0), 1, Vec3::Ones());
-  scene.effects.emplace_back(BodyDistance{.body = {{0, 1}},
-                                          .point = {{Vec3::Zero(), Vec3::Zero()}},
-                                          .rest_length = {1},
-                                          .compliance = {0.01},
-                                          .bounds = std::move(bounds)});
-  Step step(scene);
+  Step step(linked_body(1.5, 1, 0.01, std::move(bounds)));
   step.integrator = "symplectic_euler";
   step.end.v.col(1).x() = -step.h * 10;  // of 50 N at most 10
   step.move();

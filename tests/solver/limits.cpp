@@ -1,11 +1,13 @@
 // Limits of joints.
 #include <catch2/catch.hpp>
 
+#include "body_scenes.h"
 #include "error.h"
 #include "step/integrators.h"
 #include "step/step.h"
 
 using namespace pbd;
+using namespace pbd::test;
 
 namespace {
 
@@ -109,14 +111,7 @@ TEST_CASE("a motor of limited torque works on an arm that rests on its limit, by
 
 TEST_CASE("a slack rope does nothing, compliant or not, whatever the integrator starts with") {
   const double compliance = GENERATE(0.0, 1e-3);
-  Scene scene;
-  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
-  add_body(scene, Vec3(1, 0, 0), 1, Vec3::Ones());
-  scene.effects.emplace_back(BodyDistance{.body = {{0, 1}},
-                                          .point = {{Vec3::Zero(), Vec3::Zero()}},
-                                          .rest_length = {2},
-                                          .compliance = {compliance},
-                                          .bounds = {{-infinity, 0}}});
+  const Scene scene = linked_body(1, 2, compliance, {{-infinity, 0}});
   for (const Integrator& integrator : integrators()) {
     INFO(integrator.name);
     Method method;

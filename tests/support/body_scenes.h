@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "mesh.h"
 #include "scene.h"
@@ -17,6 +19,18 @@ inline void join(PointJoint& joints, int a, int b, const Vec3& own_a, const Vec3
   joints.body.push_back({a, b});
   joints.point.push_back({own_a, own_b});
   joints.compliance.push_back(compliance);
+}
+
+/// The world, and a body of 1 kg at (x, 0, 0) linked to it from centre to centre.
+inline Scene linked_body(double x, double rest_length, double compliance, std::vector<ForceBounds> bounds) {
+  Scene scene;
+  const int world = add_world(scene), body = add_body(scene, Vec3(x, 0, 0), 1, Vec3::Ones());
+  scene.effects.emplace_back(BodyDistance{.body = {{world, body}},
+                                          .point = {{Vec3::Zero(), Vec3::Zero()}},
+                                          .rest_length = {rest_length},
+                                          .compliance = {compliance},
+                                          .bounds = std::move(bounds)});
+  return scene;
 }
 
 /// Rods of 0.5 m along their first axis, each on the last one's end by a ball joint; the first on the world.

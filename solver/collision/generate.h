@@ -6,11 +6,12 @@
 //   cylinder                     rims on faces and caps, nodes and edges on caps and sides
 //   closed mesh                  nodes over faces, edges that cross, minima of the distance
 //
-// The least gap of convex shapes is their signed distance, with this exception: cylinders that overlap deeply
-// at a rim and an edge or at two rims are given a depth along a face's normal, a cap's, across the axes, or
-// across the rim where it is deepest, which may be larger than the least one. Meshes are exact outside each
-// other; inside, gaps are those of nodes and crossing edges below the faces nearest to them, without any of
-// these along the normal of a face that is cut: not the shortest translation that parts them.
+// The least gap of convex shapes is their signed distance, with this exception: where cylinders overlap at a
+// rim and an edge or at two rims it is the depth along a face's normal, a cap's, across the axes, or the
+// direction next to the rim's deepest point along which they overlap least, which may be larger than the
+// least one. Meshes are exact outside each other; inside, gaps are those of nodes and crossing edges below
+// the faces nearest to them, without any of these along the normal of a face that is cut: not the shortest
+// translation that parts them.
 //
 // What is not exact as bodies move, to first order only: what touches a rim without being a plane (kind
 // `point` at the rim's nearest point, or the plane between the nearest points), edges that are nearly

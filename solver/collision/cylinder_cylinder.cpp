@@ -35,8 +35,7 @@ struct Way {
 
 /// The best of b's normals at the points of a's rims that are nearest to it, or deepest in it, and of those
 /// across both rims there; `towards` a first shape from a second, whichever a is.
-void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& towards, double reach,
-                     Way& best) {
+void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& towards, Way& best) {
   const auto look = [&](const Vec3& across) {
     if (!(across.norm() > rounding)) return;
     const Vec3 normal = (across.dot(towards) < 0 ? -1 : 1) * across.normalized();
@@ -44,7 +43,7 @@ void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec
     if (here > best.apart) best = {here, normal};
   };
   for (const int end : {-1, 1})
-    for (const double angle : nearest_angles(a, end, b, reach)) {
+    for (const double angle : nearest_angles(a, end, b, infinity)) {
       const Vec3 y = a.on_rim(end, angle);
       look(b.place(y).normal);
       look(a.axis.cross(y - a.cap(end)).normalized().cross(b.rim_tangent(y)));
@@ -159,8 +158,8 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   if (most >= writer.reach.margin) return;
   Way rims;
   if (most <= 0) {
-    look_along_rims(a, b, apart, writer.reach.margin, rims);
-    look_along_rims(b, a, apart, writer.reach.margin, rims);
+    look_along_rims(a, b, apart, rims);
+    look_along_rims(b, a, apart, rims);
     climb(a, b, rims);
   }
   const bool by_rims = rims.apart > most + tiny;
@@ -179,12 +178,15 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   }
   rims_on_cylinder(a, b, most - tiny, writer);
   rims_on_cylinder(b, a, most - tiny, writer.exchanged());
-  if (inside && crossed && beside >= most - tiny) writer.write(edges, sides_key, beside);
+  if (inside && crossed && along_both >= most - tiny) writer.write(edges, sides_key, along_both);
   if (inside && !crossed && along_line > 0) writer.write(line, sides_key, along_line);
   const double least = writer.least();
   // Without a rim in the other, they overlap where their sides cross or one goes through the other.
-  const bool crossing = (inside && along_line < 0) || b.place(from_a + axes.s * a.axis).distance <= tiny ||
-                        a.place(from_b + axes.t * b.axis).distance <= tiny;
+  const auto goes_through = [&](const PlacedCylinder& own, const PlacedCylinder& other) {
+    const Segment axis{own.cap(-1), own.axis, 2 * own.half};
+    return other.place(axis.at(nearest_arc(axis, other))).distance <= tiny;
+  };
+  const bool crossing = (inside && along_line < 0) || goes_through(a, b) || goes_through(b, a);
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
   if (most == beside && beside == along_both) return writer.write(edges, sides_key, most);
   if (most == beside || by_rims)

@@ -7,8 +7,25 @@
 namespace pbd {
 namespace {
 
+/// Of an edge whose point y is in the cylinder: across it and the rim next to y, if both are lowest along
+/// that.
+template <class Lowest>
+bool write_across_rim(const Vec3& y, const Vec3& along, int edge, const PlacedCylinder& cylinder,
+                      const ContactWriter& writer, Lowest&& lowest) {
+  const Vec3 tangent = cylinder.rim_tangent(y), outward = tangent.cross(cylinder.axis);
+  const int end = (y - cylinder.centre).dot(cylinder.axis) < 0 ? -1 : 1;
+  Vec3 normal = along.cross(tangent);
+  if (!(normal.norm() > rounding)) return false;
+  normal = (normal.dot(outward) < 0 ? -1 : 1) * normal.normalized();
+  if (end * normal.dot(cylinder.axis) < 0 || !lowest(normal)) return false;
+  const Vec3 on_rim = cylinder.cap(end) + cylinder.radius * outward;
+  writer.write(on_edges(y, along, 0, on_rim, tangent, 0, normal),
+               writer.key(Feature::edge, edge, Feature::rim, end + 1), normal.dot(y - on_rim));
+  return true;
+}
+
 /// Of the mesh's edge j, the point nearest to the cylinder, if that is nearest to a rim. True if it is
-/// inside by more than rounding.
+/// inside and no contact tells so.
 bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
                        const ContactWriter& writer) {
   const auto& edge = mesh.solid.edges[j];
@@ -18,10 +35,13 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   const Segment all{from, along, length};
   const double arc = nearest_arc(all, cylinder);
   const PlacedCylinder::Place at = cylinder.place(all.at(arc));
-  if (at.distance <= -rounding * cylinder.size()) return true;
   const auto lowest = [&](const Vec3& apart) {
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
+  if (at.distance <= 0) {
+    const bool told = write_across_rim(all.at(arc), along, j, cylinder, writer, lowest);
+    return !told && at.distance <= -rounding * cylinder.size();
+  }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
     write_point(all.at(arc), 0, Feature::edge, j, cylinder, writer);

@@ -74,7 +74,7 @@ NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylin
     const double here = sampled[k];
     const double before = sampled[(k + samples - 1) % samples];
     const double after = sampled[(k + 1) % samples];
-    const bool level = std::max(before, after) - here < rounding * a.radius;
+    const bool level = std::max(std::abs(before - here), std::abs(after - here)) < rounding * a.radius;
     if (level && !plain) add(k * part, here);
     plain = level;
     if (level || here >= before || here > after || here - part * a.radius > reach) continue;

@@ -119,16 +119,20 @@ TEST_CASE("what has just entered a cylinder is as deep in it as it went") {
   CHECK(deep == 0);
 }
 
-TEST_CASE("what has a point in common with a closed mesh is told to overlap it") {
-  const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder");
+TEST_CASE("what has a point in common with a closed mesh or a cylinder is told to overlap it") {
+  const auto kind = GENERATE(as<std::string>(), "sphere", "capsule", "box", "hull", "cylinder", "disc");
+  const auto other = GENERATE(as<std::string>(), "mesh", "cylinder");
   Random random(19);
   int overlapping = 0, untold = 0;
-  for (int number = 0; number < 2000; ++number) {
-    const Shape a = random_shape(kind, random), b = random_shape("mesh", random);
+  for (int number = 0; number < 1000; ++number) {
+    const Shape a = kind == "disc" ? Shape{Cylinder{0.5, 0.02}} : random_shape(kind, random),
+                b = random_shape(other, random);
     const Frame at_b{random.vector(), random.rotation()},
         at_a{at_b.place(random.uniform(0, 1) * random.vector().normalized()), random.rotation()};
     const auto common = [&] {
-      const Vec3 x = at_a.origin + bounding_radius(a) * random.vector();
+      const Vec3 x = at_a.place(
+          bounding_radius(a) *
+          (kind == "disc" ? Vec3(random.vector().cwiseProduct(Vec3(1, 1, 0.02))) : random.vector()));
       return outside(a, at_a, x) == 0 && outside(b, at_b, x) == 0;
     };
     bool overlap = false;
@@ -140,9 +144,34 @@ TEST_CASE("what has a point in common with a closed mesh is told to overlap it")
       least = std::min(least, touch(contact, at_a, at_b).gap);
     untold += !(least < 0);
   }
-  INFO(kind << " of " << overlapping);
-  CHECK(overlapping > 500);
+  INFO(kind << " and " << other << ": of " << overlapping);
+  CHECK(overlapping > 250);
   CHECK(untold == 0);
+}
+
+TEST_CASE("the middle of a thin disc is no way through for a rod") {
+  for (const double aside : {0.1, 0.4})
+    for (const double tilt : {0.0, 0.02, 0.3}) {
+      const Frame rod{Vec3(aside, 0, 0), Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix()};
+      double least = infinity;
+      for (const auto& contact : contacts(Cylinder{0.05, 1}, rod, Cylinder{0.5, 0.01}, {}, 1.0))
+        least = std::min(least, touch(contact, rod, {}).gap);
+      CHECK(least < -0.01);  // the disc's thickness, and more
+    }
+}
+
+TEST_CASE("a cylinder's rim goes through an edge of a closed mesh as far as it goes") {
+  const double root = std::sqrt(0.5), tilt = 0.4, quarter = std::atan(1.0);
+  const Frame at_mesh{Vec3::Zero(), Eigen::AngleAxisd(quarter, Vec3::UnitY()).toRotationMatrix()};
+  for (const double apart : {1e-6, 1e-10, 0.0, -1e-10, -1e-9, -2e-9, -1e-6}) {
+    const double height = root + 0.25 * std::cos(tilt) + 0.2 * std::sin(tilt) + apart;
+    const Frame at{Vec3(0, 0.03, height), Eigen::AngleAxisd(tilt, Vec3::UnitX()).toRotationMatrix()};
+    double least = infinity;
+    for (const auto& contact :
+         contacts(Cylinder{0.2, 0.5}, at, ClosedMesh(box_surface(Vec3(1, 1, 1))), at_mesh, 0.01))
+      least = std::min(least, touch(contact, at, at_mesh).gap);
+    CHECK(std::abs(least - apart) <= 1e-12);
+  }
 }
 
 TEST_CASE("the least gap over a half space is the height of the lowest point") {

@@ -180,8 +180,8 @@ struct CylinderPair {
   /// less than `apart` says.
   bool write_across_rim(int edge, double arc, double apart) const {
     const Vec3 y = point(edge, arc), tangent = b.rim_tangent(y);
-    const int node = end(edge, arc), rim = (y - b.centre).dot(b.axis) < 0 ? -1 : 1;
-    const Vec3 on_rim = b.cap(rim) + b.radius * tangent.cross(b.axis);
+    const int node = end(edge, arc);
+    const Vec3 on_rim = b.rim_at(y);
     CylinderAxis best{apart + tiny, CylinderAxis::Of::edge, -1, {}};
     for (int e = 0; e < a.edge_count(); ++e) {
       const Vec3 across = a.along[e].cross(tangent);
@@ -196,7 +196,7 @@ struct CylinderPair {
     const double gap = best.apart - a.radius;
     writer.drop_deeper(gap - tiny);
     writer.rewrite(on_edges(y, a.along[best.i], a.radius, on_rim, tangent, 0, best.normal),
-                   writer.key(Feature::edge, best.i, Feature::rim, rim + 1), gap);
+                   writer.key(Feature::edge, best.i, Feature::rim, b.end_at(y) + 1), gap);
     return true;
   }
 

@@ -18,12 +18,10 @@ void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double f
                [&](const Vec3& x) { return (x - b.centre).cross(b.axis).norm() <= b.radius + slack; });
   for (const int end : {-1, 1}) {
     const NearestAngles angles = nearest_angles(a, end, b, writer.reach.margin);
-    const auto side = [&](const Vec3& y) { return (y - a.cap(end)).dot(b.axis) > 0; };
-    for (int k = 0; k < angles.count; ++k) {
-      const Vec3 y = a.on_rim(end, angles.angle[k]);
-      const bool taken = k > 0 && side(y) == side(a.on_rim(end, angles.angle[0]));
-      write_point(y, 0, Feature::rim, nearest_of_rim(end, side(y) != taken), b, writer);
-    }
+    const bool side = (a.on_rim(end, angles.angle[0]) - a.cap(end)).dot(b.axis) > 0;
+    for (int k = 0; k < angles.count; ++k)
+      write_point(a.on_rim(end, angles.angle[k]), 0, Feature::rim, nearest_of_rim(end, side == (k == 0)), b,
+                  writer);
   }
 }
 
@@ -33,31 +31,35 @@ struct Way {
   Vec3 normal = Vec3::Zero();
 };
 
-/// The best of b's normals at the points of a's rims that are nearest to it, or deepest in it, and of those
-/// across both rims there; `towards` a first shape from a second, whichever a is.
-void look_along_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& towards, Way& best) {
-  const auto look = [&](const Vec3& across) {
-    if (!(across.norm() > rounding)) return;
-    const Vec3 normal = (across.dot(towards) < 0 ? -1 : 1) * across.normalized();
-    const double here = normal.dot(towards) - a.support(normal) - b.support(normal);
-    if (here > best.apart) best = {here, normal};
-  };
-  for (const int end : {-1, 1})
-    for (const double angle : nearest_angles(a, end, b, infinity)) {
-      const Vec3 y = a.on_rim(end, angle);
-      look(b.place(y).normal);
-      look(a.axis.cross(y - a.cap(end)).normalized().cross(b.rim_tangent(y)));
-    }
-}
-
 /// What is between them along the unit vector, m; negative: they overlap.
 double apart_along(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal) {
   return normal.dot(a.centre - b.centre) - a.support(normal) - b.support(normal);
 }
 
-/// To the direction next to it along which they are farthest apart: Newton's method on the sphere, where the
-/// slope is what lies between their farthest points, and rims bend it by radius over sine of the angle to
-/// the axis.
+/// Takes the direction, turned from b to a, if they are farther apart along it, and it is longer than
+/// `least`.
+void consider(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& across, double least, Way& best) {
+  if (!(across.norm() > least)) return;
+  const Vec3 normal = (across.dot(a.centre - b.centre) < 0 ? -1 : 1) * across.normalized();
+  const double here = apart_along(a, b, normal);
+  if (here > best.apart + rounding * (a.size() + b.size())) best = {here, normal};
+}
+
+/// Looks at the points of `own`'s rims that are nearest to the other, or deepest in it: along the other's
+/// normal there, and across both rims. `own` is a or b.
+void look_along_rims(const PlacedCylinder& own, const PlacedCylinder& other, const PlacedCylinder& a,
+                     const PlacedCylinder& b, Way& best) {
+  for (const int end : {-1, 1})
+    for (const double angle : nearest_angles(own, end, other, infinity)) {
+      const Vec3 y = own.on_rim(end, angle);
+      consider(a, b, other.place(y).normal, rounding, best);
+      consider(a, b, own.rim_tangent(y).cross(other.rim_tangent(y)), rounding, best);
+    }
+}
+
+/// To a local maximum of what is between them, uphill from the direction: Newton's method on the sphere,
+/// where the slope is what lies between their farthest points, and rims bend it by radius over sine of the
+/// angle to the axis.
 void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
   constexpr int most_steps = 10, most_halvings = 5;
   for (int k = 0; k < most_steps; ++k) {
@@ -74,12 +76,16 @@ void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
       bend += own->radius / sine * along * along.transpose();
     }
     const Vec3 move = bend.inverse() * (between - between.dot(n) * n);
-    double share = 1;
-    for (int i = 0; i < most_halvings && way.normal == n; ++i, share /= 2) {
-      const Vec3 next = (n + share * move).normalized();
-      if (const double here = apart_along(a, b, next); here > way.apart) way = {here, next};
+    Way next;
+    double share = 2;
+    for (int i = 0; i < most_halvings && !(next.apart > way.apart); ++i) {
+      share /= 2;
+      next.normal = (n + share * move).normalized();
+      next.apart = apart_along(a, b, next.normal);
     }
-    if (way.normal == n || !(share * move.norm() > rounding)) return;
+    if (!(next.apart > way.apart)) return;
+    way = next;
+    if (!(share * move.norm() > rounding)) return;
   }
 }
 
@@ -141,25 +147,18 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   // Directions along which they may be apart: the caps', and across their sides.
   const double over_b = std::abs(apart.dot(b.axis)) - a.support(b.axis) - b.half;
   const double over_a = std::abs(apart.dot(a.axis)) - b.support(a.axis) - a.half;
-  Vec3 normal;
-  double beside = -infinity;
-  const auto look = [&](const Vec3& across, double least) {
-    if (!(across.norm() > least)) return;
-    const Vec3 unit = (across.dot(apart) < 0 ? -1 : 1) * across.normalized();
-    const double here = unit.dot(apart) - a.support(unit) - b.support(unit);
-    if (here > beside + tiny) beside = here, normal = unit;
-  };
-  if (sine >= parallel) look(cross, 0);
-  const double along_both = beside;
-  look(axes.apart, tiny);
-  look(apart - apart.dot(b.axis) * b.axis, tiny);
-  if (beside == -infinity) look(b.across, 0);
-  double most = std::max({over_a, over_b, beside});
+  Way beside;
+  if (sine >= parallel) consider(a, b, cross, 0, beside);
+  const double along_both = beside.apart;
+  consider(a, b, axes.apart, tiny, beside);
+  consider(a, b, apart - apart.dot(b.axis) * b.axis, tiny, beside);
+  if (beside.apart == -infinity) consider(a, b, b.across, 0, beside);
+  double most = std::max({over_a, over_b, beside.apart});
   if (most >= writer.reach.margin) return;
   Way rims;
   if (most <= 0) {
-    look_along_rims(a, b, apart, rims);
-    look_along_rims(b, a, apart, rims);
+    look_along_rims(a, b, a, b, rims);
+    look_along_rims(b, a, a, b, rims);
     climb(a, b, rims);
   }
   const bool by_rims = rims.apart > most + tiny;
@@ -167,12 +166,12 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
 
   const Vec3 y_a = from_a + axes.s * a.axis;
   const ContactPoint edges =
-      on_edges(y_a, a.axis, a.radius, from_b + axes.t * b.axis, b.axis, b.radius, normal);
+      on_edges(y_a, a.axis, a.radius, from_b + axes.t * b.axis, b.axis, b.radius, beside.normal);
   const ContactPoint line = on_line(y_a, a.radius, b.centre, b.axis, b.radius);
   const auto sides_key = writer.key(Feature::axis, 0, Feature::axis, 0);
   const double along_line = axes.apart.norm() - a.radius - b.radius;
-  const bool shallow = beside > -std::min(a.radius, b.radius);  // each axis beside the other cylinder
-  if (!crossed && shallow && beside == most && write_common_length(a, b, tiny, writer)) {
+  const bool shallow = beside.apart > -std::min(a.radius, b.radius);  // each axis beside the other cylinder
+  if (!crossed && shallow && beside.apart == most && write_common_length(a, b, tiny, writer)) {
     if (inside && along_line < writer.least() - tiny) writer.write(line, sides_key, along_line);
     return;
   }
@@ -188,9 +187,9 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
   };
   const bool crossing = (inside && along_line < 0) || goes_through(a, b) || goes_through(b, a);
   if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
-  if (most == beside && beside == along_both) return writer.write(edges, sides_key, most);
-  if (most == beside || by_rims)
-    return writer.rewrite(across_rims(a, b, by_rims ? rims.normal : normal), sides_key, most);
+  if (most == along_both) return writer.write(edges, sides_key, most);
+  if (most == beside.apart || by_rims)
+    return writer.rewrite(across_rims(a, b, by_rims ? rims.normal : beside.normal), sides_key, most);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, writer);

@@ -19,13 +19,14 @@ constexpr int rim_point(int end, int k) {
   return (rim_points + 1) * (end + 1) + k;
 }
 
-/// Of its points next to another cylinder, one on each side of its middle: others than those.
+/// The number in keys of a rim's point next to another cylinder, one on each side of its middle. No number
+/// of rim_point's is the same.
 constexpr int nearest_of_rim(int end, bool side) {
   return rim_point(2, 0) + 2 * (end + 1) + (side ? 1 : 0);
 }
 
-/// Numbers in keys of a rim or cap that edges cross: others than end + 1, which those have whose nearest
-/// point is there. `sign` tells where an edge comes in and goes out.
+/// Numbers in keys of a rim or cap that edges cross. None of them is end + 1, the number of a rim or cap
+/// that is nearest to an edge. `sign` tells where an edge comes in and goes out.
 constexpr int left_over(int end) {
   return end + 11;
 }

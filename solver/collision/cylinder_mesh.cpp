@@ -12,13 +12,12 @@ namespace {
 template <class Lowest>
 bool write_across_rim(const Vec3& y, const Vec3& along, int edge, const PlacedCylinder& cylinder,
                       const ContactWriter& writer, Lowest&& lowest) {
-  const Vec3 tangent = cylinder.rim_tangent(y), outward = tangent.cross(cylinder.axis);
-  const int end = (y - cylinder.centre).dot(cylinder.axis) < 0 ? -1 : 1;
+  const Vec3 tangent = cylinder.rim_tangent(y), on_rim = cylinder.rim_at(y);
+  const int end = cylinder.end_at(y);
   Vec3 normal = along.cross(tangent);
   if (!(normal.norm() > rounding)) return false;
-  normal = (normal.dot(outward) < 0 ? -1 : 1) * normal.normalized();
+  normal = (normal.dot(tangent.cross(cylinder.axis)) < 0 ? -1 : 1) * normal.normalized();
   if (end * normal.dot(cylinder.axis) < 0 || !lowest(normal)) return false;
-  const Vec3 on_rim = cylinder.cap(end) + cylinder.radius * outward;
   writer.write(on_edges(y, along, 0, on_rim, tangent, 0, normal),
                writer.key(Feature::edge, edge, Feature::rim, end + 1), normal.dot(y - on_rim));
   return true;
@@ -46,6 +45,12 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
     write_point(all.at(arc), 0, Feature::edge, j, cylinder, writer);
   return false;
+}
+
+/// True if x is in the mesh, or nearer than `slack` (m): behind a face it may be beyond the mesh.
+bool is_in(const ClosedMesh& mesh, const Vec3& x, double slack) {
+  MeshPlace place{};
+  return nearest_of_mesh(mesh, x, slack, place);
 }
 
 /// True if the cylinder goes through the triangle and does not end in its plane: then, unless it cuts the
@@ -79,7 +84,8 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     const double above = face.normal.dot(a.centre - on_plane), support = a.support(face.normal);
     if (above >= 0)
       write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, [&](const Vec3& x) {
-        return nearest_of_triangle(b, triangle, x).feature == MeshPlace::Feature::face;
+        if (nearest_of_triangle(b, triangle, x).feature != MeshPlace::Feature::face) return false;
+        return face.normal.dot(x - on_plane) >= 0 || is_in(b, x, rounding * a.size());
       });
     for (const int node : nodes) {
       const Vec3 y = b.surface.x.col(node);

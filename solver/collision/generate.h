@@ -9,10 +9,9 @@
 // The least gap of convex shapes is their signed distance, with this exception: where cylinders overlap at a
 // rim and an edge or at two rims it is the depth along a face's normal, a cap's, across the axes, or the
 // direction next to the rim's deepest point along which they overlap least, which may be larger than the
-// least one. Meshes are exact outside each other but for the last case; inside, gaps are those of nodes and
+// least one. Meshes are exact outside each other; inside, gaps are those of nodes and
 // crossing edges below the faces nearest to them, without any of these along the normal of a face that is
-// cut: not the shortest translation that parts them. A cap's rim point that lies beyond a mesh, behind a
-// face, may be told as deep as it is below that face.
+// cut: not the shortest translation that parts them.
 //
 // What is not exact as bodies move, to first order only: what touches a rim without being a plane (kind
 // `point` at the rim's nearest point, or the plane between the nearest points), edges that are nearly

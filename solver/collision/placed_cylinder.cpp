@@ -65,19 +65,21 @@ NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylin
     double distance = infinity, angle = 0;
   };
   std::array<Least, 2> least{};
-  const auto add = [&](double angle, double at) {
-    if (at < least[1].distance) least[1] = {at, angle};
-    if (at < least[0].distance) std::swap(least[0], least[1]);
+  const auto add = [&](double angle, double here) {
+    if (here < least[1].distance) least[1] = {here, angle};
+    if (here < least[0].distance) std::swap(least[0], least[1]);
   };
-  bool plain = false;  // a stretch of the same distance counts once
+  const auto at = [&](int k) { return sampled[(k + samples) % samples]; };
+  const auto level = [&](int k) {
+    return std::max(std::abs(at(k - 1) - at(k)), std::abs(at(k + 1) - at(k))) < rounding * a.radius;
+  };
   for (int k = 0; k < samples; ++k) {
     const double here = sampled[k];
-    const double before = sampled[(k + samples - 1) % samples];
-    const double after = sampled[(k + 1) % samples];
-    const bool level = std::max(std::abs(before - here), std::abs(after - here)) < rounding * a.radius;
-    if (level && !plain) add(k * part, here);
-    plain = level;
-    if (level || here >= before || here > after || here - part * a.radius > reach) continue;
+    if (level(k)) {
+      if (!level(k - 1)) add(k * part, here);  // a stretch of the same distance counts once
+      continue;
+    }
+    if (here >= at(k - 1) || here > at(k + 1) || here - part * a.radius > reach) continue;
     double low = (k - 1) * part, high = (k + 1) * part;
     for (int halving = 0; halving < halvings; ++halving) {
       const double middle = (low + high) / 2;
@@ -86,6 +88,7 @@ NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylin
     }
     add(low, distance(low));
   }
+  if (least[0].distance == infinity) add(0, sampled[0]);  // the same all around
   NearestAngles found;
   for (const Least& each : least)
     if (each.distance <= reach) found.angle[found.count++] = each.angle;

@@ -34,9 +34,14 @@ struct PlacedCylinder {
   Vec3 on_rim(int end, double angle) const;
   /// Along the rims where they are nearest to x; unit, zero on the axis.
   Vec3 rim_tangent(const Vec3& x) const { return axis.cross(x - centre).normalized(); }
+  /// The rim on x's side of the middle: 1 or -1.
+  int end_at(const Vec3& x) const { return axis.dot(x - centre) < 0 ? -1 : 1; }
+  /// Of that rim, the point nearest to x; the cap's middle if x is on the axis.
+  Vec3 rim_at(const Vec3& x) const { return cap(end_at(x)) + radius * rim_tangent(x).cross(axis); }
   Place place(const Vec3& x) const;
-  /// The farthest point along the unit vector n, and how far it is from the centre along n (m).
+  /// The farthest point along the unit vector n.
   Vec3 farthest(const Vec3& n) const;
+  /// How far that is from the centre along n, m.
   double support(const Vec3& n) const;
 };
 
@@ -51,8 +56,8 @@ struct NearestAngles {
   const double* end() const { return angle.data() + count; }
 };
 
-/// Of a's rim at `end`, within reach (m) of b: two where b lies across the cap. About the least of 16
-/// samples, where the distance's slope changes its sign.
+/// Of a's rim at `end`, within reach (m) of b: two where b lies across the cap. The two least of the minima
+/// about 16 samples; a third one, and one between samples of which neither is lower than the next, is lost.
 NearestAngles nearest_angles(const PlacedCylinder& a, int end, const PlacedCylinder& b, double reach);
 
 }  // namespace pbd

@@ -14,8 +14,9 @@
 // in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) takes them
 // below -1e-4 r are looked at again where the solved step ends, and what overlaps there by more than 1e-4 r,
 // and by more than where the step began, joins the step's contacts; not on a half space, all of whose
-// contacts are exact as bodies move. Of polyhedra r is half their least width. Neither is a bound, but what
-// random steps hold to (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
+// contacts are exact as bodies move. Pairs that begin deeper than 1e-4 r are looked at again in every step.
+// Of polyhedra r is half their least width. Sixteen and 1e-4 are no bounds: they are measured, and random
+// steps hold to them (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
 // generate.h says of them, which may be too large.
 #pragma once
 
@@ -63,7 +64,7 @@ class ContactSearch {
  private:
   /// How deep pairs may be that are not looked at again, of the radius of what is round of them.
   static constexpr double overlooked = 1e-4;
-  static constexpr double wary = 16;  // times what a ball makes of its travel
+  static constexpr double wary = 16;  // times what a ball makes of its travel: measured, see above
 
   struct Motion {        // of a collider in this step
     Shape node_shape;    // of a node

@@ -90,6 +90,27 @@ TEST_CASE("a closed mesh of a box is as far from other shapes as the box is") {
   CHECK(worst < accuracy);
 }
 
+TEST_CASE("a rod that reaches behind the faces of a thin plate is as far from it as from a box") {
+  const Vec3 size(1, 1, 0.05);
+  const Shape plate = ClosedMesh(box_surface(size)), rod = Cylinder{0.05, 1.5};
+  Random random(61);
+  int behind = 0;
+  for (int number = 0; number < 2000; ++number) {
+    const Frame at{random.uniform(0.3, 0.8) * random.vector().normalized(), random.rotation()};
+    const auto least = [&](const Shape& other) {
+      double gap = infinity;
+      for (const auto& contact : contacts(rod, at, other, {}, 1))
+        gap = std::min(gap, touch(contact, at, {}).gap);
+      return gap;
+    };
+    const double of_box = least(Box{size});
+    if (!(of_box > 0)) continue;
+    behind += std::abs(at.origin.z()) < std::abs(0.7 * at.rotation(2, 2));  // both sides of the plate's plane
+    CHECK(least(plate) == Approx(of_box).margin(accuracy));
+  }
+  CHECK(behind > 200);
+}
+
 TEST_CASE("edges within a flat side of a mesh are not felt") {
   const Shape ground = ClosedMesh(refined(refined(refined(refined(box_surface({6, 6, 1}))))));
   const auto kind =

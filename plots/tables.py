@@ -22,7 +22,8 @@ TABLES = {
                                "wall_s error status reason",
     ("contraction", "rates"): "effect strain step_s stiffness unit load_n predicted_rate stiffening "
                               "predicted_contraction bound measured_rate status reason",
-    ("direction", "largest_steps"): SCHEME + "largest_step_s predicted_step_s error steps missed_steps limit status reason",
+    ("direction", "largest_steps"): SCHEME + "largest_step_s predicted_step_s error steps missed_steps "
+                                    "most_outer_iterations limit status reason",
     ("direction", "modes"): SCHEME + "mode step_s predicted_left measured_left error row_updates status reason",
     ("direction", "energy"): SCHEME + "step_s time_s energy_j row_updates_per_s status reason",
     ("direction", "equal_work"): SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error violation_rms "

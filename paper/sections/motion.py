@@ -18,7 +18,7 @@ def direction(results):
             Figure("direction_equal_work", "Largest violation of a link over work. Position: more linearisations of a step of 1/60 s; "
                    "velocity: as many shorter steps. Crossed: some step was not solved, or the motion blew up. A step of velocity "
                    "time stepping does not claim to be solved.")])
-    section.tell(results.table("direction", "largest_steps"), steps_table)
+    section.tell(results.table("direction", "largest_steps"), steps_text, steps_table)
     section.tell(results.table("direction", "energy"), energy_table)
     return section.tell(results.table("direction", "equal_work"), equal_work_text, equal_work_table)
 
@@ -28,6 +28,17 @@ def scheme_text(row):
     name = f"`{row['integrator']}`, `{row['outer']}`"
     return name + (f", stabilised {number(row['stabilisation'])}" if row["family"] == "velocity" else
                    f", b = {number(row['direction_blend'])}")
+
+
+def steps_text(frame):
+    """What the longest stable steps of a claimed solution take."""
+    position = frame[(frame["family"] == "position") & (frame["steps"] > 0)]
+    worst = position.loc[position["most_outer_iterations"].idxmax()]
+    missed = position[position["missed_steps"] > 0]
+    return (f"A long step may take many outer iterations: of the largest stable ones, one on `{worst['scene']}` by "
+            f"{scheme_text(worst)} took {worst['most_outer_iterations']:.0f}. "
+            + (f"In {counted(len(missed), 'run')} at the largest stable step some steps were missed all the same."
+               if len(missed) else "No step was missed at the largest stable steps."))
 
 
 def steps_table(frame):

@@ -145,6 +145,7 @@ DirectionRun simulate(const DirectionScene& each, const Method& method, double h
     const Report report = step(workspace, h, state);
     ++found.steps;
     row_updates += report.row_updates;
+    found.most_outer = std::max(found.most_outer, report.outer_iterations);
     if (report.status != Status::ok) {
       ++found.missed;
       if (claims || report.status == Status::diverged)

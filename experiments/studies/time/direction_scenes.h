@@ -61,6 +61,7 @@ struct DirectionRun {
   double violation_largest = 0, violation_rms = 0;
   double work_per_s = 0;      // row updates a simulated second
   int steps = 0, missed = 0;  // steps, those that missed their tolerance
+  int most_outer = 0;         // outer iterations of a step
   pbd::Status status = pbd::Status::ok;
   std::string reason{};
 };

@@ -27,9 +27,11 @@ Open open_of(const StepClaim& claim, const ClaimedContact& c, const Sides& sides
   const ContactLaw& law = sides.law(a, b);
   const double normal = c.force.dot(c.normal);
   const double centres = sides.inverse_mass(a, 0) + sides.inverse_mass(b, 0);
-  const double all = sides.inverse_mass(a, sides.lever(a, c.point)) +
-                     sides.inverse_mass(b, sides.lever(b, c.point)) +
-                     2 * law.compliance / (claim.h * claim.h);
+  const auto inverse = [&](int k, int other) {
+    return sides.inverse_mass(
+        k, explicit_forces(claim) ? sides.longest_lever(k, other) : sides.lever(k, c.point));
+  };
+  const double all = inverse(a, b) + inverse(b, a) + 2 * law.compliance / (claim.h * claim.h);
   Vec3 slip = Vec3::Zero();
   if (a < sides.count() && b < sides.count()) slip = sides.velocity(a, c.point) - sides.velocity(b, c.point);
   slip -= c.normal.dot(slip) * c.normal;
@@ -150,7 +152,9 @@ double Depths::allowed(int i, int j, const std::vector<Vec3>& ways) const {
       std::min(sides_.is_node(i) ? infinity : one.round, sides_.is_node(j) ? infinity : two.round);
   constexpr double overlooked = 1e-4;  // of the round radius: what is documented of the search of contacts
   const auto reach = [](const Size& size) { return std::isfinite(size.outer) ? size.outer : 0.0; };
-  const double inverse = sides_.inverse_mass(i, reach(one)) + sides_.inverse_mass(j, reach(two));
+  const bool at_start = explicit_forces(claim_);
+  const double inverse = sides_.inverse_mass(i, at_start ? sides_.longest_lever(i, j) : reach(one)) +
+                         sides_.inverse_mass(j, at_start ? sides_.longest_lever(j, i) : reach(two));
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + reach(one) + reach(two);
   return std::max(before, std::isfinite(round) ? overlooked * round : 0.0) +
          (1 + sides_.law(i, j).friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;

@@ -3,7 +3,8 @@
 // A contact's residual is below `level` (sqrt(J), step_check.h): a step -W r of its impulse p, r the velocity
 // u_t across the normal and (gap)/h along it, the law takes back to p up to e = level sqrt(W). W is at most
 // 1/(1/m_a + 1/m_b), and 1/W at most w = 1/m_a + 1/m_b + |lever|^2/I of both + 2 A/h^2. Hence, with s =
-// level sqrt(w):
+// level sqrt(w), the lever under explicit forces the longest one where the step begins, since their
+// directions are taken there:
 //   force    -F_n h <= e and (|F_t| - mu F_n) h <= (1 + mu) e; the box law allows sqrt(2) mu
 //   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
 //   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then

@@ -47,6 +47,19 @@ double Sides::lever(int k, const Vec3& point) const {
   return own.body < 0 ? 0.0 : (point - claim_.end.x.col(own.node)).norm();
 }
 
+double Sides::longest_lever(int k, int other) const {
+  const Side own = side(k);
+  if (own.body < 0) return 0;
+  double longest = 0;
+  for (const int each : {k, other}) {
+    const PlacedShape shape = placed(each, claim_.start);
+    const double outer = size_of(*shape.shape).outer;
+    if (std::isfinite(outer))
+      longest = std::max(longest, (shape.frame.origin - claim_.start.x.col(own.node)).norm() + outer);
+  }
+  return longest;
+}
+
 double Sides::inverse_mass(int k, double lever) const {
   const Side own = side(k);
   if (own.of_surface()) return 2 * surface_inverse_mass_;  // weights of at most 1 whose squares sum to 2

@@ -28,6 +28,9 @@ class Sides {
   /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
   double inverse_mass(int k, double lever) const;
   double lever(int k, const Vec3& point) const;
+  /// The longest lever of k (m) at which a contact of both acts where the step begins: at one of their points
+  /// nearest to each other or between them; against a half space at the other's point.
+  double longest_lever(int k, int other) const;
   const ContactLaw& law(int a, int b) const;
 
  private:

@@ -120,7 +120,8 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
 
 void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
   with_contacts(blocks, contacts_, [&](auto& block, auto& contacts) {
-    if (!contacts.empty() && !contacts[0].of_surfaces) find_nearest(place.at, contacts);
+    if (!contacts.empty() && !contacts[0].of_surfaces)
+      find_nearest(place.directions != nullptr ? *place.directions : place.at, contacts);
     for (std::size_t i = 0; i < block.size(); ++i)
       linearise_contact(place, start_v_, contacts[i], block, i, sums);
   });

@@ -133,6 +133,20 @@ TEST_CASE("a ball rolls when it has slid for 2/7 of its speed") {
   CHECK(std::abs(end.spin(1, 1) - 5.0 / 0.7) <= 1e-11);
 }
 
+TEST_CASE(
+    "friction turns a ball that lands within a step at its lowest point, wherever directions are taken") {
+  const double blend = GENERATE(0.0, 0.5, 1.0), radius = 0.1, speed = 3;
+  BodyScene build({.friction = 0.1});
+  build.ground();
+  build.ball(radius, 1, {Vec3(0, 0, radius + 0.05), Eigen::Quaterniond::Identity(), Vec3(speed, 0, -10)});
+  Method method = contact_method("direct");
+  method.direction_blend = blend;
+  const State end = run(build.finish(), method, 0.01, 1);
+  const double taken = speed - end.v(0, 1);
+  CHECK(taken > 0.3);
+  CHECK(std::abs(0.4 * radius * end.spin(1, 1) - taken) <= 1e-10);
+}
+
 TEST_CASE("restitution returns the approaching speed, and with the trapezoidal rule all energy") {
   for (const double restitution : {1.0, 0.5}) {
     BodyScene build({.friction = 0, .restitution = restitution});

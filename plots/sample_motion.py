@@ -17,7 +17,7 @@ def direction(directory):
         explicit = scheme[4] < 0.5
         for scene in ("taut chain20", "pendulum"):
             predicted = float("nan") if scene == "pendulum" else 0.007 if explicit else float("inf")
-            steps.append((scene, *scheme, 0.007 if explicit else 0.07, predicted, 0.001, 400, 3, "energy grew",
+            steps.append((scene, *scheme, 0.007 if explicit else 0.07, predicted, 0.001, 400, 3, 50, "energy grew",
                           *(spent if scheme[4] == 0.75 else ("ok", ""))))
             for count in (1, 2, 4, 8):
                 bad = grew if explicit and count < 4 and scene != "pendulum" else spent if count == 1 else ("ok", "")
@@ -26,8 +26,8 @@ def direction(directory):
             modes.append(("taut chain20", *scheme, mode, 0.003, 1 / (1 + scheme[4]), 1 / (1 + scheme[4]), 1e-9, 20, "ok", ""))
         for time in np.linspace(0, 10, 50):
             energy.append(("pendulum", *scheme, 1 / 60, float(time), -scheme[4] * float(time), 200.0, "ok", ""))
-    write(directory, "direction", "largest_steps", SCHEME + "largest_step_s predicted_step_s error steps missed_steps limit status "
-          "reason", steps)
+    write(directory, "direction", "largest_steps", SCHEME + "largest_step_s predicted_step_s error steps missed_steps "
+          "most_outer_iterations limit status reason", steps)
     write(directory, "direction", "modes", SCHEME + "mode step_s predicted_left measured_left error row_updates status reason", modes)
     write(directory, "direction", "energy", SCHEME + "step_s time_s energy_j row_updates_per_s status reason", energy)
     write(directory, "direction", "equal_work", SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error "

@@ -33,12 +33,13 @@ def scheme_text(row):
 def steps_text(frame):
     """What the longest stable steps of a claimed solution take."""
     position = frame[(frame["family"] == "position") & (frame["steps"] > 0)]
-    worst = position.loc[position["most_outer_iterations"].idxmax()]
-    missed = position[position["missed_steps"] > 0]
-    return (f"A long step may take many outer iterations: of the largest stable ones, one on `{worst['scene']}` by "
-            f"{scheme_text(worst)} took {worst['most_outer_iterations']:.0f}. "
-            + (f"In {counted(len(missed), 'run')} at the largest stable step some steps were missed all the same."
-               if len(missed) else "No step was missed at the largest stable steps."))
+    solved, missed = position[position["missed_steps"] == 0], position[position["missed_steps"] > 0]
+    parts = [f"At the largest stable step {len(missed)} of {counted(len(position), 'run')} that claim solved steps missed some."]
+    if len(solved):
+        worst = solved.loc[solved["most_outer_iterations"].idxmax()]
+        parts += [f"A long step may take many outer iterations: of those that missed none, one on `{worst['scene']}` by "
+                  f"{scheme_text(worst)} took {worst['most_outer_iterations']:.0f}."]
+    return " ".join(parts)
 
 
 def steps_table(frame):

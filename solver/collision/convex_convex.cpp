@@ -149,6 +149,8 @@ struct PolyhedronPair {
   /// once.
   void write_ends(int i, int j) const {
     const Segment of_a = segment(a, i), of_b = segment(b, j);
+    // A point has no ends: the nearest points are all of it.
+    if (std::min(of_a.length, of_b.length) <= 2 * tiny) return;
     constexpr double nearly_parallel = 0.5;  // sine of 30 degrees
     if (of_a.along.cross(of_b.along).norm() > nearly_parallel) return;
     const auto inside = [&](double arc, const Segment& edge) {

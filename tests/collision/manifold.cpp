@@ -147,6 +147,19 @@ TEST_CASE("gaps of a plank that tilts over an edge are continuous") {
   }
 }
 
+TEST_CASE("a sphere touches a capsule or an edge once, in either order of the shapes") {
+  const Shape sphere = Sphere{0.1},
+              other = GENERATE(as<Shape>(), Capsule{0.1, 0.5}, Box{Vec3(0.14, 0.14, 0.5)});
+  // Within the margin the sphere is near the other's ends, too.
+  const Frame at_sphere = turned(0, Vec3::UnitX(), {0.21, 0, 0.05}),
+              at_other = turned(pi / 4, Vec3::UnitZ(), {});
+  const bool first = GENERATE(true, false);
+  CAPTURE(first, std::holds_alternative<Box>(other));
+  CHECK(by_key(first ? sphere : other, first ? at_sphere : at_other, first ? other : sphere,
+               first ? at_other : at_sphere, 0.5)
+            .size() == 1);
+}
+
 TEST_CASE("what is deep in a box leaves through the nearest face") {
   const Box box{{2, 3, 4}};
   const Vec3 centre(0.1, -0.2, 1.7);  // 0.3 m below the face z = 2

@@ -7,8 +7,8 @@
 using namespace pbd::rivals;
 
 /// Siconos keeps some bytes of each solve: no leak of ours.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
   return "leak:libsiconos_numerics";
 }
 

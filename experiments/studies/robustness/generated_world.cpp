@@ -88,7 +88,8 @@ void Building::add_bodies() {
   const int count = 1 + random_.below(6);
   const double cell = random_.uniform(0.5, 1), speed = random_.decades(-1, 1);
   for (int i = 0; i < count; ++i) {
-    const Vec3 at = cell * Vec3(i % 2, (i / 2) % 2, 0.6 + i / 4) + random_.vector(0.05);
+    const int layer = i / 4;
+    const Vec3 at = cell * Vec3(i % 2, (i / 2) % 2, 0.6 + layer) + random_.vector(0.05);
     add_shaped(at, random_.happens(0.5) ? random_.turn() : Eigen::Quaterniond::Identity(), speed);
   }
 }

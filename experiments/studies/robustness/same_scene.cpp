@@ -20,85 +20,85 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Eigen::Ma
 
 struct Moving {
   explicit Moving(const Isometry& isometry)
-      : by(isometry), mirror(own(isometry)), sense(isometry.turn.determinant() < 0 ? -1 : 1) {}
+      : by_(isometry), mirror_(own(isometry)), sense_(isometry.turn.determinant() < 0 ? -1 : 1) {}
 
-  void operator()(Gravity& e) const { e.acceleration = by.turn * e.acceleration; }
+  void operator()(Gravity& e) const { e.acceleration = by_.turn * e.acceleration; }
   void operator()(ExternalForce& e) const {
-    for (auto& force : e.force) force = by.turn * force;
+    for (auto& force : e.force) force = by_.turn * force;
   }
   void operator()(Anchor& e) const {
-    for (auto& target : e.target) target = by.shift + by.turn * target;
+    for (auto& target : e.target) target = by_.shift + by_.turn * target;
   }
   void operator()(Distance&) const {}
   void operator()(Bending& e) const {
-    for (auto& angle : e.rest_angle) angle *= sense;
+    for (auto& angle : e.rest_angle) angle *= sense_;
   }
   void operator()(TriangleStrain& e) const {
-    for (auto& rest : e.rest) rest = by.turn * rest;
+    for (auto& rest : e.rest) rest = by_.turn * rest;
   }
   void operator()(TetStrain& e) const {
     for (std::size_t i = 0; i < e.node.size(); ++i) {
-      e.rest[i] = by.turn * e.rest[i];
-      if (sense > 0) continue;
+      e.rest[i] = by_.turn * e.rest[i];
+      if (sense_ > 0) continue;
       std::swap(e.node[i][0], e.node[i][1]);
       e.rest[i].col(0).swap(e.rest[i].col(1));
     }
   }
   void operator()(ExternalTorque& e) const {
-    for (auto& torque : e.torque) torque = sense * (by.turn * torque);
+    for (auto& torque : e.torque) torque = sense_ * (by_.turn * torque);
   }
   void operator()(Gyroscopic&) const {}
   void operator()(PointJoint& e) const { points(e); }
   void operator()(AxisJoint& e) const { pairs(e.axis); }
   void operator()(PerpendicularJoint& e) const { pairs(e.axis); }
   void operator()(RotationJoint& e) const {
-    for (auto& rest : e.rest) rest = turned(rest, mirror, mirror);
+    for (auto& rest : e.rest) rest = turned(rest, mirror_, mirror_);
   }
   void operator()(LineJoint& e) const {
     points(e);
-    for (auto& axis : e.axis) axis = mirror * axis;
+    for (auto& axis : e.axis) axis = mirror_ * axis;
   }
   void operator()(BodyDistance& e) const { points(e); }
   void operator()(AngleJoint& e) const {
-    for (auto& axis : e.axis) axis = sense * (mirror * axis);
+    for (auto& axis : e.axis) axis = sense_ * (mirror_ * axis);
     pairs(e.reference);
   }
   void operator()(SlideJoint& e) const {
     points(e);
-    for (auto& axis : e.axis) axis = mirror * axis;
+    for (auto& axis : e.axis) axis = mirror_ * axis;
   }
   void operator()(Attachment& e) const {
-    for (auto& point : e.point) point = mirror * point;
+    for (auto& point : e.point) point = mirror_ * point;
   }
   void operator()(Contact& e) const {
     for (auto& collider : e.collider) {
-      collider.frame = {mirror * collider.frame.origin, mirror * collider.frame.rotation * mirror};
+      collider.frame = {mirror_ * collider.frame.origin, mirror_ * collider.frame.rotation * mirror_};
       collider.shape = std::visit([&](const auto& shape) { return mirrored(shape); }, collider.shape);
     }
-    if (sense < 0)
+    if (sense_ < 0)
       for (auto& triangle : e.triangle) std::swap(triangle[0], triangle[1]);
   }
 
  private:
-  Isometry by;
-  Eigen::Matrix3d mirror;
-  double sense;
+  Isometry by_;
+  Eigen::Matrix3d mirror_;
+  double sense_;
 
   template <class Pairs>
   void pairs(Pairs& vectors) const {
     for (auto& pair : vectors)
-      for (auto& vector : pair) vector = mirror * vector;
+      for (auto& vector : pair) vector = mirror_ * vector;
   }
   template <class Joint>
   void points(Joint& e) const {
     pairs(e.point);
   }
-  /// Shapes without points of their own are their own mirror images.
+  /// Shapes without points of their own are their own mirror_ images.
   template <class S>
   Shape mirrored(const S& shape) const {
     if constexpr (requires { shape.surface; }) {
-      if (sense > 0) return shape;
-      TriangleMesh surface{mirror * shape.surface.x, shape.surface.triangles};
+      if (sense_ > 0) return shape;
+      TriangleMesh surface{mirror_ * shape.surface.x, shape.surface.triangles};
       for (auto& triangle : surface.triangles) std::swap(triangle[0], triangle[1]);
       return S(std::move(surface));
     } else {

@@ -11,6 +11,7 @@ void Direct::begin(Rows& rows, const Points& v, bool fresh) {
   part_ = rows.contacts ? SemismoothNewton::name : Ldlt::name;
   if (!rows.contacts) return ldlt_.begin(rows, v, fresh);
   newton_.begin(rows, v, fresh);
+  patience_ = fresh || !gave_up() ? most_patience : std::max(1, patience_ - 1);
   lowest_ = infinity;
   idle_ = 0;
   further_sweeps_ = 0;
@@ -18,11 +19,10 @@ void Direct::begin(Rows& rows, const Points& v, bool fresh) {
 
 Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   if (!rows.contacts) return ldlt_.sweep(rows, v, seconds);
-  constexpr int patience = 10;  // iterations without a gain
   const double residual = natural_residual(rows, v);
   idle_ = residual < SemismoothNewton::enough_fall * lowest_ ? 0 : idle_ + 1;
   lowest_ = std::min(lowest_, residual);
-  if (!(residual > 0) || idle_ > patience) return {residual, true};
+  if (!(residual > 0) || gave_up()) return {residual, true};
   const bool augments = AugmentedLagrangian::applies(rows);
   part_ = SemismoothNewton::name;
   if (newton_.improve(rows, v, residual, augments ? 2 : 3)) return {residual};

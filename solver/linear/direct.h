@@ -1,7 +1,8 @@
 // The composition that solves any rows. Without contacts it is `ldlt`. With contacts a sweep is an iteration
 // of `semismooth_newton`; where none of its steps reduces the residual, that of `augmented_lagrangian` may,
-// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. Nothing bounds the
-// work of one step but the budget of sweeps and this patience.
+// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. After
+// `most_patience` iterations without a gain it gives the rows up; the step's next ones, a little changed, get
+// one less each time, and all of them again once some are solved.
 #pragma once
 
 #include "linear/augmented_lagrangian.h"
@@ -25,6 +26,9 @@ class Direct {
   std::string_view part() const { return part_; }
 
  private:
+  static constexpr int most_patience = 10;  // iterations without a gain
+
+  bool gave_up() const { return idle_ > patience_; }
   bool augment(Rows& rows, Points& v, double residual);
 
   Ldlt ldlt_;
@@ -35,6 +39,7 @@ class Direct {
   Points start_;              // velocities where the augmented Lagrangian begins
   double lowest_ = infinity;  // residual since `begin`
   int idle_ = 0;              // iterations since the residual was clearly lower than ever
+  int patience_ = most_patience;
   std::int64_t further_sweeps_ = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "touching_sides.h"
+#include "contact_slack.h"
 
 namespace pbd::reference {
 namespace {
@@ -13,36 +13,8 @@ std::string name_of(int a, int b) {
   return "contact of " + std::to_string(a) + " and " + std::to_string(b);
 }
 
-/// A claimed contact and what its residual leaves open.
-struct Open {
-  const ContactLaw& law;
-  double normal;             // F_n, N
-  Vec3 friction;             // F_t, N
-  double impulse, velocity;  // e (N s) and s (m/s)
-  Vec3 slip;                 // u_t, m/s
-};
-
-Open open_of(const StepClaim& claim, const ClaimedContact& c, const Sides& sides, double level) {
-  const auto& [a, b] = c.collider;
-  const ContactLaw& law = sides.law(a, b);
-  const double normal = c.force.dot(c.normal);
-  const double centres = sides.inverse_mass(a, 0) + sides.inverse_mass(b, 0);
-  const auto inverse = [&](int k, int other) {
-    return sides.inverse_mass(
-        k, explicit_forces(claim) ? sides.longest_lever(k, other) : sides.lever(k, c.point));
-  };
-  const double all = inverse(a, b) + inverse(b, a) + 2 * law.compliance / (claim.h * claim.h);
-  Vec3 slip = Vec3::Zero();
-  if (a < sides.count() && b < sides.count()) slip = sides.velocity(a, c.point) - sides.velocity(b, c.point);
-  slip -= c.normal.dot(slip) * c.normal;
-  // Least weights of a surface's nodes: their squares sum to a third of those that `inverse_mass` counts.
-  constexpr double share = 1.0 / 3;
-  return {
-      law, normal, c.force - normal * c.normal, level / std::sqrt(share * centres), level * std::sqrt(all),
-      slip};
-}
-
-void check_force(const StepClaim& claim, const ClaimedContact& c, const Open& open, Findings& findings) {
+void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
+                 Findings& findings) {
   const std::string name = name_of(c.collider[0], c.collider[1]);
   const double slack = open.impulse / claim.h + step_rounding * c.force.norm();
   const double mu = open.law.friction * (claim.friction == Friction::box ? std::numbers::sqrt2 : 1.0);
@@ -51,7 +23,7 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const Open& op
                    (1 + mu) * slack);
 }
 
-void check_gap(const StepClaim& claim, const ClaimedContact& c, const Open& open, const Sides& sides,
+void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open, const Sides& sides,
                Findings& findings) {
   const auto& [a, b] = c.collider;
   const std::string name = name_of(a, b) + ", m";
@@ -74,8 +46,8 @@ void check_gap(const StepClaim& claim, const ClaimedContact& c, const Open& open
     findings.require("open contact", name, larger(c.gap, proved), slack);
 }
 
-void check_sliding(const StepClaim& claim, const ClaimedContact& c, const Open& open, const Sides& sides,
-                   Findings& findings) {
+void check_sliding(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
+                   const Sides& sides, Findings& findings) {
   const double mu = open.law.friction;
   if (!(mu > 0)) return;
   if (!is_euler_step(claim) || explicit_forces(claim) || claim.friction == Friction::box)
@@ -199,7 +171,7 @@ void Depths::check_all() {
 void check_contacts(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
   const Sides sides(claim, contact);
   for (const ClaimedContact& claimed : claim.contacts) {
-    const Open open = open_of(claim, claimed, sides, level);
+    const ContactSlack open = slack_of(claim, claimed, sides, level);
     check_force(claim, claimed, open, findings);
     check_gap(claim, claimed, open, sides, findings);
     check_sliding(claim, claimed, open, sides, findings);

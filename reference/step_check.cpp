@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact_check.h"
+#include "step_energy.h"
 
 namespace pbd::reference {
 namespace {
@@ -37,6 +38,10 @@ Findings StepCheck::judge(const StepClaim& claim) const {
   } else {
     findings.leave_out("motion and momentum: by this integrator or blend of directions");
   }
+  if (is_euler_step(claim) && !explicit_forces(claim))
+    check_energy(claim, *model_, level, findings);
+  else
+    findings.leave_out("energy: by this integrator or blend of directions");
   if (claim.integrator == "midpoint" || claim.direction_blend != 1)
     findings.leave_out("constraints: by this integrator or blend of directions");
   else

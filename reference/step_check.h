@@ -11,6 +11,7 @@
 //   constraints r = c + A gamma: sqrt(sum r^T (h^2 J W J^T + A)^-1 r) <= level; of bounded forces what the
 //               bounds leave of a change -r/N.
 //   contacts    contact_check.h
+//   energy      step_energy.h
 //
 // J and c are taken at the step's end; under symplectic_euler J where it begins. What an error of the
 // impulses of W J^T p costs is counted in the same metric, so that no conditioning enters a bound. Rounding
@@ -22,8 +23,7 @@
 // or each other are judged by their sum, since it is not told how a contact's force is shared among them;
 // bodies in contact under symplectic_euler by their linear momentum. Damped constraints are not judged by
 // their values, and what damped point joints and attachments act on not by its momentum. Angles of pi, where
-// they jump, are left out. The energy of a step is not judged: where momentum and constraints hold it
-// follows.
+// they jump, are left out.
 #pragma once
 
 #include <optional>

@@ -34,12 +34,12 @@ PlacedShape Sides::placed(int k, const State& state) const {
   return {&shapes_[index], frame};
 }
 
-Vec3 Sides::velocity(int k, const Vec3& point) const {
+Vec3 Sides::velocity(int k, const Vec3& point, const State& state) const {
   const Side own = side(k);
-  Vec3 v = claim_.end.v.col(own.node);
+  Vec3 v = state.v.col(own.node);
   if (own.body < 0) return v;
   const auto& orientation = claim_.end.orientation[static_cast<std::size_t>(own.body)];
-  return v + (orientation * Vec3(claim_.end.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
+  return v + (orientation * Vec3(state.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
 }
 
 double Sides::lever(int k, const Vec3& point) const {

@@ -23,8 +23,8 @@ class Sides {
   PlacedShape placed(int k, const State& state) const;
   bool is_node(int k) const { return k >= static_cast<int>(contact_.collider.size()); }
 
-  /// m/s, of the point of a side at the step's end.
-  Vec3 velocity(int k, const Vec3& point) const;
+  /// m/s, of the point of a side where the step ends, by the velocities of `state`.
+  Vec3 velocity(int k, const Vec3& point, const State& state) const;
   /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
   double inverse_mass(int k, double lever) const;
   double lever(int k, const Vec3& point) const;

@@ -64,6 +64,38 @@ Step balls() {
   return step;
 }
 
+/// A ball of 1 kg that falls on the ground at 1 m/s and leaves it at `after`, pressed as that takes.
+Step bounce(double restitution, double after) {
+  pbdcheck::BodyScene scene(ContactLaw{.friction = 0, .restitution = restitution}, g);
+  scene.ground();
+  scene.ball(0.1, 1, {.position = {0, 0, 0.105}, .velocity = {0, 0, -1}});
+  Step step(scene.finish());
+  step.end.v.col(1).z() = after;
+  step.move();
+  step.contacts.push_back({.collider = {1, 0},
+                           .point = step.end.x.col(1) - Vec3(0, 0, 0.1),
+                           .normal = Vec3::UnitZ(),
+                           .force = {0, 0, (after + 1) / h + g},
+                           .gap = step.end.x(2, 1) - 0.1});
+  return step;
+}
+
+/// A mass of 2 kg that leaves its place on a spring of 50 N/m at 1 m/s, damped by T = 1 s, or driven by -1 s:
+/// 2 (v1 - v0) = h gamma, gamma = -50 (h v1 + T v1).
+Step damped_spring(double retardation) {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1, 0, 0), 2, Vec3(1, 0, 0));
+  scene.effects.emplace_back(
+      Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {1.0 / 50}, .damping = {1}});
+  Step step(scene);
+  const double after = 2 / (2 + h * 50 * (h + retardation));
+  step.end.v.col(1).x() = after;
+  step.move();
+  step.forces[0] = {-50 * (h + retardation) * after};
+  return step;
+}
+
 /// A mass on a hard link of 1 m, moving: the free step projected onto the circle.
 Step pendulum() {
   Scene scene;
@@ -130,6 +162,17 @@ TEST_CASE("the scale that is told does not loosen a bound") {
   step.move();
   step.scale = 1e9;
   CHECK(refuted(step) == Names{"momentum"});
+}
+
+TEST_CASE("energy: no collision and no damping gives any") {
+  for (const double restitution : {0.5, 1.0}) {
+    CHECK(refuted(bounce(restitution, restitution)).empty());
+    CHECK(refuted(bounce(restitution, 1.1)) == Names{"energy"});  // 0.105 J; h g v1 m is 0.098 J
+  }
+  // Gravity may be allowed h g (v1 - v0)/2 alone, which is what it gives a ball that keeps its speed.
+  CHECK(refuted(bounce(1, 1 + 1e-6)) == Names{"energy"});
+  CHECK(refuted(damped_spring(1)).empty());
+  CHECK(refuted(damped_spring(-1)) == Names{"energy"});
 }
 
 TEST_CASE("constraints: a link is as long as it is to be") {

@@ -1,0 +1,32 @@
+#include "contact_slack.h"
+
+#include <cmath>
+
+namespace pbd::reference {
+
+ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, const Sides& sides,
+                      double level) {
+  const auto& [a, b] = contact.collider;
+  const ContactLaw& law = sides.law(a, b);
+  const double normal = contact.force.dot(contact.normal);
+  const double centres = sides.inverse_mass(a, 0) + sides.inverse_mass(b, 0);
+  const auto inverse = [&](int k, int other) {
+    return sides.inverse_mass(
+        k, explicit_forces(claim) ? sides.longest_lever(k, other) : sides.lever(k, contact.point));
+  };
+  const double all = inverse(a, b) + inverse(b, a) + 2 * law.compliance / (claim.h * claim.h);
+  Vec3 slip = Vec3::Zero();
+  if (a < sides.count() && b < sides.count())
+    slip = sides.velocity(a, contact.point, claim.end) - sides.velocity(b, contact.point, claim.end);
+  slip -= contact.normal.dot(slip) * contact.normal;
+  // Least weights of a surface's nodes: their squares sum to a third of those that `inverse_mass` counts.
+  constexpr double share = 1.0 / 3;
+  return {law,
+          normal,
+          contact.force - normal * contact.normal,
+          level / std::sqrt(share * centres),
+          level * std::sqrt(all),
+          slip};
+}
+
+}  // namespace pbd::reference

@@ -23,6 +23,21 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactS
                    (1 + mu) * slack);
 }
 
+/// `slack` is what a gap may be off, m.
+void check_rebound(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
+                   const Sides& sides, double slack, Findings& findings) {
+  const auto& [a, b] = c.collider;
+  if (!is_euler_step(claim) || explicit_forces(claim) || open.law.compliance > 0 ||
+      std::max(a, b) >= sides.count())
+    return findings.leave_out("rebound: by this integrator, of what gives way, on surfaces");
+  if (!(open.normal * claim.h > open.impulse) || c.gap <= slack) return;
+  const auto approach = [&](const State& state) {
+    return c.normal.dot(sides.velocity(a, c.point, state) - sides.velocity(b, c.point, state));
+  };
+  const double missed = claim.h * (approach(claim.end) + open.law.restitution * approach(claim.start));
+  findings.require("rebound", name_of(a, b) + ", m", std::abs(missed), slack);
+}
+
 void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open, const Sides& sides,
                Findings& findings) {
   const auto& [a, b] = c.collider;
@@ -41,7 +56,7 @@ void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSla
   }
   if (claim.friction == Friction::cone && (surface || explicit_forces(claim)))
     return findings.leave_out("open contact: where the convex law opens it by a slip that is not known");
-  if (open.law.restitution > 0) return findings.leave_out("open contact: where shapes may bounce");
+  if (open.law.restitution > 0) return check_rebound(claim, c, open, sides, slack, findings);
   if (open.normal * claim.h > open.impulse)
     findings.require("open contact", name, larger(c.gap, proved), slack);
 }

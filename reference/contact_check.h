@@ -7,6 +7,8 @@
 // directions are taken there:
 //   force    -F_n h <= e and (|F_t| - mu F_n) h <= (1 + mu) e; the box law allows sqrt(2) mu
 //   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
+//   rebound  where shapes may bounce, pressed ones that end apart do so at e times the speed, along the end's
+//            normal, that they had where the step began: h |u_n1 + e u_n0| is at most that of `open`
 //   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
@@ -15,10 +17,10 @@
 //            and half spaces alone (support.h)
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
-// nor is the slip known there or on surfaces by which the convex law opens contacts; gaps where shapes may
-// bounce (restitution) are left open; sliding is not judged under explicit forces, whose directions are those
-// of the step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, closed meshes
-// beside other than half spaces, and surfaces.
+// nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
+// have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
+// step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, closed meshes beside
+// other than half spaces, and surfaces.
 #pragma once
 
 #include "step_claim.h"

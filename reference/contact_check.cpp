@@ -157,8 +157,9 @@ void Depths::check(int i, int j) {
   if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space(a) && !half_space(b))
     return findings_.leave_out("depth: closed meshes");
   const ContactLaw& law = sides_.law(i, j);
-  if (law.restitution > 0 || law.compliance > 0)
-    return findings_.leave_out("depth: where shapes bounce or give way");
+  if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
+  if (law.restitution > 0 && !is_euler_step(claim_))
+    return findings_.leave_out("depth: where shapes bounce, by this integrator");
   std::vector<Vec3> ways;
   if (!half_space(a) && !half_space(b))
     for (const ClaimedContact& claimed : claim_.contacts) {

@@ -19,8 +19,9 @@
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
-// step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, closed meshes beside
-// other than half spaces, and surfaces.
+// step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, what bounces under
+// newmark, which places it by the mean of two velocities, closed meshes beside other than half spaces, and
+// surfaces.
 #pragma once
 
 #include "step_claim.h"

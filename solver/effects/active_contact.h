@@ -26,6 +26,7 @@ struct ActiveContact {
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
   double nearest = 0;              // m, smallest gap of its pair
   double target = 0;               // m, the gap aimed at
+  double rebound = 0;              // m, the same where the shapes collide
   double restitution = 0;          // e where the shapes collide in this step, else 0
   double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
   bool late = false;               // seen where a solved iterate ended; `target` is set there

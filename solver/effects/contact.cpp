@@ -27,14 +27,9 @@ typename Block::Value rates(const ActiveContact& contact, const typename Block::
                             double gap, const StepMap& map, const typename Block::Velocities& start_v,
                             const typename Block::Velocities& v) {
   typename Block::Value rate = jacobian * v;
-  const double apart = (gap - contact.target - contact.offset) / map.d;
-  if (contact.restitution > 0) {
-    rate[0] += contact.restitution * (jacobian * start_v)[0];
-    if (contact.closing > 0) return rate;
-    rate[0] = std::min(rate[0], apart);
-  } else {
-    rate[0] = apart;
-  }
+  const bool collides = contact.restitution > 0;
+  const double apart = (gap - (collides ? contact.rebound : contact.target) - contact.offset) / map.d;
+  rate[0] = collides ? std::min(rate[0] + contact.restitution * (jacobian * start_v)[0], apart) : apart;
   return rate;
 }
 
@@ -218,6 +213,10 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   contact.restitution = contact.closing > 0 && ahead < 0 ? contact.law.restitution : 0.0;
+  contact.rebound =
+      contact.closing > 0
+          ? std::min(contact.target, from + begin.map.d * contact.law.restitution * contact.closing)
+          : contact.target;
   const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
   contact.compliance = elastic * contact.law.compliance;
   // The damper is met with the shape; what is seen late was apart.

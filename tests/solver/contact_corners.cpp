@@ -181,41 +181,6 @@ TEST_CASE("a node does not touch the body that it is attached to") {
   CHECK((end.x.col(node) - scene.initial.x.col(node)).norm() <= 1e-9);
 }
 
-TEST_CASE("restitution gives every solver, outer iteration and start the same motion") {
-  BodyScene build({.friction = 0, .restitution = 0.8});
-  build.ground();
-  const auto cube = [&](const Vec3& x, double mass, const Eigen::Quaterniond& turned, double speed) {
-    build.box(Vec3::Ones(), mass, {x, turned, Vec3(0, 0, -speed)});
-  };
-  cube({0, 0, 0.51}, 1, Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Vec3(1, 0.4, 0).normalized())), 3);
-  cube({0.2, 0.1, 1.53}, 1, Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Vec3(-0.3, 1, 0).normalized())), 3);
-  cube({-0.1, 0.1, 2.55}, 2, Eigen::Quaterniond::Identity(), 3.5);
-  const Scene scene = build.finish();
-  build.contact().law[0].restitution = 0;
-  const Scene dull = build.finish();
-  for (const double h : {0.01, 0.002}) {
-    Points expected;
-    for (const auto relaxation : general_solver_names())
-      for (const std::string outer : {"auto", "plain", "proximal"})
-        for (const bool warm : {true, false}) {
-          INFO(relaxation << " " << outer << " h " << h << (warm ? " warm" : " cold"));
-          Method method;
-          method.relaxation = relaxation;
-          method.outer = outer;
-          method.tolerance = 1e-10;
-          method.max_sweeps = 20000;
-          method.warm_start = warm;
-          const State end = run(scene, method, h, static_cast<int>(std::lround(0.04 / h)));
-          if (expected.size() == 0) expected = end.v;
-          // No bound, but ten thousand times the tolerance, where restitution makes more than 0.5 m/s.
-          CHECK((end.v - expected).cwiseAbs().maxCoeff() <= 1e-6);
-        }
-    const Method method = contact_method("direct");
-    const State end = run(dull, method, h, static_cast<int>(std::lround(0.04 / h)));
-    CHECK((end.v - expected).row(2).minCoeff() < -0.5);  // m/s: it did return
-  }
-}
-
 TEST_CASE("a ball in free flight that ends in a box's side is stopped there") {
   BodyScene build({.friction = 0}, 0);
   build.fixed(Box{Vec3::Ones()}, {Vec3::Zero()});
@@ -225,22 +190,4 @@ TEST_CASE("a ball in free flight that ends in a box's side is stopped there") {
   State state = scene.initial;
   REQUIRE(step(workspace, 0.01, state).status == Status::ok);
   CHECK(state.x(0, 1) >= 0.6 - 1e-4 * 0.1);
-}
-
-TEST_CASE("what is stopped within a step returns its speed, though its free motion met nothing") {
-  // The lower ball stops on the ground, and the upper one, whose free motion would stay clear of it, meets
-  // it.
-  for (const auto relaxation : general_solver_names()) {
-    INFO(relaxation);
-    BodyScene build({.friction = 0, .restitution = 0}, 0);
-    build.materials(2, {.friction = 0, .restitution = 0});
-    build.law(0, 1, {.friction = 0, .restitution = 0.5});
-    build.ground();
-    build.ball(0.1, 1, {Vec3(0, 0, 0.1 + 1e-3), Eigen::Quaterniond::Identity(), Vec3(0, 0, -1)});
-    build.ball(0.1, 1, {Vec3(0, 0, 0.3 + 5e-3), Eigen::Quaterniond::Identity(), Vec3(0, 0, -1.2)}, 1);
-    const Scene scene = build.finish();
-    const State end = run(scene, contact_method(relaxation), 0.01, 1);
-    // They approach each other at 0.2 m/s and part at half of it; the lower one cannot go down.
-    CHECK(end.v(2, 2) - end.v(2, 1) == Approx(0.1).epsilon(1e-6));
-  }
 }

@@ -43,15 +43,23 @@ bool cuts(const MeshPair& pair, int triangle) {
   return goes_through(a, p, q) || goes_through(a, q, r) || goes_through(a, r, p);
 }
 
-/// Along the normals of the mesh's faces that are cut; lists these faces' nodes in the scratch.
+/// That the mean of a's nodes is inside the mesh.
+bool holds_middle(const MeshPair& pair) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& x : pair.a.x) middle += x / static_cast<double>(pair.a.x.size());
+  MeshPlace place{};
+  return nearest_of_mesh(pair.b, middle, 0, place) && place.distance < -pair.flush;
+}
+
+/// Along the normals of the mesh's faces that are cut, of all that are near where a's middle is inside: none
+/// is cut of meshes that coincide. Lists these faces' nodes in the scratch.
 Overlap below_mesh(const MeshPair& pair) {
   const RoundedPolyhedron& a = pair.a;
   pair.scratch.cut_nodes.clear();
   AxisBox box;
   for (const Vec3& x : a.x) box.extend(x);
   Overlap least;
-  pair.b.tree.find(box, [&](int triangle) {
-    if (!cuts(pair, triangle)) return;
+  const auto look = [&](int triangle) {
     for (const int i : pair.b.surface.triangles[triangle]) pair.scratch.cut_nodes.push_back(i);
     const Vec3 &normal = pair.b.solid.faces[triangle].normal, on_plane = corner(pair.b, triangle, 0);
     Overlap here{triangle, -1, infinity};
@@ -60,6 +68,10 @@ Overlap below_mesh(const MeshPair& pair) {
       if (apart < here.apart) here.node = i, here.apart = apart;
     }
     if (here.apart > least.apart) least = here;
+  };
+  const bool all = holds_middle(pair);
+  pair.b.tree.find(box, [&](int triangle) {
+    if (all || cuts(pair, triangle)) look(triangle);
   });
   return least;
 }

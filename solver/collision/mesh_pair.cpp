@@ -46,15 +46,45 @@ bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double s
   return lowest;
 }
 
+bool MeshPair::lies_above(int node, const Vec3& normal) const {
+  if (mesh_a != nullptr)
+    return lowest_about(*mesh_a, node, writer.frame_a.rotation.transpose() * normal, tilted + turn);
+  for (int e = 0; e < a.edge_count(); ++e) {
+    const auto& ends = a.edge(e).node;
+    if (ends[0] != node && ends[1] != node) continue;
+    if ((ends[0] == node ? 1 : -1) * normal.dot(a.along[e]) < -(tilted + turn)) return false;
+  }
+  return true;
+}
+
+bool MeshPair::write_flush(int node) const {
+  const Vec3& x = a.node(node);
+  int best = -1;
+  double gap = -infinity;
+  const AxisBox box(x.array() - flush, x.array() + flush);
+  b.tree.find(box, [&](int triangle) {
+    const Vec3& normal = b.solid.faces[triangle].normal;
+    const double here = normal.dot(x - b.surface.x.col(b.surface.triangles[triangle][0]));
+    if (here <= gap + tiny || std::abs(nearest_of_triangle(b, triangle, x).distance) > flush) return;
+    if (!lies_above(node, normal)) return;
+    best = triangle;
+    gap = here;
+  });
+  if (best < 0) return false;
+  writer.write(on_face(x, 0, b.surface.x.col(b.surface.triangles[best][0]), b.solid.faces[best].normal, 0),
+               writer.key(Feature::node, node, Feature::face, best), gap);
+  return true;
+}
+
 void MeshPair::nodes() const {
   const auto write = [&](int i, const MeshPlace& at) {
-    const Vec3 apart = writer.frame_a.rotation.transpose() * direction(b, at, a.node(i));
-    if (mesh_a == nullptr || lowest_about(*mesh_a, i, apart, tilted + turn))
+    if (mesh_a == nullptr || lies_above(i, direction(b, at, a.node(i))))
       write_place(a.node(i), a.radius, i, b, at, writer);
   };
   for (int i = 0; i < a.node_count(); ++i) {
     MeshPlace nearest{};
     if (!nearest_of_mesh(b, a.node(i), limit, nearest)) continue;
+    if (std::abs(nearest.distance) <= flush && write_flush(i)) continue;
     if (nearest.distance <= 0) {
       write(i, nearest);
     } else {
@@ -67,7 +97,7 @@ void MeshPair::nodes() const {
 void MeshPair::nodes_inside() const {
   for (int i = 0; i < a.node_count(); ++i) {
     MeshPlace nearest{};
-    if (nearest_of_mesh(b, a.node(i), limit, nearest) && nearest.distance <= 0)
+    if (nearest_of_mesh(b, a.node(i), limit, nearest) && nearest.distance < -flush)
       write_place(a.node(i), a.radius, i, b, nearest, writer);
   }
 }
@@ -103,10 +133,13 @@ void MeshPair::crossing(int i, int j) const {
   Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
   const bool inside = normal.dot(at.apart) < 0;
-  const double slope = inside ? 0 : turn;
+  const bool is_flush = distance <= flush;
+  if (is_flush && of_a.face[0] >= 0 && (normal_a(of_a.face[0]) + normal_a(of_a.face[1])).dot(normal) > 0)
+    return;  // both shapes are on one side
+  const double slope = is_flush ? std::max(turn, flush_part) : inside ? 0 : turn;
   if (!minimum(of_b, along_b, normal, slope, normal_b)) return;
   if (!minimum(of_a, along_a, -normal, slope, normal_a)) return;
-  if (inside) {
+  if (inside && !is_flush) {
     const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
       return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
     };
@@ -156,16 +189,20 @@ void MeshPair::nodes_of_mesh() const {
 }
 
 void MeshPair::over_faces(const Vec3& y, int node, const ContactWriter& exchanged) const {
+  const auto apart_from = [&](int f) { return a.face_normal(f).dot(y) - a.offset[f]; };
+  double most = -infinity;
+  for (int f = 0; f < a.face_count(); ++f) most = std::max(most, apart_from(f));
+  if (most >= limit) return;
   int best = -1;
   double apart = -infinity;
-  for (int f = 0; f < a.face_count(); ++f) {
-    const double here = a.face_normal(f).dot(y) - a.offset[f];
-    if (here <= apart) continue;
+  for (int f = 0; f < a.face_count(); ++f) {  // several where y is on an edge or a corner
+    const double here = apart_from(f);
+    if (here < most - flush || here <= apart || (here > 0 && !a.above(f, y, std::max(tiny, flush)))) continue;
+    if (!lowest_about(b, node, a.face_normal(f), flat_slope + (here > 0 ? turn : 0))) continue;
     apart = here;
     best = f;
   }
-  if (best < 0 || apart >= limit || (apart > 0 && !a.above(best, y, tiny))) return;
-  if (!lowest_about(b, node, a.face_normal(best), flat_slope + (apart > 0 ? turn : 0))) return;
+  if (best < 0) return;
   exchanged.write(on_face(y, 0, a.node(a.corner(best, 0)), a.face_normal(best), a.radius),
                   exchanged.key(Feature::node, node, Feature::face, best), apart - a.radius);
 }

@@ -40,9 +40,11 @@ struct MeshPair {
   CollisionScratch& scratch;
   const ClosedMesh* mesh_a = nullptr;  // if a is one
   double limit = writer.reach.margin + a.radius, tiny = rounding * a.size, turn = writer.reach.turn;
+  double flush = a.radius > 0 ? 0 : flush_part* a.size;  // m
 
   /// Of a mesh, those that are lowest about themselves.
   void nodes() const;
+  /// Those that no face of the mesh is flush with.
   void nodes_inside() const;
   void edges() const;
   /// The mesh's nodes over a's faces or inside a, and beside a's only edge if that has no faces.
@@ -51,6 +53,10 @@ struct MeshPair {
  private:
   /// Of x in a (m), if it has a volume: negative outside, and less than -farthest where it is farther.
   double depth_in_a(const Vec3& x, double farthest) const;
+  /// That a's surface rises from its node along a normal of the mesh.
+  bool lies_above(int node, const Vec3& normal) const;
+  /// Writes a node that is on the mesh, on the face that a lies above; false if there is none.
+  bool write_flush(int node) const;
   /// Edges i and j where their distance has a minimum. Inside, the edges' own faces must be the nearest ones
   /// to where they cross.
   void crossing(int i, int j) const;

@@ -161,6 +161,17 @@ TEST_CASE("what stands on a flat side of a mesh, touching or nearly so, is pushe
   }
 }
 
+TEST_CASE("closed meshes that coincide overlap by their least side") {
+  const Shape plate = ClosedMesh(box_surface({0.3, 0.2, 0.02}));
+  for (const double shift : {0.0, 1e-12, 1e-3}) {
+    const Frame at{Vec3(shift, -shift, 0)};
+    double least = infinity;
+    for (const auto& contact : contacts(plate, at, plate, {}, 1e-3))
+      least = std::min(least, touch(contact, at, {}).gap);
+    CHECK(least == Approx(-0.02));
+  }
+}
+
 TEST_CASE("a mesh over a half space touches with its nodes") {
   Random random(43);
   const TriangleMesh surface = refined(shaken_octahedron(random));

@@ -75,10 +75,13 @@ void Bodies::place(const Points& x, std::vector<Pose>& poses) const {
   }
 }
 
+double Bodies::spin(int body, const Points& v) const {
+  return v.col(column(body)).cwiseQuotient(radius_[body]).norm();
+}
+
 double Bodies::largest_spin(const Points& v) const {
   double largest = 0;
-  for (int b = 0; b < count(); ++b)
-    largest = std::max(largest, v.col(column(b)).cwiseQuotient(radius_[b]).norm());
+  for (int b = 0; b < count(); ++b) largest = std::max(largest, spin(b, v));
   return largest;
 }
 

@@ -56,7 +56,8 @@ class Bodies {
   /// Poses at positions x of all columns, since the last `begin`.
   void place(const Points& x, std::vector<Pose>& poses) const;
 
-  /// The largest angular velocity at v, rad/s.
+  /// A body's angular velocity at v, and the largest one, rad/s.
+  double spin(int body, const Points& v) const;
   double largest_spin(const Points& v) const;
 
   /// Of gyration, m; 0 if there is no body.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "step/levels.h"
+#include "step/turns.h"
 #include "step/workspace.h"
 #include "validate.h"
 
@@ -121,6 +122,9 @@ void StepRun::solve(const Observer& observer) {
       if (++solved_anew <= w.method.max_outer) continue;
       report.status = Status::not_converged;
       report.reason = "each solution calls for other rows";
+    } else if (ended && report.status == Status::ok && turned_round(system)) {
+      report.status = Status::not_converged;
+      report.reason = "a joint turns a body by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
     if (stalled) {

@@ -4,10 +4,10 @@
 //   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l where the step begins,
 //               g_0 at x0: overlaps part at `recovery` at most and get no deeper. Sigma = A/(h d); a damper
 //               is met where the shapes touch. Where shapes collide with restitution e in this step, the
-//               smaller of this and n . (u(v) + e u(v_l)), u the relative velocity of what touches: what rolls
-//               sinks by the curvature of its path if it is kept from approaching alone. The gap may then be
-//               the one to which that speed leads from x0: with newmark and alpha = 1/2 energy is kept for
-//               e = 1
+//               smaller of this and n . (u(v) + e u(v_l)), u the relative velocity of what touches: what
+//               rolls sinks by the curvature of its path if it is kept from approaching alone. The gap may
+//               then be the one to which that speed leads from x0: with newmark and alpha = 1/2 energy is
+//               kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //

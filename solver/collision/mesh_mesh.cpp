@@ -8,12 +8,13 @@ void mesh_mesh(const ClosedMesh& a, const ClosedMesh& b, const ContactWriter& in
                CollisionScratch& scratch) {
   scratch.a.place(a, in_b.frame_a);
   scratch.b.place(b, in_a.frame_a);
-  const MeshPair pair{scratch.a, b, in_b, scratch, &a};
-  const MeshPair exchanged{scratch.b, a, in_a, scratch, &b};
+  MeshPair pair{scratch.a, b, in_b, scratch, &a};
+  MeshPair exchanged{scratch.b, a, in_a, scratch, &b};
+  pair.flush = exchanged.flush = std::min(pair.flush, exchanged.flush);
   pair.nodes();
   pair.edges();
   exchanged.nodes();
-  if (in_b.least() < 0) return;
+  if (in_b.least() < -pair.flush) return;
   pair.nodes_inside();  // overlapping by nodes that are not the lowest ones
   exchanged.nodes_inside();
   write_overlap(pair);

@@ -13,12 +13,12 @@ Vec3 corner(const ClosedMesh& mesh, int triangle, int k) {
   return mesh.surface.x.col(mesh.surface.triangles[triangle][k]);
 }
 
-/// That a part of the segment from p to q is below all faces of a convex a.
-bool goes_through(const RoundedPolyhedron& a, const Vec3& p, const Vec3& q) {
+/// That a part of the segment from p to q is below all faces of a convex a by more than `slack` (m).
+bool goes_through(const RoundedPolyhedron& a, const Vec3& p, const Vec3& q, double slack) {
   double begin = 0, end = 1;
   for (int f = 0; f < a.face_count(); ++f) {
-    const double at_p = a.face_normal(f).dot(p) - a.offset[f];
-    const double at_q = a.face_normal(f).dot(q) - a.offset[f];
+    const double at_p = a.face_normal(f).dot(p) - a.offset[f] + slack;
+    const double at_q = a.face_normal(f).dot(q) - a.offset[f] + slack;
     if (at_p > 0 && at_q > 0) return false;
     if (at_p > 0) begin = std::max(begin, at_p / (at_p - at_q));
     if (at_q > 0) end = std::min(end, at_p / (at_p - at_q));
@@ -26,21 +26,26 @@ bool goes_through(const RoundedPolyhedron& a, const Vec3& p, const Vec3& q) {
   return begin < end;
 }
 
-/// That an edge of a goes through the mesh's triangle, or one of its edges through a convex a.
-bool cuts(const MeshPair& pair, int triangle) {
-  const RoundedPolyhedron& a = pair.a;
-  const Vec3 p = corner(pair.b, triangle, 0), q = corner(pair.b, triangle, 1),
-             r = corner(pair.b, triangle, 2);
-  const auto side = [](const Vec3& u, const Vec3& v, const Vec3& w) { return u.cross(v).dot(w) > 0; };
-  for (const auto& edge : a.solid->edges) {
-    const Vec3 from = a.node(edge.node[0]), along = a.node(edge.node[1]) - from;
-    const Vec3 normal = (q - p).cross(r - p);
-    if ((normal.dot(from - p) > 0) == (normal.dot(from + along - p) > 0)) continue;
-    const bool left = side(p - from, q - from, along);
-    if (left == side(q - from, r - from, along) && left == side(r - from, p - from, along)) return true;
+/// That a's edge goes through the mesh's triangle, by more than `flush` on both sides and from its own edges.
+bool pierces(const MeshPair& pair, const Polyhedron::Edge& edge, int triangle) {
+  const Vec3& normal = pair.b.solid.faces[triangle].normal;
+  const Vec3 from = pair.a.node(edge.node[0]), along = pair.a.node(edge.node[1]) - from;
+  const double begin = normal.dot(from - corner(pair.b, triangle, 0)), end = begin + normal.dot(along);
+  if (!(std::max(begin, end) > pair.flush && std::min(begin, end) <= -pair.flush)) return false;
+  const Vec3 x = from + begin / (begin - end) * along;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 p = corner(pair.b, triangle, k), side = corner(pair.b, triangle, (k + 1) % 3) - p;
+    if (!(normal.cross(side).dot(x - p) > pair.flush * side.norm())) return false;
   }
-  if (pair.mesh_a != nullptr || a.face_count() == 0) return false;
-  return goes_through(a, p, q) || goes_through(a, q, r) || goes_through(a, r, p);
+  return true;
+}
+
+/// That one of the triangle's edges goes through a convex a.
+bool goes_through_a(const MeshPair& pair, int triangle) {
+  for (int k = 0; k < 3; ++k)
+    if (goes_through(pair.a, corner(pair.b, triangle, k), corner(pair.b, triangle, (k + 1) % 3), pair.flush))
+      return true;
+  return false;
 }
 
 /// That the mean of a's nodes is inside the mesh.
@@ -69,10 +74,18 @@ Overlap below_mesh(const MeshPair& pair) {
     }
     if (here.apart > least.apart) least = here;
   };
-  const bool all = holds_middle(pair);
-  pair.b.tree.find(box, [&](int triangle) {
-    if (all || cuts(pair, triangle)) look(triangle);
-  });
+  const bool all = holds_middle(pair), convex = pair.mesh_a == nullptr && a.face_count() > 0;
+  if (all || convex)
+    pair.b.tree.find(box, [&](int triangle) {
+      if (all || goes_through_a(pair, triangle)) look(triangle);
+    });
+  for (int e = 0; e < a.edge_count() && !all; ++e) {
+    AxisBox of_edge(a.node(a.edge(e).node[0]));
+    of_edge.extend(a.node(a.edge(e).node[1]));
+    pair.b.tree.find(of_edge, [&](int triangle) {
+      if (pierces(pair, a.edge(e), triangle)) look(triangle);
+    });
+  }
   return least;
 }
 
@@ -95,7 +108,7 @@ Overlap below_polyhedron(const MeshPair& pair) {
 
 void write_overlap(const MeshPair& pair) {
   const RoundedPolyhedron& a = pair.a;
-  if (pair.writer.least() <= pair.tiny - a.radius) return;
+  if (pair.writer.least() < -std::max(pair.flush, pair.tiny) - a.radius) return;
   const Overlap of_mesh = below_mesh(pair), of_a = below_polyhedron(pair);
   const ContactWriter exchanged = pair.writer.exchanged();
   if (of_a.face >= 0 && of_a.apart > of_mesh.apart)

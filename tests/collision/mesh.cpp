@@ -161,6 +161,30 @@ TEST_CASE("what stands on a flat side of a mesh, touching or nearly so, is pushe
   }
 }
 
+TEST_CASE("a corner that lies on a mesh hides no overlap elsewhere") {
+  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh");
+  Random random(59);
+  int overlaps = 0, unseen = 0;
+  for (int number = 0; number < 3000; ++number) {
+    const TriangleMesh octahedron = shaken_octahedron(random);
+    const Shape mesh = ClosedMesh(octahedron), a = random_shape(kind, random);
+    const auto& nodes = octahedron.triangles[static_cast<std::size_t>(number) % octahedron.triangles.size()];
+    const Vec3 middle =
+        (octahedron.x.col(nodes[0]) + octahedron.x.col(nodes[1]) + octahedron.x.col(nodes[2])) / 3;
+    Frame at{Vec3::Zero(), random.rotation()};
+    at.origin = middle - convex(a, at).x.front();
+    const double distance = signed_distance(convex(a, at), convex(mesh, {}));
+    if (!(distance < -1e-3)) continue;
+    ++overlaps;
+    double least = infinity;
+    for (const auto& contact : contacts(a, at, mesh, {}, 1e-3))
+      least = std::min(least, touch(contact, at, {}).gap);
+    unseen += !(least < -1e-4);
+  }
+  CHECK(overlaps > 1000);
+  CHECK(unseen == 0);
+}
+
 TEST_CASE("closed meshes that coincide overlap by their least side") {
   const Shape plate = ClosedMesh(box_surface({0.3, 0.2, 0.02}));
   for (const double shift : {0.0, 1e-12, 1e-3}) {

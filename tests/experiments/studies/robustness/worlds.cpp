@@ -54,7 +54,7 @@ TEST_CASE("steps of explicit forces that blow up are not refuted: their contacts
     INFO("world " << i);
     CHECK(checks.refuted_steps() == 0);
     CHECK(checks.judged() >= 2);  // so far beyond stability some miss their tolerance
-    CHECK(fastest > 1e8);  // m/s
+    CHECK(fastest > 1e8);         // m/s
   }
 }
 

@@ -40,11 +40,11 @@ struct MeshPair {
   CollisionScratch& scratch;
   const ClosedMesh* mesh_a = nullptr;  // if a is one
   double limit = writer.reach.margin + a.radius, tiny = rounding * a.size, turn = writer.reach.turn;
-  double flush = a.radius > 0 ? 0 : flush_part* a.size;  // m
+  double flush = (a.radius > 0 ? 0 : flush_part) * a.size;  // m: nodes so near lie on the mesh
 
   /// Of a mesh, those that are lowest about themselves.
   void nodes() const;
-  /// Those that no face of the mesh is flush with.
+  /// Those that are deeper in the mesh than what lies on it.
   void nodes_inside() const;
   void edges() const;
   /// The mesh's nodes over a's faces or inside a, and beside a's only edge if that has no faces.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/interrupt.h"
+#include "harness/step_checks.h"
 #include "step/integrators.h"
 
 namespace pbdcheck {
@@ -47,6 +48,7 @@ Simulation simulate_steps(const Scene& scene, const Method& method, double h, in
   Simulation found;
   found.end = scene.initial;
   Workspace workspace(scene, method);
+  StepChecks checks;
   while (found.steps < steps) {
     throw_if_interrupted();
     const State before = found.end;
@@ -57,7 +59,10 @@ Simulation simulate_steps(const Scene& scene, const Method& method, double h, in
     if (report.status > found.status) found.status = report.status, found.reason = report.reason;
     if (report.status == Status::diverged) break;
     ++found.steps;
-    if (const auto stop = after_step(before, found.end); !stop.empty()) {
+    std::string stop(after_step(before, found.end));
+    checks.add(found.steps, claim_of(scene, workspace, before, found.end, h, report), report.status, false);
+    if (checks.refuted_steps() > 0) stop = checks.text();
+    if (!stop.empty()) {
       found.status = Status::diverged;
       found.reason = stop;
       break;

@@ -39,7 +39,8 @@ struct Simulation {
 /// as its reason.
 using AfterStep = std::function<std::string_view(const pbd::State& before, const pbd::State& after)>;
 
-/// `steps` steps of h seconds from the scene's initial state, fewer if one diverges. Throws Interrupted.
+/// `steps` steps of h seconds from the scene's initial state, fewer if one diverges or says ok and is refuted
+/// (`StepChecks`), which counts as diverged. Throws Interrupted.
 Simulation simulate_steps(const pbd::Scene& scene, const pbd::Method& method, double h, int steps,
                           const AfterStep& after_step);
 

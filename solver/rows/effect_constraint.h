@@ -67,13 +67,20 @@ typename Constraint<E>::Positions local_at(const E& effect, std::size_t i,
   }
 }
 
-/// Largest coordinate of a constraint, m.
+/// Largest coordinate of a constraint, m; of bodies that turn also their radius of gyration.
 template <class E>
-double largest_coordinate(const typename Constraint<E>::Positions& at) {
+double largest_coordinate(const typename Constraint<E>::Positions& at,
+                          const typename Constraint<E>::Nodes& columns,
+                          const std::vector<double>& inverse_mass) {
   if constexpr (BodyEffect<E>) {
     double most = at.node.size() > 0 ? at.node.cwiseAbs().sum() : 0.0;
-    for (const Pose* pose : at.body)
-      most = std::max({most, pose->x.cwiseAbs().maxCoeff(), 1 / pose->turn_per_arc.row(0).norm()});
+    std::size_t next = 0;
+    for (const Pose* pose : at.body) {
+      most = std::max(most, pose->x.cwiseAbs().maxCoeff());
+      const int rotation = columns[next + 1];
+      if (inverse_mass[rotation] > 0) most = std::max(most, 1 / pose->turn_per_arc.row(0).norm());
+      next += 2;
+    }
     return most;
   } else {
     return at.cwiseAbs().maxCoeff();

@@ -211,7 +211,8 @@ class EffectRows final : public Source {
       if constexpr (requires { effect_.bounds; })
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
-      Operations::linearise(place, value, largest_coordinate<E>(own), block, i, sums);
+      Operations::linearise(place, value, largest_coordinate<E>(own, block.node[i], place.inverse_mass),
+                            block, i, sums);
     }
     return sums;
   }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/step_checks.h"
+
 namespace pbdcheck {
 
 using namespace pbd;
@@ -15,14 +17,22 @@ ContactRun simulate_contacts(const Scene& scene, const Method& method, double h,
   ContactRun run;
   run.end = scene.initial;
   Workspace workspace(scene, method);
+  StepChecks checks;
   while (run.steps < steps) {
     throw_if_interrupted();
+    const State before = run.end;
     const Report report = step(workspace, h, run.end);
     run.sweeps += report.sweeps;
     run.steps_ok += report.status == Status::ok;
     if (report.status > run.status) run.status = report.status, run.reason = report.reason;
     if (report.status == Status::diverged) break;
     ++run.steps;
+    checks.add(run.steps, claim_of(scene, workspace, before, run.end, h, report), report.status, false);
+    if (checks.refuted_steps() > 0) {
+      run.status = Status::diverged;
+      run.reason = checks.text();
+      break;
+    }
     if (after_step) after_step(run.end, workspace);
   }
   return run;

@@ -23,7 +23,8 @@ struct ContactRun : Simulation {
 /// Called after each step that is not refused; the workspace knows its contacts.
 using AfterContactStep = std::function<void(const pbd::State& after, const pbd::Workspace& workspace)>;
 
-/// `steps` steps of h seconds from the scene's initial state, fewer if one diverges. Throws Interrupted.
+/// `steps` steps of h seconds from the scene's initial state, fewer if one diverges or says ok and is refuted
+/// (`StepChecks`), which counts as diverged. Throws Interrupted.
 ContactRun simulate_contacts(const pbd::Scene& scene, const pbd::Method& method, double h, std::int64_t steps,
                              const AfterContactStep& after_step = {});
 

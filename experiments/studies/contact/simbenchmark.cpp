@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "harness/measure.h"
+#include "harness/step_checks.h"
 #include "step/step.h"
 #include "studies/contact/simbenchmark.h"
 #include "studies/experiments.h"
@@ -33,10 +34,12 @@ BenchmarkOutcome run_benchmark(const Benchmark& each, const Method& method, doub
   BenchmarkOutcome outcome;
   Workspace workspace(each.scene, method);
   State state = each.scene.initial;
+  StepChecks checks;
   const auto steps = static_cast<std::int64_t>(std::lround(each.duration / h));
   for (std::int64_t k = 0; k < steps; ++k) {
     throw_if_interrupted();
     outcome.error += each.error(state) / static_cast<double>(steps);
+    const State before = state;
     const auto start = std::chrono::steady_clock::now();
     const Report report = step(workspace, h, state);
     outcome.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -45,7 +48,10 @@ BenchmarkOutcome run_benchmark(const Benchmark& each, const Method& method, doub
     outcome.row_updates += report.row_updates;
     outcome.missed += report.status != Status::ok;
     if (report.status > outcome.status) outcome.status = report.status, outcome.reason = report.reason;
-    if (report.status == Status::diverged) {
+    if (report.status != Status::diverged)
+      checks.add(k + 1, claim_of(each.scene, workspace, before, state, h, report), report.status, false);
+    if (checks.refuted_steps() > 0) outcome.status = Status::diverged, outcome.reason = checks.text();
+    if (outcome.status == Status::diverged) {
       outcome.error = std::nan("");
       break;
     }

@@ -7,6 +7,7 @@
 //   penetration         largest overlap, as part of the smallest body's size, 1e-2 while bodies strike
 //   penetration_at_end  the same where the run ends, 1e-3
 //   joints              largest error of a joint, as part of the size
+//   claims              steps that say ok and are refuted by independent checks (harness/step_checks.h)
 //   residual            steps that gave up without having improved on their first residual
 //   settles             kinetic energy at the end, as part of m g L
 //   stays               largest way of a body's centre, as part of the size
@@ -21,6 +22,7 @@
 
 #include "harness/measure.h"
 #include "harness/probes.h"
+#include "harness/step_checks.h"
 #include "scenes/standard.h"
 #include "studies/contact/contact_answers.h"
 #include "studies/experiments.h"
@@ -82,7 +84,8 @@ struct Watched {
   double overlap, overlap_at_end;  // m
   double joints, lift;             // m
   double reaction;                 // N, of the ground at the end
-  double not_finite, unimproved;   // numbers of coordinates and steps
+  double not_finite;               // number of coordinates and steps
+  double refuted, unimproved;      // numbers of steps
 };
 
 std::vector<Gate> gates_of(const ContactCase& each, const Watched& watched, const State& state, double mass,
@@ -95,6 +98,7 @@ std::vector<Gate> gates_of(const ContactCase& each, const Watched& watched, cons
       {"penetration", watched.overlap / each.size, 1e-2},
       {"penetration_at_end", watched.overlap_at_end / each.size, 1e-3},
       {"joints", watched.joints / each.size, 1e-3, asked(jointed(each.scene), "no joints")},
+      {"claims", watched.refuted, 0},
       {"residual", watched.unimproved, 0},
       {"settles", kinetic_energy(each.scene, state) / (mass * gravity * each.size), 1e-6,
        asked(each.settles, "it goes on moving")},
@@ -112,6 +116,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
   const Scene& scene = each.scene;
   Workspace workspace(scene, method);
   State state = scene.initial;
+  StepChecks checks;
   double mass = 0;
   for (const double own : scene.mass)
     if (std::isfinite(own)) mass += own;
@@ -124,6 +129,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
   for (; run.steps < steps; ++run.steps) {
     throw_if_interrupted();
     double first = -1, last = 0;
+    const State before = state;
     const Report report = step(workspace, h, state, [&](const Iterate& iterate) {
       last = std::max(iterate.primal, iterate.dual);
       if (first < 0) first = last;
@@ -135,6 +141,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
       ++diverged;
       continue;
     }
+    checks.add(run.steps + 1, claim_of(scene, workspace, before, state, h, report), report.status, false);
     unimproved += report.status != Status::ok && !(std::max(report.primal, report.dual) < first);
     excess.add(kinetic_energy(scene, state) + gravity_energy(scene, state) - start);
     overlap_at_end = reaction = 0;
@@ -148,8 +155,16 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
     lift.add((state.x.row(2) - scene.initial.x.row(2)).maxCoeff());
   }
   const auto not_finite = static_cast<double>((!state.x.array().isFinite()).count() + diverged);
-  Watched watched{excess.value() / scale, overlap.value(), overlap_at_end, joints.value(),
-                  lift.value(),           reaction,        not_finite,     static_cast<double>(unimproved)};
+  Watched watched{excess.value() / scale,
+                  overlap.value(),
+                  overlap_at_end,
+                  joints.value(),
+                  lift.value(),
+                  reaction,
+                  not_finite,
+                  static_cast<double>(checks.refuted_steps()),
+                  static_cast<double>(unimproved)};
+  if (checks.refuted_steps() > 0) run.reason = checks.text();
   run.gates = gates_of(each, watched, state, mass, h, run.steps);
   return run;
 }

@@ -95,10 +95,15 @@ void Energy::add_block(const Block& block, const RowVector& before, const RowVec
     changed += claim_.h * (columns * (v1_ - v0_).segment<3>(unknown));
     if (unknown >= model_.nodes.unknowns) turned += claim_.h * v1_.segment<3>(unknown).norm();
   });
-  if (collides) allow(-own.dot(changed) / 2);
+  // In a body's axes, which are not told, the force may point anywhere.
+  const bool turned_axes = own_frame_[static_cast<std::size_t>(block.row)];
+  const auto work = [&](const RowVector& way) {
+    return turned_axes ? own.norm() * way.norm() : own.dot(way);
+  };
+  if (collides) allow(work(-changed) / 2);
   const bool bounded = bounds_[static_cast<std::size_t>(block.row)] != std::array{-infinity, infinity};
   if (block.hard) {
-    allow(own.dot(moved));
+    allow(work(moved));
     terms_ += own.norm() * moved.norm();
     return;
   }
@@ -107,11 +112,10 @@ void Energy::add_block(const Block& block, const RowVector& before, const RowVec
   const double stored = pull.dot(block.value) / 2, stored_before = pulled.dot(before) / 2;
   gain(stored);
   gain(-stored_before);
-  if (bounded) return allow(stored - stored_before + own.dot(moved));
+  if (bounded) return allow(stored - stored_before + work(moved));
   allow(stored - stored_before - pull.dot(moved));
-  const double curved = (block.value - before - moved).norm() +
-                        (own_frame_[static_cast<std::size_t>(block.row)] ? turned * before.norm() : 0.0);
-  allow((own + pull).norm() * curved);
+  const double curved = (block.value - before - moved).norm() + (turned_axes ? turned * before.norm() : 0.0);
+  allow((turned_axes ? own.norm() + pull.norm() : (own + pull).norm()) * curved);
 }
 
 void Energy::add_constraints(const Vector& gamma) {

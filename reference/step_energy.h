@@ -5,6 +5,8 @@
 //   compliant ones, c^T A^-1 c/2 = Psi            Psi1 - Psi0 - A^-1 c1 . h J v1, what their curvature and
 //                                                 their motors bring
 //   damping, the rest q of the force told         nothing but for the curvature of c:  |q| |c1 - c0 - h J v1|
+//                                                 of a force that is told in a body's axes what its size
+//                                                 allows
 //   contacts                                      F_n times the gap told and the depth at which they begin:
 //                                                 support functions show it along the normal; friction and
 //                                                 collisions bring nothing; bodies that are led, their work

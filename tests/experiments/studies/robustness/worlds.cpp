@@ -58,6 +58,16 @@ TEST_CASE("steps of explicit forces that blow up are not refuted: their contacts
   }
 }
 
+TEST_CASE("what is held by a damped joint is not refuted: the joint's force is told in a body's axes") {
+  for (const int i : {881, 5979, 9573, 10602}) {
+    INFO("world " << i);
+    const World world = generated_world(i);
+    const FirstStep own = first_step(world.scene, world.method, world.h);
+    CHECK(own.report.status == pbd::Status::ok);
+    CHECK(own.refuted.empty());
+  }
+}
+
 TEST_CASE("a scene that says something else ends its step otherwise, at any tolerance") {
   pbdcheck::BodyScene build({.friction = 0.5});
   build.ground(0.3);

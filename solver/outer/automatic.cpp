@@ -1,15 +1,33 @@
 #include "outer/automatic.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "outer/contraction.h"
 
 namespace pbd {
+namespace {
+
+bool any_friction(const Rows& rows) {
+  return std::any_of(rows.blocks.begin(), rows.blocks.end(), [](const AnyBlock& any) {
+    return std::visit([](const auto& block) { return block.frictional() && block.size() > 0; }, any);
+  });
+}
+
+}  // namespace
 
 Automatic::Automatic(StepSystem& system) : proximal_(system) {
   if (QuasiNewton::suits(system)) quasi_newton_.emplace(system);
 }
 
+void Automatic::swap_solvers(StepSystem& system) {
+  std::swap(system.solver, other_);
+  swapped_ = !swapped_;
+}
+
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = 0;
+  if (swapped_) swap_solvers(system);
   proximal_.begin(system);
   if (quasi_newton_) quasi_newton_->begin(system);
 }
@@ -30,9 +48,18 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   if (quasi_newton_) return quasi_newton_->iterate(system, progress);
-  if (!plain_contracts(system, progress)) return proximal_.iterate(system, progress);
-  system.at.v = system.at.rebuilt;
-  relax(system, progress);
+  const std::int64_t before = progress.sweeps;
+  if (plain_contracts(system, progress)) {
+    system.at.v = system.at.rebuilt;
+    relax(system, progress);
+  } else {
+    proximal_.iterate(system, progress);
+  }
+  const Method& method = system.problem.method;
+  const bool spent = progress.sweeps - before >= method.max_sweeps;
+  if (!spent || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
+  swap_solvers(system);
+  progress.other_solver = true;
 }
 
 void Automatic::forget() {

@@ -2,6 +2,9 @@
 // end and a bound of this one's, and as far as the iterates so far show; else proximal. A step that surprises
 // both predictions shows it in two slow iterations, after which it goes on as proximal. Where J is taken
 // between the step's start and end (direction_blend below 1) nothing is predicted: plain, until it is slow.
+// Where conjugate gradients spend all sweeps of an iteration on contacts with friction, nesterov_jacobi takes
+// over, and they again where it spends its own: near sliding the one or the other may hardly get on. Each
+// step begins with conjugate gradients.
 // Of a sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left
 // to the other two.
 #pragma once
@@ -34,8 +37,11 @@ class Automatic {
 
  private:
   bool plain_contracts(StepSystem& system, const Progress& progress);
+  void swap_solvers(StepSystem& system);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
+  LinearSolver other_ = NesterovJacobi{};    // that the solver of the method takes turns with
+  bool swapped_ = false;
   Proximal proximal_;
   GeometricMass mass_;
   int slow_changes_ = 0;  // of v in this step, in a row

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace pbd {
 
@@ -69,7 +70,7 @@ void relax(StepSystem& system, Progress& progress) {
   const Method& method = system.problem.method;
   const InnerBudget budget{.max_sweeps = method.max_sweeps, .absolute = inner_accuracy(method, progress)};
   system.block_seconds.assign(system.rows.blocks.size(), 0.0);
-  const bool first = progress.iterations_of_rows == 0;
+  const bool first = std::exchange(progress.other_solver, false) || progress.iterations_of_rows == 0;
   const auto sweeps = relax(system.solver, system.rows, system.at.v, first, budget, &system.block_seconds);
   for (Slot& slot : system.slots)
     for (std::size_t b = slot.first; b < slot.first + slot.count; ++b)

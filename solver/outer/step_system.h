@@ -71,6 +71,7 @@ struct Progress {
   double forcing = 0;                      // share of the residual that the linear problem is solved to
   double relaxed_residual = infinity;      // that the last linear problem was solved for
   std::string_view linear_part;            // what solved it
+  bool other_solver = false;               // solves the next one
 
   double residual() const { return larger(primal, dual); }
 

@@ -57,7 +57,8 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
   }
   const Method& method = system.problem.method;
   const bool spent = progress.sweeps - before >= method.max_sweeps;
-  if (!spent || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
+  if (swapped_ || !spent || method.relaxation != ConjugateGradients::name || !any_friction(system.rows))
+    return;
   swap_solvers(system);
   progress.other_solver = true;
 }

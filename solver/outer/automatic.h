@@ -3,8 +3,7 @@
 // both predictions shows it in two slow iterations, after which it goes on as proximal. Where J is taken
 // between the step's start and end (direction_blend below 1) nothing is predicted: plain, until it is slow.
 // Where conjugate gradients spend all sweeps of an iteration on contacts with friction, nesterov_jacobi takes
-// over, and they again where it spends its own: near sliding the one or the other may hardly get on. Each
-// step begins with conjugate gradients.
+// over for the rest of the step: near sliding they may hardly get on.
 // Of a sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left
 // to the other two.
 #pragma once
@@ -40,7 +39,7 @@ class Automatic {
   void swap_solvers(StepSystem& system);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
-  LinearSolver other_ = NesterovJacobi{};    // that the solver of the method takes turns with
+  LinearSolver other_ = NesterovJacobi{};    // takes over from the solver of the method
   bool swapped_ = false;
   Proximal proximal_;
   GeometricMass mass_;

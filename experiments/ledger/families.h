@@ -1,0 +1,13 @@
+// The families of the ledger's rows, one source each: each appends its rows.
+#pragma once
+
+#include "ledger/ledger.h"
+
+namespace pbdcheck::ledger {
+
+using Ledger = std::vector<LedgerRow>;
+
+void oscillators(Ledger& rows);
+void particles(Ledger& rows);
+
+}  // namespace pbdcheck::ledger

@@ -9,5 +9,7 @@ using Ledger = std::vector<LedgerRow>;
 
 void oscillators(Ledger& rows);
 void particles(Ledger& rows);
+void pendulums(Ledger& rows);
+void chains(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

@@ -62,7 +62,8 @@ LedgerResult evaluate(const LedgerRow& row) {
 const std::vector<LedgerRow>& ledger_rows() {
   static const std::vector<LedgerRow> list = [] {
     std::vector<LedgerRow> rows;
-    for (const auto family : {ledger::oscillators, ledger::particles}) family(rows);
+    for (const auto family : {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains})
+      family(rows);
     return rows;
   }();
   return list;

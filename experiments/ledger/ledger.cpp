@@ -62,7 +62,8 @@ LedgerResult evaluate(const LedgerRow& row) {
 const std::vector<LedgerRow>& ledger_rows() {
   static const std::vector<LedgerRow> list = [] {
     std::vector<LedgerRow> rows;
-    for (const auto family : {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains})
+    for (const auto family : {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains,
+                              ledger::free_bodies, ledger::tops, ledger::mechanisms})
       family(rows);
     return rows;
   }();

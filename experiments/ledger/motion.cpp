@@ -41,7 +41,7 @@ State state_after(const Scene& scene, const Method& method, double h, std::int64
 }
 
 State equilibrium(Motion& motion, double h) {
-  constexpr double still = 1e-13;  // of the largest coordinate: rounding
+  const double still = motion.workspace.method().tolerance;  // of the largest coordinate
   constexpr int most = 1000;
   int resting = 0;  // steps in a row: a motion that turns may rest for one
   for (int k = 0; k < most; ++k) {

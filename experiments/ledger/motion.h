@@ -31,8 +31,8 @@ using Observable = std::function<double(const pbd::State&)>;
 pbd::State state_after(const pbd::Scene& scene, const pbd::Method& method, double h, std::int64_t steps);
 
 /// Equilibrium as the end of implicit Euler's motion: it multiplies a mode by 1/sqrt(1 + (w h)^2) a step.
-/// Ends where a step moves nothing by more than 1e-13 of the largest coordinate; throws std::runtime_error
-/// after 1000 steps.
+/// Ends where a step moves nothing by more than the method's tolerance times the largest coordinate; throws
+/// std::runtime_error after 1000 steps.
 pbd::State equilibrium(Motion& motion, double h);
 pbd::State equilibrium(const pbd::Scene& scene, const pbd::Method& method, double h);
 

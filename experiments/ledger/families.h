@@ -14,5 +14,10 @@ void chains(Ledger& rows);
 void free_bodies(Ledger& rows);
 void tops(Ledger& rows);
 void mechanisms(Ledger& rows);
+void sliding(Ledger& rows);
+void rolling(Ledger& rows);
+void impacts(Ledger& rows);
+void contact_springs(Ledger& rows);
+void thresholds(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

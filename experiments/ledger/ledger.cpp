@@ -63,7 +63,8 @@ const std::vector<LedgerRow>& ledger_rows() {
   static const std::vector<LedgerRow> list = [] {
     std::vector<LedgerRow> rows;
     for (const auto family : {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains,
-                              ledger::free_bodies, ledger::tops, ledger::mechanisms})
+                              ledger::free_bodies, ledger::tops, ledger::mechanisms, ledger::sliding,
+                              ledger::rolling, ledger::impacts, ledger::contact_springs, ledger::thresholds})
       family(rows);
     return rows;
   }();

@@ -85,6 +85,17 @@ double extrapolated(const std::function<double(double h)>& f, double h, int orde
   return fine + (fine - coarse) / (std::pow(2, order) - 1);
 }
 
+double threshold(double low, double high, double resolution, const std::function<bool(double)>& holds) {
+  for (const double end : {low, high})
+    if (holds(end) != (end == high))
+      throw std::runtime_error(fmt::format("it {} at {:.6g}", end == high ? "fails" : "holds", end));
+  while (high - low > resolution) {
+    const double middle = (low + high) / 2;
+    (holds(middle) ? high : low) = middle;
+  }
+  return (low + high) / 2;
+}
+
 double slowest_frequency(const Scene& scene, const Method& method, double h, int settling,
                          const Observable& value) {
   Motion motion(scene, method);
@@ -96,6 +107,11 @@ double slowest_frequency(const Scene& scene, const Method& method, double h, int
   }
   const double square = (2 * q[1] - q[0]) / q[2] - 1;
   return std::sqrt(square) / (2 * std::numbers::pi * h);
+}
+
+double turning_rate(const Vec3& axis, const Vec3& before, const Vec3& after, double time) {
+  return std::atan2(axis.dot(before.cross(after)), before.dot(after) - axis.dot(before) * axis.dot(after)) /
+         time;
 }
 
 }  // namespace pbdcheck::ledger

@@ -44,10 +44,17 @@ double passage(const pbd::Scene& scene, const pbd::Method& method, double h, con
 /// Richardson: f(h) and f(h/2) with an error of order p give f(h/2) + (f(h/2) - f(h))/(2^p - 1).
 double extrapolated(const std::function<double(double h)>& f, double h, int order);
 
+/// The value between `low` and `high` from which on `holds` is true, bisected to `resolution`. Throws
+/// std::runtime_error if it is true at `low` or false at `high`.
+double threshold(double low, double high, double resolution, const std::function<bool(double)>& holds);
+
 /// Frequency (Hz) of the slowest mode, about a state of rest at which `value` is zero. Implicit Euler leaves
 /// of a mode 1/(1 + i w h) a step: the slowest is what is left after `settling` steps, and q_n+1 = (2 q_n -
 /// q_n-1)/(1 + (w h)^2).
 double slowest_frequency(const pbd::Scene& scene, const pbd::Method& method, double h, int settling,
                          const Observable& value);
+
+/// Rate (rad/s) at which a direction has turned about `axis`, by less than half a turn, in `time`.
+double turning_rate(const pbd::Vec3& axis, const pbd::Vec3& before, const pbd::Vec3& after, double time);
 
 }  // namespace pbdcheck::ledger

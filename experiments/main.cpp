@@ -6,12 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <limits>
 #include <system_error>
 #include <thread>
 
+#include "commands/arguments.h"
 #include "commands/commands.h"
 #include "cones/cone_solvers.h"
 #include "error.h"
@@ -27,33 +27,6 @@ namespace {
 using namespace pbdcheck;
 
 constexpr int most_threads = 1024;  // more is a slip of the keyboard
-
-/// Refuses an argument that is not an integer of the range.
-CLI::Validator integer_from(int lowest, int highest) {
-  const auto refusal = [=](const std::string& text) {
-    int value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stopped, failure] = std::from_chars(text.data(), end, value);
-    return failure == std::errc() && stopped == end && value >= lowest && value <= highest
-               ? std::string()
-               : fmt::format("got `{}`; allowed: an integer from {} to {}", text, lowest, highest);
-  };
-  return {refusal, ""};
-}
-
-CLI::Validator one_of(const std::vector<std::string>& names) {
-  const auto refusal = [=](const std::string& text) {
-    return std::find(names.begin(), names.end(), text) != names.end()
-               ? std::string()
-               : fmt::format("got `{}`; allowed: {}", text, allowed_names(text, names));
-  };
-  return {refusal, ""};
-}
-
-/// A flag takes no value but the one CLI11 gives it.
-CLI::Validator no_value() {
-  return one_of({"true"});
-}
 
 void add_list(CLI::App& app, ListOptions& options) {
   auto* command = app.add_subcommand("list", "Print what there is: " + joined(list_kinds()));
@@ -101,19 +74,37 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->capture_default_str();
 }
 
+void add_threads(CLI::App& command, int& threads) {
+  threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command.add_option("--threads", threads, "Threads of untimed work")
+      ->check(integer_from(1, most_threads))
+      ->capture_default_str();
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   auto* command =
       app.add_subcommand("run", "Run experiments; writes DIR/EXPERIMENT/ and exits 1 if a verdict fails");
   command->add_option("EXPERIMENT", options.experiments, "Names as of `list experiments`");
   command->add_flag("--all", options.all, "All of them")->check(no_value());
   command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command->add_option("--threads", options.threads, "Threads of untimed work")
-      ->check(integer_from(1, most_threads))
-      ->capture_default_str();
+  add_threads(*command, options.threads);
   command
       ->add_flag("--resume", options.resume, "Skip what is complete with the same commit, tier and settings")
       ->check(no_value());
+  command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
+}
+
+void add_verify(CLI::App& app, VerifyOptions& options) {
+  auto* command = app.add_subcommand(
+      "verify", "Measure the solver against known answers; writes DIR/verify/ and exits 1 if a row fails");
+  command->add_option("--only", options.only, "Rows whose id matches the glob, as in 'beams.*'");
+  command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
+  add_threads(*command, options.threads);
+  command->add_flag("--resume", options.resume, "Keep what rows this very program has measured there already")
+      ->check(no_value());
+  command->add_flag("--json", options.json, "Print JSON")->check(no_value());
+  command->add_option("--junit", options.junit, "Write the results to this file as JUnit's XML")
+      ->check(a_file());
   command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
 }
 
@@ -133,8 +124,7 @@ void add_cone(CLI::App& app, ConeOptions& options) {
       ->capture_default_str();
   command->add_flag("--json", options.json, "Print JSON")->check(no_value());
   command->add_option("-o,--output", options.output, "Write problem and solution as FCLIB (HDF5)")
-      ->check(CLI::Validator(
-          [](const std::string& text) { return text.empty() ? "got ``; allowed: a file" : ""; }, ""));
+      ->check(a_file());
 }
 
 /// A usage error in one line, with the nearest command if an unknown one was given.
@@ -151,6 +141,13 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
   return exit_usage;
 }
 
+void require_safe_threads(int& threads) {
+  if (threads == 1 || pbd::rivals::blas_is_thread_safe()) return;
+  error_message("--threads: got " + std::to_string(threads) + " with " + pbd::rivals::blas_library() +
+                ", which is not safe in threads; runs in 1 (allowed: more with libopenblas0-pthread)");
+  threads = 1;
+}
+
 /// What the arguments ask for; returns the exit code.
 int run_command(int argc, char** argv) {
   CLI::App app("Verification harness for position based dynamics", "pbdcheck");
@@ -164,12 +161,14 @@ int run_command(int argc, char** argv) {
   SimulateOptions simulate_options;
   CompareOptions compare_options;
   RunOptions run_options;
+  VerifyOptions verify_options;
   ConeOptions cone_options;
   std::string shell = "bash";
   add_list(app, list_options);
   add_simulate(app, simulate_options);
   add_compare(app, compare_options);
   add_run(app, run_options);
+  add_verify(app, verify_options);
   add_cone(app, cone_options);
   app.add_subcommand("completion", "Print a completion script: source <(pbdcheck completion bash)")
       ->add_option("SHELL", shell, "bash")
@@ -184,17 +183,14 @@ int run_command(int argc, char** argv) {
   }
   catch_interrupts();
   pbd::rivals::use_one_blas_thread();
-  if (app.got_subcommand("run") && run_options.threads > 1 && !pbd::rivals::blas_is_thread_safe()) {
-    error_message("--threads: got " + std::to_string(run_options.threads) + " with " +
-                  pbd::rivals::blas_library() +
-                  ", which is not safe in threads; runs in 1 (allowed: more with " + "libopenblas0-pthread)");
-    run_options.threads = 1;
-  }
+  if (app.got_subcommand("run")) require_safe_threads(run_options.threads);
+  if (app.got_subcommand("verify")) require_safe_threads(verify_options.threads);
   try {
     if (app.got_subcommand("list")) return list(list_options);
     if (app.got_subcommand("simulate")) return simulate(simulate_options);
     if (app.got_subcommand("compare")) return compare(compare_options);
     if (app.got_subcommand("run")) return run(run_options);
+    if (app.got_subcommand("verify")) return verify(verify_options);
     if (app.got_subcommand("cone")) return cone(cone_options);
     return completion(shell);
   } catch (const Interrupted&) {

@@ -31,6 +31,7 @@ const std::vector<KnownAnswer>& known_answers() {
     known::chains(rows);
     known::solids(rows);
     known::bodies(rows);
+    known::contacts(rows);
     return rows;
   }();
   return table;

@@ -26,5 +26,6 @@ void particles(Rows& rows);
 void chains(Rows& rows);
 void solids(Rows& rows);
 void bodies(Rows& rows);
+void contacts(Rows& rows);
 
 }  // namespace pbd::reference::known

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/exit_codes.h"
+#include "ledger/ledger.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
@@ -50,6 +51,17 @@ struct RunOptions {
   std::filesystem::path directory = default_directory;
 };
 int run(const RunOptions& options, const std::vector<Experiment>& known = experiments());
+
+struct VerifyOptions {
+  std::string only;  // a glob of ids; empty: all rows
+  std::string tier = "quick";
+  int threads = 1;
+  bool resume = false;
+  bool json = false;
+  std::filesystem::path junit;  // empty: none
+  std::filesystem::path directory = default_directory;
+};
+int verify(const VerifyOptions& options, const std::vector<LedgerRow>& known = ledger_rows());
 
 struct ConeOptions {
   std::filesystem::path problem;

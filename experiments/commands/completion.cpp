@@ -21,7 +21,7 @@ _pbdcheck() {
     --reference) words="@REFERENCES@" ;;
     *)
       if ((COMP_CWORD == 1)); then
-        words="list simulate compare run cone completion --help --version"
+        words="list simulate compare run verify cone completion --help --version"
       else
         case ${COMP_WORDS[1]} in
           list) words="@KINDS@ --json --help" ;;
@@ -29,6 +29,7 @@ _pbdcheck() {
           simulate) words="--set --output --export --check --help" ;;
           compare) words="--set --method --reference --at-step --output --help" ;;
           cone) words="--law --relaxation --tolerance --json --output --help" ;;
+          verify) words="--only --tier --threads --resume --json --junit --output --help" ;;
           run) words="--all --tier --threads --resume --output --help
                       $("$program" list experiments 2>/dev/null | cut -d' ' -f1)" ;;
         esac

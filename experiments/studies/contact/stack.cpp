@@ -9,22 +9,13 @@
 #include "scenes/arch.h"
 #include "scenes/contacts.h"
 #include "studies/contact/contact_answers.h"
+#include "studies/contact/stack.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-/// N, what the colliders below `first` push those from there on with.
-Vec3 force_across(const Workspace& workspace, int first) {
-  Vec3 sum = Vec3::Zero();
-  for (const ContactForce& contact : workspace.contacts()) {
-    if (contact.collider[0] >= first && contact.collider[1] < first) sum += contact.force;
-    if (contact.collider[1] >= first && contact.collider[0] < first) sum -= contact.force;
-  }
-  return sum;
-}
 
 /// N, of the bodies from the one on.
 double weight_from(const Scene& scene, std::size_t first) {
@@ -78,19 +69,6 @@ void slab_on_posts(KnownAnswers& answers, const Method& method, int side) {
               (run.end.x.col(body) - Vec3(exact, 0, 0.01)).norm(), run);
 }
 
-/// Bricks on a table's edge, brick k from the top `share` of length/(2 k) over the one below.
-Scene overhang(int count, double share) {
-  constexpr double length = 0.2, height = 0.05;
-  BodyScene build({.friction = 0.7});
-  build.fixed(Box{Vec3(1, 1, 0.2)}, {Vec3(-0.5, 0, -0.1)});
-  double edge = 0;
-  for (int k = count; k >= 1; --k) {
-    edge += share * length / (2 * k);
-    build.box(Vec3(length, 0.1, height), 2, {Vec3(edge - length / 2, 0, (count - k + 0.5) * height)});
-  }
-  return build.finish();
-}
-
 /// Stands: no body moves by more than 1e-4 of the size. Falls: one moves by a tenth of it.
 void judge(Table& table, Worst& wrong, const Method& method, const std::string& structure, int count,
            double share, const Scene& scene, double duration, double size) {
@@ -106,6 +84,27 @@ void judge(Table& table, Worst& wrong, const Method& method, const std::string& 
 }
 
 }  // namespace
+
+Vec3 force_across(const Workspace& workspace, int first) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactForce& contact : workspace.contacts()) {
+    if (contact.collider[0] >= first && contact.collider[1] < first) sum += contact.force;
+    if (contact.collider[1] >= first && contact.collider[0] < first) sum -= contact.force;
+  }
+  return sum;
+}
+
+Scene overhang(int count, double share) {
+  constexpr double length = 0.2, height = 0.05;
+  BodyScene build({.friction = 0.7});
+  build.fixed(Box{Vec3(1, 1, 0.2)}, {Vec3(-0.5, 0, -0.1)});
+  double edge = 0;
+  for (int k = count; k >= 1; --k) {
+    edge += share * length / (2 * k);
+    build.box(Vec3(length, 0.1, height), 2, {Vec3(edge - length / 2, 0, (count - k + 0.5) * height)});
+  }
+  return build.finish();
+}
 
 void stack(Context& context) {
   const std::vector<std::string> accurate{"conjugate_gradients", "direct"};

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "harness/measure.h"
+#include "harness/oscillation.h"
 #include "studies/experiments.h"
 #include "studies/time/damped.h"
 #include "studies/time/damped_oscillators.h"
@@ -25,12 +26,6 @@ using reference::OscillatorRule;
 constexpr double solved = 1e-13;  // the steps' tolerance
 
 // ---- decrements
-
-/// Growth and phase of every n-th step, n about a radian, from four values of q.
-Discrete every(double a, double b, double c, double d) {
-  const double square = (d * b - c * c) / (c * a - b * b);
-  return {std::sqrt(square), std::acos((d + square * b) / (2 * std::sqrt(square) * c))};
-}
 
 struct DampedRun {
   const Oscillator* oscillator;
@@ -63,7 +58,8 @@ void measure(DampedRun& run) {
     if (k > run.rule.settled && (k - run.rule.settled) % n == 0)
       q.push_back(oscillator.coordinate(oscillator.scene, state.x));
   }
-  const Discrete found = every(q[0], q[1], q[2], q[3]);
+  // Growth and phase of every n-th step, n about a radian.
+  const Discrete found = sampled_oscillation(q[0], q[1], q[2], q[3]);
   run.decrement = reference::logarithmic_decrement(found);
   run.rate = -std::log(found.growth) / (n * run.h);
   run.exact =

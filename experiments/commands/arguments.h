@@ -1,0 +1,21 @@
+// Checks of what the command line is given; each refusal says what is allowed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace pbdcheck {
+
+/// Refuses an argument that is not an integer of the range.
+CLI::Validator integer_from(int lowest, int highest);
+
+CLI::Validator one_of(const std::vector<std::string>& names);
+
+/// A flag takes no value but the one CLI11 gives it.
+CLI::Validator no_value();
+
+/// Refuses an empty name.
+CLI::Validator a_file();
+
+}  // namespace pbdcheck

@@ -1,0 +1,23 @@
+// The families of the ledger's rows, one source each: each appends its rows.
+#pragma once
+
+#include "ledger/ledger.h"
+
+namespace pbdcheck::ledger {
+
+using Ledger = std::vector<LedgerRow>;
+
+void oscillators(Ledger& rows);
+void particles(Ledger& rows);
+void pendulums(Ledger& rows);
+void chains(Ledger& rows);
+void free_bodies(Ledger& rows);
+void tops(Ledger& rows);
+void mechanisms(Ledger& rows);
+void sliding(Ledger& rows);
+void rolling(Ledger& rows);
+void impacts(Ledger& rows);
+void contact_springs(Ledger& rows);
+void thresholds(Ledger& rows);
+
+}  // namespace pbdcheck::ledger

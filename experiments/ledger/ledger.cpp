@@ -1,0 +1,78 @@
+#include "ledger/ledger.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "ledger/families.h"
+
+namespace pbdcheck {
+namespace {
+
+/// NaN is within nothing.
+bool within(double value, double target, double bound) {
+  return std::abs(value - target) <= bound;
+}
+
+void judge_row(const LedgerRow& row, LedgerResult& result) {
+  result.expected = row.expected();
+  result.bound = row.bound.absolute + row.bound.relative * std::abs(result.expected);
+  if (!row.cannot.empty()) {
+    result.verdict = LedgerVerdict::skipped;
+    result.reason = row.cannot;
+    return;
+  }
+  result.measured = row.run(row.method);
+  if (!row.deviation) {
+    if (within(result.measured, result.expected, result.bound))
+      result.verdict = LedgerVerdict::holds;
+    else
+      result.reason = fmt::format("{:.10g} is not within {:.3g} of {:.10g}", result.measured, result.bound,
+                                  result.expected);
+    return;
+  }
+  const double deviated = row.deviation->value();
+  const auto text = fmt::format("{:.10g} by {}", deviated, row.deviation->formula);
+  if (within(deviated, result.expected, result.bound)) {
+    result.reason = "the deviation " + text + " is within the bound: the row expects no failure";
+  } else if (within(result.measured, deviated, result.bound)) {
+    result.verdict = LedgerVerdict::expected_failure;
+    result.reason = text;
+  } else {
+    result.reason = fmt::format("{:.10g} is not within {:.3g} of {}", result.measured, result.bound, text);
+  }
+}
+
+}  // namespace
+
+LedgerResult evaluate(const LedgerRow& row) {
+  const double nan = std::nan("");
+  LedgerResult result{nan, nan, nan, LedgerVerdict::fails, "", 0};
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    judge_row(row, result);
+  } catch (const std::exception& failure) {
+    result.reason = failure.what();
+  }
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+const std::vector<LedgerRow>& ledger_rows() {
+  static const std::vector<LedgerRow> list = [] {
+    std::vector<LedgerRow> rows;
+    for (const auto family : {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains,
+                              ledger::free_bodies, ledger::tops, ledger::mechanisms, ledger::sliding,
+                              ledger::rolling, ledger::impacts, ledger::contact_springs, ledger::thresholds})
+      family(rows);
+    return rows;
+  }();
+  return list;
+}
+
+std::string family_of(const LedgerRow& row) {
+  return row.id.substr(0, row.id.find('.'));
+}
+
+}  // namespace pbdcheck

@@ -46,7 +46,7 @@ Quaternion<T> constant(const Eigen::Quaterniond& q) {
 
 /// A body's position and orientation as numbers of type T.
 template <class T>
-struct Frame {
+struct JointFrame {
   Triple<T> x;
   Quaternion<T> q;
 
@@ -74,7 +74,8 @@ double value_of(const Jet<D, Order>& jet) {
 
 /// c of a joint at `time` (s), the first `rows` entries.
 template <class T>
-std::array<T, 3> joint_value(const Joint& joint, const Frame<T>& a, const Frame<T>& b, double time) {
+std::array<T, 3> joint_value(const Joint& joint, const JointFrame<T>& a, const JointFrame<T>& b,
+                             double time) {
   using std::atan2;
   const auto gap = [&] { return minus(b.point(joint.point[1]), a.point(joint.point[0])); };
   const T rest(joint.rest + joint.rate * time);

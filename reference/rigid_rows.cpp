@@ -13,17 +13,17 @@ const Eigen::Quaterniond& orientation(const Joint& joint, std::size_t k, const P
 }
 
 template <class T>
-Frame<T> fixed_frame(const Joint& joint, std::size_t k, const Placement& at) {
+JointFrame<T> fixed_frame(const Joint& joint, std::size_t k, const Placement& at) {
   const Vec3 x = at.x.col(joint.node[k]);
   return {{T(x[0]), T(x[1]), T(x[2])}, constant<T>(orientation(joint, k, at))};
 }
 
 /// A frame whose coordinates are the jet's variables from 6 k (turns) or 7 k (quaternions) on.
 template <Coordinates C, class T>
-Frame<T> moving_frame(const Joint& joint, std::size_t k, const Placement& at) {
+JointFrame<T> moving_frame(const Joint& joint, std::size_t k, const Placement& at) {
   constexpr int size = C == Coordinates::turns ? 6 : 7;
   const int first = size * static_cast<int>(k);
-  Frame<T> frame = fixed_frame<T>(joint, k, at);
+  JointFrame<T> frame = fixed_frame<T>(joint, k, at);
   for (int i = 0; i < 3; ++i) frame.x[i].gradient(first + i) = 1;
   if (joint.body[k] < 0) return frame;
   if constexpr (C == Coordinates::turns) {

@@ -1,0 +1,190 @@
+"""Tests of the claims and the answers: each says what the data say, whichever way."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import answers
+import claims
+from claims.claim import REFUTED, SUPPORTED, UNTESTED, find
+from results import Results
+
+import sample
+from reading import SETTINGS
+
+FAILS = {"verdicts": lambda frame: frame.assign(measured=1e9, verdict="fails")}
+WRONG = {"answers": lambda frame: frame.assign(error=1e9)}
+
+
+def where(column, value, **columns):
+    """A change of the rows where a column has a value."""
+    def change(frame):
+        frame = frame.copy()
+        for name, content in columns.items():
+            frame.loc[frame[column] == value, name] = content
+        return frame
+    return change
+
+
+# What refutes each claim: how each table that it reads is changed.
+CONTRARY = {
+    1: {"map": lambda frame: frame.assign(behaviour="oscillating")},
+    2: FAILS,
+    3: {"largest_steps": where("family", "position", largest_step_s=1e-9)},
+    4: {"equal_work": where("family", "position", error=1e9)},
+    5: {"chain20": where("outer", "plain", iterations=np.nan)},
+    6: {"errors": where("outer", "incremental", error=1e-16)},
+    8: {"series": where("integrator", "newmark", status="diverged")},
+    9: FAILS, 10: FAILS, 11: FAILS,
+    12: WRONG, 13: WRONG, 14: FAILS | {"solves": lambda frame: frame.assign(error_m_per_s=1.0)},
+    15: {"gaps": lambda frame: frame.assign(error=1.0)}, 16: WRONG, 17: WRONG, 18: WRONG,
+    20: {"final": lambda frame: frame.assign(error=1.0)}, 21: FAILS, 22: FAILS, 23: FAILS,
+    24: {"beam": where("model", "springs", error_beam=0.0)},
+    25: {"sweeps": lambda frame: frame.assign(status="not_converged")},
+    26: {"errors": lambda frame: where("relaxation", "nesterov_jacobi", error=1.0)(where("relaxation", "jacobi", error=0.0)(frame))},
+    28: FAILS, 30: FAILS, 32: FAILS}
+
+# What supports claims that the sample's data refute, or support under a condition alone.
+FAVOURABLE = {
+    1: {"map": lambda frame: frame.assign(behaviour="converged")},
+    3: {"largest_steps": lambda frame: where("family", "velocity", largest_step_s=1e-9)(frame.assign(missed_steps=0.0))},
+    5: {"chain20": where("outer", "plain", iterations=3.0)},
+    9: {"series": lambda frame: frame.assign(status="ok")},
+    13: {"answers": lambda frame: frame.assign(error=0.0, status="ok", measured=0.0),
+         "headings": lambda frame: frame.assign(deceleration_share=1.0, share_error=0.0, heading_error_rad=0.0, status="ok")},
+    16: {"answers": lambda frame: frame.assign(error=0.0, status="ok"),
+         "headings": lambda frame: frame.assign(deceleration_share=1.0, status="ok")},
+    24: {"beam": lambda frame: where("model", "tet_p1", error_beam=0.0)(frame.assign(status="ok", error_beam=0.5))},
+    28: {"points": lambda frame: frame[frame["outer"] == "plain"].assign(error=0.0, status="ok")}}
+
+
+class Changed(Results):
+    """Results with changed tables, by name."""
+
+    def __init__(self, directory, changes):
+        super().__init__(directory)
+        self.changes = changes
+
+    def table(self, experiment, table):
+        frame = super().table(experiment, table)
+        return self.changes.get(table, lambda same: same)(frame) if frame is not None else None
+
+
+def without_numbers(frame):
+    """Nothing that was measured is a number."""
+    measured = [c for c in frame.select_dtypes("number") if c not in SETTINGS - {"sweeps"}
+                and c not in ("bound", "alpha", "direction_blend", "stabilisation", "tolerance", "max_outer", "predicted_rate", "value")]
+    frame = frame.assign(**{column: np.nan for column in measured})
+    frame = frame.assign(behaviour="oscillating") if "behaviour" in frame else frame
+    return frame.assign(verdict="fails") if "verdict" in frame else frame
+
+
+class Claims(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.directory = Path(folder.name)
+        sample.write_all(cls.directory)
+        cls.tested = [claim for claim in claims.CLAIMS if claim.test]
+
+    def found(self, claim, changes):
+        return find(claim, Changed(self.directory, changes))
+
+    def test_there_are_32(self):
+        self.assertEqual([claim.number for claim in claims.CLAIMS], list(range(1, 33)))
+
+    def test_every_claim_has_a_verdict_with_a_number_or_a_reason(self):
+        for claim in claims.CLAIMS:
+            with self.subTest(claim.number):
+                finding = self.found(claim, {})
+                self.assertTrue(finding.sentence)
+                self.assertEqual(bool(claim.test), finding.verdict != UNTESTED, finding)
+                self.assertEqual(bool(claim.test), bool(finding.measured and finding.bound), finding)
+
+    def test_contrary_data_refute(self):
+        self.assertEqual(set(CONTRARY), {claim.number for claim in self.tested})
+        for claim in self.tested:
+            with self.subTest(claim.number):
+                finding = self.found(claim, CONTRARY[claim.number])
+                self.assertEqual(finding.verdict, REFUTED, finding)
+
+    def test_favourable_data_support(self):
+        for claim in self.tested:
+            if claim.number in FAVOURABLE:
+                with self.subTest(claim.number):
+                    finding = self.found(claim, FAVOURABLE[claim.number])
+                    self.assertEqual((finding.verdict, finding.against), (SUPPORTED, ""), finding)
+
+    def test_what_is_not_a_number_supports_nothing(self):
+        for claim in self.tested:
+            with self.subTest(claim.number):
+                finding = self.found(claim, {name.split("/")[1]: without_numbers for name in claim.reads})
+                self.assertIn(finding.verdict, (REFUTED, UNTESTED), finding)
+
+    def test_a_missing_table_is_named(self):
+        for claim in self.tested:
+            for name in claim.reads:
+                with self.subTest(f"{claim.number} {name}"):
+                    finding = self.found(claim, {name.split("/")[1]: lambda frame: None})
+                    self.assertEqual(finding.verdict, UNTESTED)
+                    self.assertIn(f"{name.split('/')[1]}.csv` is missing", finding.sentence)
+
+    def test_rows_of_another_method_are_not_tested(self):
+        claim = claims.CLAIMS[0]
+        self.assertEqual(self.found(claim, {"map": lambda frame: frame.assign(outer="auto")}),
+                         (UNTESTED, "The tables hold no run of `plain`.", "", "", ""))
+
+    def test_findings_against_us_stand_on_their_page_and_in_front(self):
+        found = claims.findings(Results(self.directory))
+        bad = [(claim, finding.against) for claim, finding in found if finding.against]
+        self.assertEqual([claim.number for claim, _ in bad], [1, 9, 13, 15, 16, 24, 28])
+        front = "".join(cell for row in claims.claims_section(found).tables[0].rows for cell in row)
+        for claim, text in bad:
+            self.assertIn(text, front)
+            self.assertTrue(any(text in told for told in claims.against(found, claim.home())), text)
+        self.assertEqual(claims.against(found, "joints"), [])
+
+    def test_the_paper_s_figures_exist(self):
+        known = {f"{figure.experiment}_{figure.name}" for figure in sample_figures()}
+        self.assertEqual({claim.figure for claim in self.tested} - known, set())
+
+
+class Answers(unittest.TestCase):
+    setUpClass = classmethod(lambda cls: Claims.setUpClass.__func__(cls))
+
+    def told(self, changes):
+        return [answer.sentence for answer in answers.answers(Changed(self.directory, changes))]
+
+    def test_each_has_a_sentence_a_number_and_a_figure(self):
+        for answer in answers.answers(Results(self.directory)):
+            self.assertTrue(answer.number and answer.unit and answer.sentence and answer.figure.name, answer)
+            self.assertNotIn("nan", answer.sentence)
+
+    def test_each_says_what_is_missing(self):
+        told = self.told({name: lambda frame: None for name in ("points", "gates", "verdicts")})
+        for text, name in zip(told, ("work_precision/points", "point_hard_cases/gates", "effects_cost/verdicts")):
+            self.assertIn(f"`{name}.csv`", text)
+            self.assertIn("missing", text)
+
+    def test_they_follow_the_data(self):
+        before, after = self.told({}), self.told({
+            "points": lambda frame: frame.assign(status="not_converged"),
+            "gates": lambda frame: frame.assign(holds=0.0), "verdicts": FAILS["verdicts"]})
+        for old, new in zip(before, after):
+            self.assertNotEqual(old, new)
+        self.assertIn("In none of", after[0])
+        self.assertIn("0 of", after[1])
+        self.assertIn("fails", after[2])
+
+
+def sample_figures():
+    import common
+    import make  # noqa: F401  (registers the figures)
+    return common.FIGURES
+
+
+if __name__ == "__main__":
+    unittest.main()

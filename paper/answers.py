@@ -34,7 +34,8 @@ def answered(question, figure, results, names, tell):
 def cost_of_accuracy(results):
     return answered(
         "What does accuracy cost in time?",
-        Figure("work_precision_answer", "Time of a step by our quickest method over the error reached, a line a scene and step."),
+        Figure("work_precision_answer", "Time of a step by our quickest method over the error reached; solid the shorter step, dashed the "
+               "longer."),
         results, ["work_precision/points"], accuracy_told)
 
 
@@ -91,7 +92,7 @@ def effects_told(verdicts):
     free = found["verdict"].get("effects.empty.free", "not measured")
     bound = found["bound"].get("effects.empty.free", float("nan"))
     change = number(100 * measured("effects.empty.free"))
-    return (f"{change} %", "of the time, for effects that are present and empty",
+    return (f"{change} %", "is what effects that are present and empty change of the time",
             f"Effects that are present and empty change {number(measured('effects.empty.bitwise'))} numbers of the result, and the time by "
             f"{change} % (at most {number(100 * bound)} % is asked for: {free}); contacts without friction take {number(100 * measured('effects.frictionless.cheaper'))} "
             f"% of the time of those with it, and a solid's strain that is removed takes "

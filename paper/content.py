@@ -37,6 +37,7 @@ class Section:
     figures: list = field(default_factory=list)
     tables: list = field(default_factory=list)
     name: str = ""  # what [#name] refers to
+    page: bool = False  # begins a page of the PDF
 
     def tell(self, frame, *parts):
         """Adds the text or Table that each of `parts` makes of a result table, if there is one."""

@@ -40,7 +40,7 @@ def solves(results, experiment):
 
 
 def failures(results, experiments):
-    """One row an experiment, status and reason: how many of the solves of each method."""
+    """One row an experiment, status and reason: how many of the solves, and a list of how many of each method."""
     rows = []
     for experiment in experiments:
         found = list(solves(results, experiment))
@@ -52,14 +52,14 @@ def failures(results, experiments):
         groups = sorted(bad.groupby(["status", "reason"], sort=False), key=lambda group: -len(group[1]))
         for (status, reason), group in groups:
             counts = group["method"].value_counts()
-            rows.append([f"[#{experiment}]", f"`{status}`", reason, share(len(group), len(frame)),
-                         "; ".join(f"{method} {share(count, totals[method])}" for method, count in counts.items())])
+            rows.append([f"`{experiment}`, [#{experiment}]", f"`{status}`", reason, share(len(group), len(frame)),
+                         [f"{method} {share(count, totals[method])}" for method, count in counts.items()]])
     return rows
 
 
 def cause(results, verdict):
     """Why a verdict fails, as far as the results tell."""
-    times = f"{number(verdict['measured'] / verdict['bound'])} times its bound" if verdict["bound"] > 0 else "above 0"
+    times = f"{compared(verdict['measured'] / verdict['bound'], 1)[0]} times its bound" if verdict["bound"] > 0 else "above 0"
     if verdict["id"].startswith(TIMED):
         return f"A measured time, {times}: other work on the machine shows in it. `make bench` measures with nothing else running."
     bad = [frame[frame["status"] != "ok"] for _, frame in results.all_tables(verdict["experiment"]) if "status" in frame]
@@ -72,28 +72,32 @@ def cause(results, verdict):
 def failed_section(results, experiments):
     verdicts = all_verdicts(results, experiments)
     bad = verdicts[verdicts["verdict"] != VERDICTS[0]]
-    section = Section("What failed", name="failed", paragraphs=[
+    section = Section("What failed", name="failed", page=True, paragraphs=[
         f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" These do not:" if len(bad) else "")])
     if len(bad):
         section.tables.append(Table("Verdicts that fail.", ["verdict", "what it says", "measured against bound", "cause", "see"], [
             [f"`{row['id']}`", f"{row['statement']} ({row['quantity']})", " against ".join(compared(row["measured"], row["bound"])),
-             cause(results, row), f"[#{row['experiment']}]"] for _, row in bad.iterrows()]))
+             cause(results, row), f"`{row['experiment']}`, [#{row['experiment']}]"] for _, row in bad.iterrows()]))
     rows = failures(results, experiments)
     if not rows:
         section.paragraphs.append("No solve in any table has a status other than `ok`.")
         return section
+    header = ["see", "status", "reason (# a number)", "solves", "of each method"]
     section.tables += [
         Table("Solves that are not ok, the commonest reasons of each experiment. The failure of a method is a result: it stays in the "
-              "figures as a crossed marker.", ["see", "status", "reason (# a number)", "solves"], [row[:4] for row in shortened(rows)]),
-        Table("The same by method, in full.", ["see", "status", "reason (# a number)", "solves", "of the solves of each method"], rows,
-              detail=True)]
+              "figures as a crossed marker.", header, [[*row[:4], listing(row[4], 3)] for row in first_of_each(rows, 3)]),
+        Table("Solves that are not ok, all of them.", header, [[*row[:4], listing(row[4], len(row[4]))] for row in rows], detail=True)]
     return section
 
 
-def shortened(rows, most=3):
-    """The first reasons of each experiment."""
+def first_of_each(rows, most):
+    """The first rows of each experiment."""
     seen = {}
     return [row for row in rows if seen.setdefault(row[0], []).append(row) or len(seen[row[0]]) <= most]
+
+
+def listing(texts, most):
+    return "; ".join(texts[:most]) + (f"; {len(texts) - most} more" if len(texts) > most else "")
 
 
 def verdicts_section(results, experiments):

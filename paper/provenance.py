@@ -23,7 +23,8 @@ def limits(results, experiments):
     return (f"Limits: the tier that was run is {all_of('tier')}, on {all_of('processor')}, {all_of('threads')} threads at most, "
             f"by commit {joined(sorted({f['commit'][:10] for f in facts}))}"
             + (" with changes" if any(f["dirty"] == "yes" for f in facts) else "")
-            + ". The quick tier runs small scenes and few random ones; times are of this machine.")
+            + ". " + ("The quick tier runs small scenes and few random ones. " if "quick" in all_of("tier") else "")
+            + "Times are of this machine.")
 
 
 def provenance_section(results, experiments):

@@ -1,5 +1,6 @@
 """Tests of the report:  python3 -m unittest discover -s paper"""
 
+import io
 import json
 import os
 import re
@@ -196,6 +197,27 @@ class Report(unittest.TestCase):
         with mock.patch.object(report, "write_pdf"):
             self.assertIn("In no case is <code>plain</code> ok", self.html())
 
+    def test_it_prints_its_answers(self):
+        sample.write_all(self.directory)
+        with mock.patch.object(report, "write_pdf"), mock.patch("sys.stdout", io.StringIO()) as said:
+            report.main(self.directory)
+        lines = said.getvalue().splitlines()[-3:]
+        self.assertEqual([line.split("?")[0] for line in lines], [
+            "What does accuracy cost in time", "Do hard cases stay numerically stable",
+            "Does a scene pay only for the effects it calls for"])
+        self.assertNotRegex(said.getvalue(), "[`#]")
+
+    def test_a_long_table_is_folded_and_not_in_the_pdf(self):
+        sample.write_all(self.directory)
+        body = report.compose(Results(self.directory))
+        tables = {table.caption: table for section in body.sections for table in section.tables}
+        self.assertTrue(all(table.detail for caption, table in tables.items() if caption.endswith(" verdicts.")))
+        for section in body.sections:
+            for table in section.tables if section.name in sections.SECTIONS else ():
+                self.assertEqual(table.detail, len(table.rows) > report.LONGEST, table.caption)
+        with mock.patch.object(report, "write_pdf"):
+            self.assertEqual(self.html().count("<details>"), sum(table.detail for section in body.sections for table in section.tables))
+
     def test_unknown_experiment_is_shown(self):
         sample.write(self.directory, "brand_new", "verdicts", "id statement quantity measured bound verdict",
                      [("n.1", "It <works>", "share", 1.0, 2.0, "holds")])
@@ -209,7 +231,7 @@ class Report(unittest.TestCase):
         sample.write(self.directory, "a", "t", "outer error status reason",
                      [("plain", 1.0, "diverged", f"far by {k}.5e-3") for k in range(3)] + [("plain", 1.0, "ok", ""), ("auto", 1.0, "ok", "")])
         sample.write_run(self.directory, "a")
-        self.assertEqual(failures(Results(self.directory), ["a"]), [["[#a]", "`diverged`", "far by #", "3 of 5", "`plain` 3 of 4"]])
+        self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`diverged`", "far by #", "3 of 5", ["`plain` 3 of 4"]]])
 
     def test_names_with_digits_stay(self):
         self.assertEqual(stripped("node 4 of chain20 fell 1e-3 m in 20 steps"), "node # of chain20 fell # m in # steps")

@@ -5,7 +5,7 @@ import numpy as np
 
 from common import figure, on_log
 from selecting import good, scene_text
-from styles import BLACK, BLUE, RED, style
+from styles import BLACK, BLUE, FALLBACK, RED
 
 SIZE = (3.6, 2.3)
 LEVELS = 10.0 ** -np.arange(1, 13)
@@ -15,15 +15,16 @@ LEVELS = 10.0 ** -np.arange(1, 13)
 def time_over_error(points):
     """The least time of any method of ours to each error, a line a scene and step."""
     runs = good(points[~points["outer"].isin(["judge", "rival"])], "error", "wall_s")
+    if runs.empty:
+        return None
     chart, ax = plt.subplots(figsize=SIZE)
-    names = list(runs["scene"].unique())
+    looks = dict(zip(runs["scene"].unique(), FALLBACK))
     for (scene, step), group in runs.groupby(["scene", "step_s"], sort=False):
         least = [group.loc[group["error"] <= level, "wall_s"].min() for level in LEVELS]
-        look = style(scene) | {"linestyle": "-" if step == runs["step_s"].min() else "--"}
-        ax.plot(LEVELS, least, markersize=2.5, label=scene_text(scene) if step == runs["step_s"].min() else None, **look)
-    if not names:
-        plt.close(chart)
-        return None
+        color, marker, _ = looks.get(scene, (BLACK, "", ""))
+        shortest = step == runs["step_s"].min()
+        ax.plot(LEVELS, least, color=color, marker=marker, markersize=2.5, linestyle="-" if shortest else "--",
+                label=scene_text(scene) if shortest else None)
     ax.set(xscale="log", yscale="log", xlabel="error reached", ylabel="wall time of a step (s)")
     ax.invert_xaxis()
     chart.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, fontsize=6)

@@ -11,6 +11,7 @@ from tables import SOLVES
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(\.\d+)?(e[-+]?\d+)?(?![\w.]*[a-z_])")
 METHOD = ("integrator", "outer", "relaxation", "method", "solver", "friction", "law")
+ALONE = ("outer", "relaxation")  # of it where a table has one method
 TIMED = ("effects.empty.free", "effects.removed", "effects.frictionless.cheaper", "effects.linear", "joints.linear", "rival.fine",
          "rival.coarse", "stability.auto_cost", "worlds.slowest")  # what these verdicts measure is a time
 
@@ -34,8 +35,9 @@ def solves(results, experiment):
         frame = frame.assign(reason=frame.get("reason", ""))
         if (experiment, name) in SOLVES:
             frame = frame.drop_duplicates([*SOLVES[experiment, name].split(), "status", "reason"])
-        varying = [column for column in METHOD if column in frame and frame[column].nunique() > 1]
-        method = frame[varying].agg(lambda row: ", ".join(f"`{cell}`" for cell in row if cell), axis=1) if varying else "all"
+        known = [column for column in METHOD if column in frame]
+        telling = [column for column in known if frame[column].nunique() > 1] or [column for column in known if column in ALONE]
+        method = frame[telling].agg(lambda row: ", ".join(f"`{cell}`" for cell in row if cell), axis=1) if telling else "all"
         yield pd.DataFrame({"table": name, "method": method, "status": frame["status"], "reason": frame["reason"].map(stripped)})
 
 
@@ -72,7 +74,7 @@ def cause(results, verdict):
 def failed_section(results, experiments):
     verdicts = all_verdicts(results, experiments)
     bad = verdicts[verdicts["verdict"] != VERDICTS[0]]
-    section = Section("What failed", name="failed", page=True, paragraphs=[
+    section = Section("What failed", name="failed", paragraphs=[
         f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" These do not:" if len(bad) else "")])
     if len(bad):
         section.tables.append(Table("Verdicts that fail.", ["verdict", "what it says", "measured against bound", "cause", "see"], [
@@ -85,7 +87,7 @@ def failed_section(results, experiments):
     header = ["see", "status", "reason (# a number)", "solves", "of each method"]
     section.tables += [
         Table("Solves that are not ok, the commonest reasons of each experiment. The failure of a method is a result: it stays in the "
-              "figures as a crossed marker.", header, [[*row[:4], listing(row[4], 3)] for row in first_of_each(rows, 3)]),
+              "figures as a crossed marker.", header, [[*row[:4], listing(row[4], 2)] for row in first_of_each(rows, 2)]),
         Table("Solves that are not ok, all of them.", header, [[*row[:4], listing(row[4], len(row[4]))] for row in rows], detail=True)]
     return section
 

@@ -80,7 +80,7 @@ def write_html(body, directory):
 
 def column_widths(table):
     """Column specification of a LaTeX table: long texts share the width that the short ones leave."""
-    line, short, longest_counted = 100, 14, 150  # characters
+    line, short, longest_counted = 100, 14, 300  # characters
     longest = [max(len(row[i].replace("`", "")) for row in [table.header, *table.rows]) for i in range(len(table.header))]
     if sum(longest) + 2 * len(longest) <= line - 5:
         return "l" * len(longest)

@@ -14,8 +14,9 @@ METHOD = (
     "All else is ours or other people's: `proximal`, `quasi_newton` and `auto`, `conjugate_gradients` and `direct`, the laws `coulomb` "
     "and `disc`. `incremental` is classic PBD, `frozen` velocity time stepping.")
 SOURCE = (
-    "Two pages of the paper were available, its abstract, introduction and equations (1) to (7); the rest was not. A claim in "
-    "quotation marks stands there word for word. The others are inferred from the method. Tests and bounds are ours.")
+    "Two pages of the paper were available, its abstract, introduction and equations (1) to (7); the rest was not. What "
+    "stands in quotation marks stands there word for word; how the claim is put is ours. The other claims are inferred from the method. "
+    "The tests and their bounds are ours.")
 
 
 def findings(results):

@@ -131,6 +131,6 @@ CLAIMS = (
     Claim(18, "Stacks and piles carry their weight, and fall where theory says.", "", ("stack/answers", "stack/thresholds"), statics,
           "stack_thresholds"),
     Claim(19, "Friction within the sweep is better than at the end of the step.",
-          "approximate friction at the end of the step without giving a sound recipe",
+          "approximate friction at the end of the step",
           untested="No experiment applies friction at the end of the step, so there is nothing to compare with."),
 )

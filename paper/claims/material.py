@@ -97,7 +97,7 @@ CLAIMS = (
     Claim(20, "Constraint solving is the dual of an elasticity problem.",
           "our constraint solving problem is just the dual variables formulation of an equivalent elasticity problem",
           ("dual_vs_primal/final",), dual, "dual_vs_primal_final"),
-    Claim(21, "Regularised constraints have the physical stiffness.", "By employing the constraint regularization technique at position level",
+    Claim(21, "Regularised constraints have the physical stiffness.", "by employing regularization of nonlinear constraints [...] we bridge constraint-based methods to traditional force-based methods",
           ("time_order/verdicts", "mesh_refinement/verdicts"), stiffness, "time_order_errors"),
     Claim(22, "Damping is that of its coefficient.", "to incorporate soft constraints, damping and FEM into PBD", ("damping/verdicts",),
           damped, "damping_decrements"),

@@ -13,7 +13,7 @@ def converges(rates):
     plain = some(rates[rates["outer"] == "plain"], "run of `plain`")
     done = plain["behaviour"].isin(CONTRACTING)
     below = plain["predicted_rate"] < 1
-    text = f"`plain` converges in {share(done.sum(), len(plain))} cases"
+    text = f"`plain` converges in {share(done.sum(), len(plain))} cases of {listed(plain['scene'].unique())}"
     chain = plain["scene"] == "chain20"
     if chain.any() and not done[chain].all():
         text += (f", on the 20-link chain only for h <= {step_text(plain.loc[chain & done, 'step_s'].max())}"

@@ -15,6 +15,7 @@ LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\
          "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
 NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
 BIBLIOGRAPHY = (Path(__file__).resolve().parent / "refs.bib").read_text(encoding="utf-8")
+TABLE = re.compile(r"\w+/\w+\.csv")  # a result table beside the report
 MARK = re.compile(r"`([^`]*)`|\[@(" + "|".join(re.findall(r"@\w+\{(\w+),", BIBLIOGRAPHY)) + r")\]|\[#(\w+)\]")
 
 
@@ -53,7 +54,11 @@ def to_html(text, references, places=None):
     def refer(name):
         return f'<a href="#{name}">{places[name]}</a>' if name in (places or {}) else ""
 
-    return marked(text, html.escape, lambda escaped: f"<code>{escaped}</code>", cite, refer)
+    def code(escaped):
+        text = f"<code>{escaped}</code>"
+        return f'<a href="{escaped}">{text}</a>' if TABLE.fullmatch(escaped) else text
+
+    return marked(text, html.escape, code, cite, refer)
 
 
 def plain(text, places):

@@ -40,6 +40,10 @@ class Texts(unittest.TestCase):
         self.assertEqual(to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
         self.assertEqual(to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
 
+    def test_tables_are_linked(self):
+        self.assertEqual(to_html("`energy/map.csv` `a.csv`", {}),
+                         '<a href="energy/map.csv"><code>energy/map.csv</code></a> <code>a.csv</code>')
+
     def test_references_are_to_what_there_is(self):
         known = places([Section("", name="energy", figures=[Figure("not_drawn", ""), Figure("a_b", "", drawn=True)])])
         self.assertEqual(known, {"energy": "section 1", "a_b": "figure 1"})

@@ -44,7 +44,7 @@ def coulomb(stopping, incline, headings):
     true = held["coulomb"] == total["coulomb"]
     return Finding(
         judge(true and held["cone"] == total["cone"] and not lifts, true, "Coulomb's law (`coulomb`, ours)"),
-        "Thresholds, accelerations, stopping distances and 36 headings are within their bounds in "
+        f"Thresholds, accelerations, stopping distances and {headings['heading_deg'].nunique()} headings are within their bounds in "
         + ", ".join(f"{share(held[law], total[law])} with `{law}`" for law in LAWS if total[law]) + f". {against}",
         share(held["coulomb"], total["coulomb"]), f"{total['coulomb']} of {total['coulomb']}", against)
 
@@ -55,11 +55,13 @@ def convex(solves, verdicts):
     solved = good(ours, "error_m_per_s")
     farthest = solved["error_m_per_s"].max() if len(solved) else float("nan")
     judges = verdict_rows(verdicts, "cone_problems.ipopt", "cone_problems.velocity")
-    true = (judges["verdict"] == "holds").all() and farthest <= 1e-3
+    agree = (judges["verdict"] == "holds").all()
+    true = agree and farthest <= 1e-3
     return Finding(
         judge(true and len(solved) == len(ours), true, f"solves that meet their tolerance, {share(len(solved), len(ours))}"),
         f"Velocities of the convex law lie at most {number(farthest)} m/s from the planted ones in the {share(len(solved), len(ours))} "
-        "solves that meet a residual of 1e-8; two judges of convex programmes, an interior point method and Ipopt, agree.",
+        "solves that meet a residual of 1e-8; the judges, an interior point method and Ipopt, "
+        + ("agree." if agree else "do not agree."),
         f"{number(farthest)} m/s", "0.001 m/s")
 
 
@@ -97,10 +99,10 @@ def box_lcp(headings, incline, stopping):
 
 def unique_motion(answers):
     held, rows = within(answers, "redundant_motion", "redundant_force")
-    motion = rows[rows["quantity"] == "redundant_motion"]
+    motion, force = (rows.loc[rows["quantity"] == f"redundant_{what}", "error"].max(skipna=False) for what in ("motion", "force"))
     return Finding(
         judge(held.all(), held.any(), f"{share(held.sum(), len(rows))} answers"),
-        f"However many balls carry a slab, it moves the same to {number(motion['error'].max(skipna=False))} m and they carry its weight. "
+        f"However many balls carry a slab, it moves the same to {number(motion)} m, and they carry its weight to {number(force)} of it. "
         "Permuted contacts are not compared.", f"{share(held.sum(), len(rows))}", f"{len(rows)} of {len(rows)}")
 
 

@@ -17,7 +17,8 @@ def accelerates(errors):
     return Finding(
         judge(faster.all(), faster.any(), f"{share(faster.sum(), len(faster))} scenes"),
         f"To an error of {number(TARGET)} `nesterov_jacobi` needs fewer sweeps than `jacobi` on {share(faster.sum(), len(faster))} scenes, "
-        f"by a factor of {span(saved)} where both come there. Orders in the number of sweeps are not fitted.",
+        + (f"by a factor of {span(saved)} where both come there. " if len(saved) else "with none on which both come there. ")
+        + "Orders in the number of sweeps are not fitted.",
         f"{share(faster.sum(), len(faster))} scenes", f"{len(faster)} of {len(faster)}")
 
 
@@ -33,7 +34,7 @@ def overhead(verdicts, points):
                f"{firsts['nesterov_jacobi']}.")
     lost = wins > 0 or sum(firsts.values()) < len(rows)
     return Finding(
-        judge(linear and not wins, linear, "time and memory linear in the rows"),
+        judge(linear and not wins and sum(firsts.values()) > 0, linear, "the time of a sweep, linear in the rows"),
         f"Over the rows the time of a sweep grows with an exponent of at most {compared(steepest['measured'], steepest['bound'])[0]}. {against}",
         *compared(steepest["measured"], steepest["bound"]), against if lost else "")
 

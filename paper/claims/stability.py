@@ -53,10 +53,10 @@ def stable(steps):
     longer = [scene for scene, ratio in ratios.items() if ratio > 1]
     return Finding(
         judge(len(longer) == len(ratios), longer, f"{share(len(longer), len(ratios))} scenes ({listed(longer)})"),
-        "The largest stable step with implicit directions, by `proximal` or `auto` (ours), over that of the best velocity time "
+        f"The largest stable step with implicit directions, by {listed(implicit['outer'].unique())}, over that of the best velocity time "
         "stepping: " + "; ".join(f"{number(ratio)} on `{scene}`" for scene, ratio in ratios.items())
         + (f". On {listed(at_most)} that is the longest step tried" if at_most else "")
-        + ". `plain`, the paper's iteration, is not among these runs.",
+        + ("." if (implicit["outer"] == "plain").any() else ". `plain`, the paper's iteration, is not among these runs."),
         f"{span(list(ratios.values()))} times", "above 1")
 
 

@@ -5,10 +5,11 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 import answers
 import claims
-from claims.claim import REFUTED, SUPPORTED, UNTESTED, find
+from claims.claim import REFUTED, SUPPORTED, UNTESTED, find, worst
 from results import Results
 
 import sample
@@ -183,6 +184,13 @@ class Claims(unittest.TestCase):
                     finding = self.found(claim, {name.split("/")[1]: lambda frame: None})
                     self.assertEqual(finding.verdict, UNTESTED)
                     self.assertIn(f"{name.split('/')[1]}.csv` is missing", finding.sentence)
+
+    def test_the_worst_verdict_is_the_nearest_to_its_bound_or_the_farthest_beyond(self):
+        def worst_of(*numbers):
+            return worst(pd.DataFrame(numbers, columns=["measured", "bound"])).to_list()
+        self.assertEqual(worst_of((0.5, 1.0), (9.0, 10.0), (0.0, 0.0)), [9.0, 10.0])
+        self.assertEqual(worst_of((9.0, 1.0), (1.0, 0.0)), [1.0, 0.0])
+        self.assertTrue(np.isnan(worst_of((9.0, 1.0), (np.nan, 1.0))[0]))
 
     def test_rows_of_another_method_are_not_tested(self):
         claim = claims.CLAIMS[0]

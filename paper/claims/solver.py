@@ -22,7 +22,7 @@ def accelerates(errors):
         f"{share(faster.sum(), len(faster))} scenes", f"{len(faster)} of {len(faster)}")
 
 
-def overhead(verdicts, points):
+def overhead(points, verdicts):
     growth = verdict_rows(verdicts, "effects.linear")
     steepest = worst(growth)
     linear = (growth["verdict"] == "holds").all()
@@ -46,7 +46,7 @@ CLAIMS = (
           untested="The solver works in one thread; no experiment runs a sweep on several."),
     Claim(28, "It is matrix-free, with little overhead beside other methods.",
           "to keep the computational overhead to a minimum compared to existing methods",
-          ("effects_cost/verdicts", "work_precision/points"), overhead, "work_precision_seconds"),
+          ("work_precision/points", "effects_cost/verdicts"), overhead, "work_precision_seconds"),
     Claim(29, "Restart removes the ripple of the accelerated method.", "",
           untested="`nesterov_jacobi` always restarts; no experiment runs it without."),
 )

@@ -1,114 +1,78 @@
-"""Writes the report of a result folder, as one self-contained HTML file and as PDF."""
+"""Writes the report of a result folder, as one self-contained HTML file and as PDF, and prints its answers."""
 
 import base64
-import html
+import io
 import os
-import re
 import shutil
 import subprocess
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
+from PIL import Image
 
+import provenance
 import sections
-from content import (Results, failure_section, provenance_section, summary_section, verdict_table)
+from answers import answers
+from claims import against, claims_section, findings
 from command import command, replacing
+from content import places
+from failed import failed_section, verdicts_section
+from glossary import glossary_section
+from marks import BIBLIOGRAPHY, plain, references, to_html, to_latex
 from reading import InputError
+from results import Results
 
 HERE = Path(__file__).resolve().parent
-LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
-         "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
-         "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
-         "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$", "±": r"$\pm$",
-         "[": "{[}", "*": "{*}",  # after the end of a row they would be its arguments
-         "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
-NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
-BIBLIOGRAPHY = (HERE / "refs.bib").read_text(encoding="utf-8")
-MARK = re.compile(r"`([^`]*)`|\[@(" + "|".join(re.findall(r"@\w+\{(\w+),", BIBLIOGRAPHY)) + r")\]")
+LONGEST = 15  # rows of an experiment's table in the PDF; longer ones are in the HTML alone
+COLOURS = 64  # of a figure in the HTML
+
+
+@dataclass
+class Body:
+    notice: str
+    answers: list
+    limits: str
+    sections: list
 
 
 def compose(results):
-    """All sections in the order of the report."""
+    """All of the report, in its order."""
     found = results.experiments()
     names = list(sections.SECTIONS) + [name for name in found if name not in sections.SECTIONS and name != "figures"]
-    body = [summary_section(results, names)]
-    for name in names:
-        section = sections.section_of(results, name)
-        section.tables += verdict_table(results, name)
-        body.append(section)
-    return [*body, failure_section(results, names), provenance_section(results, names)]
-
-
-# ------------------------------------------------------------------------------------------------------------ marks
-
-def marked(text, escape, code, cite):
-    """Text with its marks replaced and all else escaped."""
-    out, end = [], 0
-    for match in MARK.finditer(text):
-        out.append(escape(text[end:match.start()]))
-        out.append(code(escape(match[1])) if match[1] is not None else cite(match[2]))
-        end = match.end()
-    return "".join(out) + escape(text[end:])
-
-
-def to_latex(text):
-    def escape(plain):
-        text = "".join(LATEX.get(c, c if c.isascii() and c.isprintable() else " " if c.isspace() else "?") for c in plain)
-        return NEGATIVE_EXPONENT.sub(r"\\mbox{\g<0>}", text)  # else a line may end after its hyphen
-
-    def code(escaped):
-        for mark in (r"\_", "/", "."):
-            escaped = escaped.replace(mark, mark + r"\allowbreak{}")
-        return r"\texttt{" + escaped + "}"
-
-    return marked(text, escape, code, lambda key: rf"\citep{{{key}}}")
-
-
-def to_html(text, references):
-    def cite(key):
-        return f'[<a href="#{key}">{list(references).index(key) + 1}</a>]'
-
-    return marked(text, html.escape, lambda escaped: f"<code>{escaped}</code>", cite)
-
-
-def references(text):
-    """The entries of refs.bib as plain text, by key."""
-    entries = {}
-    for key, body in re.findall(r"@\w+\{(\w+),\n(.*?)\n\}", text, re.S):
-        fields = {name: plain_bibtex(value) for name, value in re.findall(r"(\w+) = \{(.*)\},?", body)}
-        who = (fields.get("author") or fields["editor"]).replace(" and ", "; ")
-        where = next((fields[name] for name in ("journal", "booktitle", "school", "publisher") if name in fields), "")
-        volume = f" {fields['volume']}" if "volume" in fields else ""
-        doi = f", doi:{fields['doi']}" if "doi" in fields else ""
-        entries[key] = f"{who}: {fields['title']}. {where}{volume}{', ' if where else ''}{fields['year']}{doi}."
-    return entries
-
-
-def plain_bibtex(text):
-    for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
-                         ("{$O(1/k^2)$}", "O(1/k²)"), ("--", "–")):
-        text = text.replace(mark, letter)
-    return text.replace("{", "").replace("}", "")
+    found = findings(results)
+    studies = [sections.section_of(results, name) for name in names]
+    cited = {claim.figure for claim, _ in found}
+    for section in studies:
+        section.paragraphs += against(found, section.name)
+        for number, figure in enumerate(section.figures):
+            figure.detail = number > 0 and figure.name not in cited
+        for table in section.tables:
+            table.detail = len(table.rows) > LONGEST
+    body = [claims_section(found), failed_section(results, names), glossary_section(), *studies,
+            verdicts_section(results, names), provenance.provenance_section(results, names)]
+    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), body)
 
 
 # ------------------------------------------------------------------------------------------------------------- html
 
 def inlined(path):
-    """A figure as a data URI."""
-    svg, png = path.with_suffix(".svg"), path.with_suffix(".png")
-    chosen = png if svg.stat().st_size > 1_500_000 else svg
-    kind = "svg+xml" if chosen.suffix == ".svg" else "png"
-    return f"data:image/{kind};base64,{base64.b64encode(chosen.read_bytes()).decode()}"
+    """A figure as a data URI: few colours, without loss beyond that."""
+    data = io.BytesIO()
+    with Image.open(path.with_suffix(".png")) as image:
+        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).convert("RGB").save(data, "webp", lossless=True)
+    return f"data:image/webp;base64,{base64.b64encode(data.getvalue()).decode()}"
 
 
 def write_html(body, directory):
     entries = references(BIBLIOGRAPHY)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters["marked"] = lambda text: jinja2.utils.markupsafe.Markup(to_html(text, entries))
+    known = places(body.sections)
+    environment.filters["marked"] = lambda text: jinja2.utils.markupsafe.Markup(to_html(text, entries, known))
     text = environment.get_template("report.html.j2").render(
-        sections=body, references=entries, inlined=lambda name: inlined(directory / "figures" / name))
+        **vars(body), places=known, references=entries, inlined=lambda name: inlined(directory / "figures" / name))
     write_file(directory / "report.html", text.encode())
 
 
@@ -116,7 +80,7 @@ def write_html(body, directory):
 
 def column_widths(table):
     """Column specification of a LaTeX table: long texts share the width that the short ones leave."""
-    line, short, longest_counted = 100, 14, 60  # characters
+    line, short, longest_counted = 100, 14, 300  # characters
     longest = [max(len(row[i].replace("`", "")) for row in [table.header, *table.rows]) for i in range(len(table.header))]
     if sum(longest) + 2 * len(longest) <= line - 5:
         return "l" * len(longest)
@@ -138,10 +102,10 @@ def write_pdf(body, directory):
         loader=jinja2.FileSystemLoader(HERE), trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined,
         block_start_string="<%", block_end_string="%>", variable_start_string="<<", variable_end_string=">>",
         comment_start_string="<#", comment_end_string="#>")
-    environment.filters["marked"] = to_latex
+    known = places(body.sections)
+    environment.filters["marked"] = lambda text: to_latex(text, known)
     figures = (directory / "figures").resolve()
-    text = environment.get_template("report.tex.j2").render(
-        sections=body, widths=column_widths)
+    text = environment.get_template("report.tex.j2").render(**vars(body), places=known, widths=column_widths)
     with tempfile.TemporaryDirectory() as folder:
         build = Path(folder)
         (build / "report.tex").write_text(text, encoding="utf-8")
@@ -173,6 +137,8 @@ def main(directory):
     print(directory / "report.html")
     write_pdf(body, directory)
     print(directory / "report.pdf")
+    for answer in body.answers:
+        print(f"{answer.question} {plain(answer.sentence, places(body.sections))}")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 """Tests of the report:  python3 -m unittest discover -s paper"""
 
+import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,42 +14,60 @@ from unittest import mock
 
 import report
 import sections
-from content import Results, Table, counted, failures, listed, number, span  # makes plots/ importable
+from content import Section, Table, Figure, compared, counted, joined, listed, number, places, share, span
+from failed import cause, failures, stripped
+from marks import BIBLIOGRAPHY, LATEX, plain, references, to_html, to_latex
 from reading import InputError
+from results import Results
 
 import sample
 from common import FIGURES
 import make  # noqa: F401  (registers the figures)
 
+PAPER = report.HERE
+TEXTS = [path.read_text(encoding="utf-8") for path in PAPER.glob("**/*.py") if not path.name.startswith("test_") and path.name != "marks.py"]
+PIXEL = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000c49444154789c63f8ffff3f0005fe02fe"
+                      "0def46b80000000049454e44ae426082")  # a PNG
+
 
 class Texts(unittest.TestCase):
     def test_latex_escapes_everything_special(self):
-        self.assertEqual(report.to_latex("50 % of a_b & c #1 {x} $y$ ~^\\"),
+        self.assertEqual(to_latex("50 % of a_b & c #1 {x} $y$ ~^\\"),
                          r"50 \% of a\_b \& c \#1 \{x\} \$y\$ \textasciitilde{}\textasciicircum{}\textbackslash{}")
 
     def test_marks(self):
         key = "liu2017quasi"
-        self.assertEqual(report.to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
-        self.assertEqual(report.to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
+        self.assertEqual(to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
+        self.assertEqual(to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
+
+    def test_tables_are_linked(self):
+        self.assertEqual(to_html("`energy/map.csv` `a.csv`", {}),
+                         '<a href="energy/map.csv"><code>energy/map.csv</code></a> <code>a.csv</code>')
+
+    def test_references_are_to_what_there_is(self):
+        known = places([Section("", name="energy", figures=[Figure("not_drawn", ""), Figure("a_b", "", drawn=True)])])
+        self.assertEqual(known, {"energy": "section 1", "a_b": "figure 1"})
+        self.assertEqual(to_html("[#energy] [#a_b] [#none]", {}, known),
+                         '<a href="#energy">section 1</a> <a href="#a_b">figure 1</a> [#none]')
+        self.assertEqual(to_latex("[#a_b] [#none]", known), r"\hyperref[a_b]{figure~1} {[}\#none]")
+        self.assertEqual(plain("`x` in [#energy] [#none]", known), "x in section 1 [#none]")
 
     def test_latex_knows_every_character_of_the_texts(self):
-        sources = "".join(path.read_text(encoding="utf-8") for path in (report.HERE / "sections").glob("*.py"))
-        self.assertEqual({c for c in sources if not c.isascii()} - set(report.LATEX), set())
+        self.assertEqual({c for c in "".join(TEXTS) if not c.isascii()} - set(LATEX), set())
 
     def test_a_citation_of_nothing_is_text(self):
-        self.assertEqual(report.to_latex("[@key]\n*"), "{[}@key] {*}")
-        self.assertEqual(report.to_html("[@key]", {}), "[@key]")
+        self.assertEqual(to_latex("[@key]\n*"), "{[}@key] {*}")
+        self.assertEqual(to_html("[@key]", {}), "[@key]")
 
     def test_html_escapes(self):
-        self.assertEqual(report.to_html("<script>&", {}), "&lt;script&gt;&amp;")
+        self.assertEqual(to_html("<script>&", {}), "&lt;script&gt;&amp;")
 
     def test_every_citation_is_in_the_bibliography(self):
-        known = report.references((report.HERE / "refs.bib").read_text(encoding="utf-8"))
-        texts = [path.read_text(encoding="utf-8") for path in (report.HERE / "sections").glob("*.py")]
-        cited = report.re.findall(r"\[@(\w+)\]", "".join(texts))
+        known = references(BIBLIOGRAPHY)
+        cited = re.findall(r"\[@(\w+)\]", "".join(TEXTS))
         self.assertTrue(cited)
-        self.assertEqual(set(cited) - set(known), set())
-        self.assertEqual(len(known), (report.HERE / "refs.bib").read_text(encoding="utf-8").count("\n@") + 1)
+        self.assertEqual(set(cited) - set(known) - {"key"}, set())
+        self.assertEqual(len(known), BIBLIOGRAPHY.count("\n@") + 1)
 
     def test_numbers(self):
         self.assertEqual([number(v) for v in (1e-6, 0.25, float("nan"), float("-inf"))],
@@ -55,6 +75,12 @@ class Texts(unittest.TestCase):
         self.assertEqual([span([1, 2, float("nan")]), span([3, 3]), span([])], ["1 to 2", "3", "no finite number"])
         self.assertEqual([counted(1, "case"), counted(2, "case")], ["1 case", "2 cases"])
         self.assertEqual([listed([]), listed(["a"]), listed(["a", "b", "c"])], ["none", "`a`", "`a`, `b` and `c`"])
+        self.assertEqual([joined([]), joined("a"), joined("abc"), share(1, 2)], ["", "a", "a, b and c", "1 of 2"])
+
+    def test_numbers_that_differ_look_different(self):
+        self.assertEqual(compared(1.10185, 1.1), ("1.102", "1.1"))
+        self.assertEqual(compared(1.0, 1.0), ("1", "1"))
+        self.assertEqual(compared(float("nan"), 1.0), ("not a number", "1"))
 
     def test_wide_tables_wrap(self):
         self.assertEqual(report.column_widths(Table("", ["a", "b"], [["1", "2"]])), "ll")
@@ -75,7 +101,7 @@ class Report(unittest.TestCase):
     def draw(self, name):
         (self.directory / "figures").mkdir(exist_ok=True)
         for kind in ("png", "svg", "pdf"):
-            (self.directory / "figures" / f"{name}.{kind}").write_text("", encoding="utf-8")
+            (self.directory / "figures" / f"{name}.{kind}").write_bytes(PIXEL)
 
     def test_all_experiments(self):
         sample.write_all(self.directory)
@@ -83,10 +109,11 @@ class Report(unittest.TestCase):
             self.draw(f"{figure.experiment}_{figure.name}")
         with mock.patch.object(report, "write_pdf"):
             text = self.html()
-        for absent in (sections.NO_TABLE, "Not drawn", "incomplete", "stem from different"):
+        for absent in (sections.NO_TABLE, "Not drawn", "incomplete", "stem from different", "[#", "is missing"):
             self.assertNotIn(absent, text)
-        count = len(sections.SECTIONS)  # each has one verdict that holds and one that does not
-        self.assertIn(f"{count} of {2 * count} verdicts hold", text)
+        count = len(sections.SECTIONS)  # each has one verdict that does not hold
+        holds = count + sum(map(len, sample.CLAIMED.values()))
+        self.assertIn(f"{holds} of {holds + count} verdicts hold", text)
         self.assertIn("theory predicts contraction in 4; 4 of these converge", text)
         self.assertNotIn("http://", text)
 
@@ -122,7 +149,8 @@ class Report(unittest.TestCase):
         self.assertIn("This report is incomplete. No result is shown of <code>judges</code> (failed: out of memory), "
                       "<code>effects_cost</code> (no run.json, the run did not come to its end)", text)
         count = len(sections.SECTIONS) - 2
-        self.assertIn(f"{count} of {2 * count} verdicts hold", text)
+        holds = count + sum(len(ids) for name, ids in sample.CLAIMED.items() if name != "effects_cost")
+        self.assertIn(f"{holds} of {holds + count} verdicts hold", text)
         for shown in ("could be compared", "Agreement of the judges", "judges/agreement"):
             self.assertNotIn(shown, text)
         self.assertNotIn("<img", text)
@@ -173,6 +201,27 @@ class Report(unittest.TestCase):
         with mock.patch.object(report, "write_pdf"):
             self.assertIn("In no case is <code>plain</code> ok", self.html())
 
+    def test_it_prints_its_answers(self):
+        sample.write_all(self.directory)
+        with mock.patch.object(report, "write_pdf"), mock.patch("sys.stdout", io.StringIO()) as said:
+            report.main(self.directory)
+        lines = said.getvalue().splitlines()[-3:]
+        self.assertEqual([line.split("?")[0] for line in lines], [
+            "What does accuracy cost in time", "Do hard cases stay numerically stable",
+            "Does a scene pay only for the effects it calls for"])
+        self.assertNotRegex(said.getvalue(), "[`#]")
+
+    def test_a_long_table_is_folded_and_not_in_the_pdf(self):
+        sample.write_all(self.directory)
+        body = report.compose(Results(self.directory))
+        tables = {table.caption: table for section in body.sections for table in section.tables}
+        self.assertTrue(all(table.detail for caption, table in tables.items() if caption.endswith(" verdicts.")))
+        for section in body.sections:
+            for table in section.tables if section.name in sections.SECTIONS else ():
+                self.assertEqual(table.detail, len(table.rows) > report.LONGEST, table.caption)
+        with mock.patch.object(report, "write_pdf"):
+            self.assertEqual(self.html().count("<details>"), sum(table.detail for section in body.sections for table in section.tables))
+
     def test_unknown_experiment_is_shown(self):
         sample.write(self.directory, "brand_new", "verdicts", "id statement quantity measured bound verdict",
                      [("n.1", "It <works>", "share", 1.0, 2.0, "holds")])
@@ -182,17 +231,28 @@ class Report(unittest.TestCase):
         self.assertIn("Brand new", text)
         self.assertIn("It &lt;works&gt;", text)
 
-    def test_failures_are_counted(self):
-        sample.write(self.directory, "a", "t", "error status reason", [(1.0, "diverged", "far")] * 3 + [(1.0, "ok", "")])
+    def test_failures_are_counted_by_method_without_their_numbers(self):
+        sample.write(self.directory, "a", "t", "outer error status reason",
+                     [("plain", 1.0, "diverged", f"far by {k}.5e-3") for k in range(3)] + [("plain", 1.0, "ok", ""), ("auto", 1.0, "ok", "")])
         sample.write_run(self.directory, "a")
-        self.assertEqual(failures(Results(self.directory), ["a"]), [["`a/t`", "`diverged`", "far", "3"]])
+        self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`diverged`", "far by #", "3 of 5", ["`plain` 3 of 4"]]])
+
+    def test_names_with_digits_stay(self):
+        self.assertEqual(stripped("node 4 of chain20 fell 1e-3 m in 20 steps"), "node # of chain20 fell # m in # steps")
 
     def test_failures_of_traces_are_counted_by_solve(self):
         sample.write(self.directory, "inner_convergence", "errors", "scene relaxation sweep wall_s error status reason",
                      [(scene, "jacobi", sweep, 0.0, 1.0, "diverged", "far") for scene in "ab" for sweep in range(9)])
         sample.write_run(self.directory, "inner_convergence")
-        self.assertEqual(failures(Results(self.directory), ["inner_convergence"]),
-                         [["`inner_convergence/errors`", "`diverged`", "far", "2"]])
+        self.assertEqual([row[3] for row in failures(Results(self.directory), ["inner_convergence"])], ["2 of 2"])
+
+    def test_a_failed_verdict_has_a_cause(self):
+        sample.write(self.directory, "a", "t", "error status reason", [(1.0, "diverged", "far by 3")] * 2)
+        sample.write_run(self.directory, "a")
+        verdict = {"experiment": "a", "id": "a.b", "measured": 3.0, "bound": 2.0}
+        self.assertEqual(cause(Results(self.directory), verdict),
+                         "The number is 1.5 times its bound; most rows that are not ok say: diverged: far by #.")
+        self.assertIn("A measured time, 1.5 times", cause(Results(self.directory), verdict | {"id": "effects.empty.free"}))
 
     def test_no_folder(self):
         with self.assertRaises(InputError):

@@ -12,6 +12,7 @@ import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
+import first_page  # noqa: F401
 import friction  # noqa: F401
 import friction_cone  # noqa: F401
 import generated_scenes  # noqa: F401

@@ -68,7 +68,8 @@ def restitution(directory):
 
 
 def stack(directory):
-    _answers(directory, "stack", (("weight", "relative", 1e-9), ("joints", "relative", 1e-8), ("penetration", "of the size", 1e-8)))
+    _answers(directory, "stack", (("weight", "relative", 1e-9), ("joints", "relative", 1e-8), ("penetration", "of the size", 1e-8),
+                                   ("redundant_motion", "m", 1e-9), ("redundant_force", "relative", 1e-9)))
     rows = []
     for relaxation in ("conjugate_gradients", "direct"):
         for structure, counts, shares in (("overhang", (2, 3, 5), (0.999, 1.001)), ("arch", (7, 15), (1.01, 0.99))):

@@ -15,7 +15,7 @@ def method_points(tolerance):
                                          ("proximal", "gauss_seidel", 1.5), ("incremental", "gauss_seidel", 0.8),
                                          ("quasi_newton", "none", 0.4), ("rival", "newton", 0.1),
                                          ("judge", "primal_newton", 0.3)):
-            for t in (1e-2, 1e-4, 1e-6, 1e-8):
+            for t in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
                 bad = outer in ("plain", "quasi_newton") and t < 1e-5 and scene == "chain20"
                 work = int(20 * speed * np.log10(t) ** 2)
                 error = float("nan") if bad and outer == "plain" else max(t * 0.4, 4e-3 if outer == "incremental" else 0)

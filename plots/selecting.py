@@ -79,9 +79,9 @@ def missed_note(frame):
     return f"Of each crossed run {spanned} steps missed their tolerance. " if spanned else ""
 
 
-def text_number(value):
-    """A number with three digits: 0.004, 1e6."""
-    return f"{value:.3g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+def text_number(value, digits=3):
+    """A number as text: 0.004, 1e6."""
+    return f"{value:.{digits}g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 
 
 def scene_text(scene):

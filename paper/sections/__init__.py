@@ -31,6 +31,7 @@ def section_of(results, experiment):
     """The section of an experiment: its own if there is one, else what can be said of any."""
     section = SECTIONS[experiment](results) if experiment in SECTIONS else \
         Section(experiment.replace("_", " ").capitalize(), paragraphs=["No text is written for this experiment."])
+    section.name = experiment
     shortfall = results.shortfall(experiment)
     if shortfall:
         section.notice = f"No result is shown: {shortfall}."

@@ -1,7 +1,11 @@
 """What accuracy and effects cost."""
 
+import pandas as pd
+
 from content import Figure, Section, Table, counted, number, span
 from selecting import failed, good, step_text
+
+LEVELS = (1e-3, 1e-6, 1e-9)  # of the error
 
 
 def work_precision(results):
@@ -37,28 +41,44 @@ def work_precision(results):
     return section
 
 
-def contacts_table(frame, levels=(1e-3, 1e-6, 1e-9)):
+def contacts_table(frame):
     rows = []
     for (scene, law), group in frame.groupby(["scene", "friction"], sort=False):
         runs = good(group, "error", "wall_s")
         judged = good(frame[(frame["scene"] == scene) & (frame["friction"] == ("cone" if law == "cone" else "coulomb"))], "wall_s")
         cells = []
-        for level in levels:
+        for level in LEVELS:
             reached = runs[(runs["error"] <= level) & (runs["outer"] != "judge")].sort_values("wall_s")
             cells.append(f"`{reached['relaxation'].iloc[0]}` {number(reached['wall_s'].iloc[0])}" if len(reached) else "none")
         judge = judged[judged["relaxation"] == "cone_interior_point"]["wall_s"]
         rows.append([f"`{scene}`", f"`{law}`", *cells, number(judge.iloc[0]) if len(judge) else "none"])
     return Table("Contact: the quickest relaxation with at most the given error and its wall time (s), and the judge's.",
-                 ["scene", "law", *(number(level) for level in levels), "judge"], rows)
+                 ["scene", "law", *(number(level) for level in LEVELS), "judge"], rows)
 
 
-def fastest_table(frame, levels=(1e-3, 1e-6, 1e-9)):
+def quickest(frame):
+    """The quickest run with at most each level of error, one row a scene, step and level; outer is '' where there is none."""
     rows = []
-    for (scene, step), group in good(frame, "error", "wall_s").groupby(["scene", "step_s"], sort=False):
-        for level in levels:
-            reached = group[group["error"] <= level].sort_values("wall_s")
-            first = f"`{reached['outer'].iloc[0]}`, `{reached['relaxation'].iloc[0]}`" if len(reached) else "none"
-            rows.append([f"`{scene}`", step_text(step), number(level), first, number(reached["wall_s"].iloc[0]) if len(reached) else ""])
+    for (scene, step), group in frame.groupby(["scene", "step_s"], sort=False):
+        runs = good(group, "error", "wall_s")
+        for level in LEVELS:
+            reached = runs[runs["error"] <= level].sort_values("wall_s")
+            first = reached[["outer", "relaxation", "wall_s"]].iloc[0] if len(reached) else ("", "", float("nan"))
+            rows.append((scene, step, level, *first))
+    return pd.DataFrame(rows, columns=["scene", "step_s", "level", "outer", "relaxation", "wall_s"])
+
+
+def rival_wins(frame):
+    """In how many rows a rival is the quickest of all, and how many are of scenes that one solves."""
+    rows = quickest(frame)
+    entered = rows[rows["scene"].isin(good(frame[frame["outer"] == "rival"], "error", "wall_s")["scene"])]
+    return int((entered["outer"] == "rival").sum()), len(entered)
+
+
+def fastest_table(frame):
+    rows = [[f"`{r['scene']}`", step_text(r["step_s"]), number(r["level"]),
+             f"`{r['outer']}`, `{r['relaxation']}`" if r["outer"] else "none", number(r["wall_s"]) if r["outer"] else ""]
+            for _, r in quickest(frame).iterrows()]
     return Table("Quickest run with at most the given error.", ["scene", "step", "error", "method", "wall time (s)"], rows)
 
 

@@ -60,19 +60,24 @@ def energy_table(frame):
                  ["scheme", "at the end", "range", "status", "reason"], rows)
 
 
-def equal_work_text(frame):
-    """The violation of velocity time stepping over that of solved position schemes, where they work as much or the next more."""
+def equal_work_ratios(frame):
+    """(scene, stabilisation, ratios): the violation of velocity time stepping over that of each solved run with implicit
+    directions, where it works as much or the next more."""
     velocity = good(frame[frame["family"] == "velocity"], "error")
     position = good(frame[(frame["family"] == "position") & (frame["direction_blend"] == 1)], "error")
-    parts = []
     for scene, solved in position.groupby("scene", sort=False):
-        for share, others in velocity[velocity["scene"] == scene].groupby("stabilisation"):
+        for stabilisation, others in velocity[velocity["scene"] == scene].groupby("stabilisation"):
             ratios = []
             for _, run in solved[solved["error"] > 0].iterrows():
                 dearer = others[others["row_updates_per_s"] >= run["row_updates_per_s"]].sort_values("row_updates_per_s")
                 ratios += [dearer["error"].iloc[0] / run["error"]] if len(dearer) else []
             if ratios:
-                parts.append(f"{span(ratios)} times on `{scene}`, stabilised {number(share)}")
+                yield scene, stabilisation, ratios
+
+
+def equal_work_text(frame):
+    parts = [f"{span(ratios)} times on `{scene}`, stabilised {number(stabilisation)}"
+             for scene, stabilisation, ratios in equal_work_ratios(frame)]
     return ("Where implicit directions solve every step, velocity time stepping with as many row updates, or the next more tried, "
             f"violates links more by these factors: {'; '.join(parts)}.") if parts else \
         "No solved run with implicit directions has a stable one by velocity time stepping beside it that works as much."

@@ -39,15 +39,17 @@ def decay_text(rates):
             + "; ".join(parts) + ".") if parts else "No relaxation with a rate was run."
 
 
+def sweeps_to(errors, target):
+    """The first sweep at which the error is at most the target, by scene and relaxation; NaN where it never is."""
+    return errors["sweep"].where(errors["error"] <= target).groupby([errors["scene"], errors["relaxation"]], sort=False).min()
+
+
 def fastest_text(errors, target=1e-6):
     """Sweeps each relaxation needs to a given error, per scene."""
     parts = []
-    for scene, rows in errors.groupby("scene", sort=False):
-        reached = []
-        for relaxation, trace in rows.groupby("relaxation", sort=False):
-            first = trace.loc[trace["error"] <= target, "sweep"].min()
-            reached.append(f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}"))
-        parts.append(f"`{scene}`: {', '.join(reached)}")
+    for scene, reached in sweeps_to(errors, target).groupby("scene", sort=False):
+        found = [f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}") for (_, relaxation), first in reached.items()]
+        parts.append(f"`{scene}`: {', '.join(found)}")
     return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."
 
 

@@ -1,0 +1,110 @@
+"""Claims about viscoelasticity and finite elements."""
+
+from claims.claim import Claim, Finding, judge, some, verdict_rows, worst
+from content import joined, number, share, span
+from selecting import good
+
+
+def dual(final):
+    ours = some(final[(final["outer"] == "plain") & (final["relaxation"] == "nesterov_jacobi")], "run of `plain`, `nesterov_jacobi`")
+    solved = ours[ours["status"] == "ok"]
+    near = good(ours, "error")
+    near = near[near["error"] <= 1e-8]
+    others = final[final["outer"] == "incremental"]
+    return Finding(
+        judge(len(near) == len(ours), len(near) == len(solved) > 0, f"steps that are solved, {share(len(solved), len(ours))}"),
+        f"`plain` with `nesterov_jacobi`, the paper's method, ends at the primal minimum to {span(near['error'])} in "
+        f"{share(len(near), len(ours))} runs. `incremental` ends at {span(others['error'])}.",
+        share(len(near), len(ours)), f"{len(ours)} of {len(ours)} within 1e-8")
+
+
+def stiffness(motion, meshes):
+    springs = verdict_rows(motion, "time_order.spring.", "time_order.compliant_links.")
+    statics = verdict_rows(meshes[meshes["id"].str.endswith(".solver")], "mesh.")
+    held = [(rows["verdict"] == "holds") for rows in (springs, statics)]
+    return Finding(
+        judge(False, all(rows.all() for rows in held), "linear problems solved to the end"),
+        f"The static equilibrium of solids is the mesh's own to {number(worst(statics)['measured'])}, and springs approach their motion "
+        f"at the integrator's order in {share(held[0].sum(), len(springs))} cases. Sweeps that are stopped early are not compared.",
+        number(worst(statics)["measured"]), number(worst(statics)["bound"]))
+
+
+def damped(verdicts):
+    held = verdicts["verdict"] == "holds"
+    row = worst(verdicts)
+    return Finding(judge(held.all(), held.any(), f"{share(held.sum(), len(held))} verdicts"),
+                   "Decrements, orders, limits, and rigid motion that is left alone: "
+                   f"{share(held.sum(), len(held))} verdicts hold; nearest to its bound is `{row['id']}` ({row['quantity']}).",
+                   number(row["measured"]), number(row["bound"]))
+
+
+def continuum(verdicts, beam):
+    rows = verdict_rows(verdicts, "mesh.")
+    held = rows["verdict"] == "holds"
+    order = worst(verdict_rows(verdicts, "mesh.mms"))
+    bending = good(beam[(beam["model"] == "tet_p1") & (beam["quantity"] == "compliance_j")], "error_beam").sort_values("n")
+    last = some(bending, "beam of tetrahedra").iloc[-1]
+    falls = bending["error_beam"].is_monotonic_decreasing
+    return Finding(
+        judge(held.all() and falls, held.all(), "a manufactured solution, not the beam"),
+        f"The manufactured solution converges at orders at most {number(order['measured'])} from 2 (L2) and 1 (H1). In bending the error "
+        f"falls to {number(last['error_beam'])} on the finest mesh, n = {number(last['n'])}.",
+        number(order["measured"]), number(order["bound"]))
+
+
+def nearer(beam):
+    """Of each quantity that both have: errors of network and tetrahedra, mesh by mesh; NaN where one is not ok."""
+    found = {}
+    for quantity, rows in beam.groupby("quantity", sort=False):
+        sides = {model: good(rows[rows["model"] == model], "error_beam").set_index("n")["error_beam"] for model in ("springs", "tet_p1")}
+        meshes = sorted(set(rows.loc[rows["model"] == "springs", "n"]) & set(rows.loc[rows["model"] == "tet_p1", "n"]))
+        if meshes:
+            found[quantity] = sides["springs"].reindex(meshes), sides["tet_p1"].reindex(meshes)
+    return some(found, "mesh of both tetrahedra and springs")
+
+
+def beats_springs(beam):
+    words = {"compliance_j": "in bending", "axial_j": "in tension", "frequency_hz": "in the first frequency"}
+    parts, whole, lost = [], [], []
+    for quantity, (springs, tets) in nearer(beam).items():
+        word = words.get(quantity, quantity)
+        theirs, ours = (springs < tets).sum(), (tets < springs).sum()
+        errors = " against ".join(", ".join(number(error) for error in side) for side in (springs, tets))
+        text = f"{word} the springs are nearer on {share(theirs, len(springs))} meshes, the FEM constraint on {ours} " \
+               f"(errors {errors})"
+        parts.append(text)
+        (whole if ours == len(tets) else lost).append(word)
+    count, text = len(whole), "; ".join(parts)
+    return Finding(
+        judge(not lost, whole, joined(word.removeprefix("in ") for word in whole)),
+        f"Beside the FEM constraint on the same meshes, against theory: {text}. The springs have one stiffness, fitted to both load cases.",
+        f"{share(count, len(parts))} load cases", f"{len(parts)} of {len(parts)}", f"Against theory, {text}." if lost else "")
+
+
+def incompressible(sweeps):
+    rows = some(sweeps[(sweeps["parameter"] == "poisson") & (sweeps["relaxation"] != "direct")], "case of Poisson's ratio")
+    solved = {name: (len(good(group, "sweeps")), len(group)) for name, group in rows.groupby("relaxation", sort=False)}
+    nesterov = solved.get("nesterov_jacobi", (0, 0))
+    return Finding(
+        judge(all(done == total for done, total in solved.values()), any(done == total for done, total in solved.values()),
+              joined(f"`{name}`" for name, (done, total) in solved.items() if done == total)),
+        f"Up to nu = {rows['value'].max():g} the linearised step of a cantilever is solved in "
+        + ", ".join(f"{share(*counts)} cases by `{name}`" for name, counts in solved.items())
+        + ". Locking is not measured: no experiment compares deflections over nu.", share(*nesterov), f"{nesterov[1]} of {nesterov[1]}")
+
+
+CLAIMS = (
+    Claim(20, "Constraint solving is the dual of an elasticity problem.",
+          "our constraint solving problem is just the dual variables formulation of an equivalent elasticity problem",
+          ("dual_vs_primal/final",), dual, "dual_vs_primal_final"),
+    Claim(21, "Regularised constraints have the physical stiffness.", "by employing regularization of nonlinear constraints [...] we bridge constraint-based methods to traditional force-based methods",
+          ("time_order/verdicts", "mesh_refinement/verdicts"), stiffness, "time_order_errors"),
+    Claim(22, "Damping is that of its coefficient.", "to incorporate soft constraints, damping and FEM into PBD", ("damping/verdicts",),
+          damped, "damping_decrements"),
+    Claim(23, "The FEM constraint follows the continuum.",
+          "in a physically correct manner using the theory of continua and the finite element method",
+          ("mesh_refinement/verdicts", "mesh_refinement/beam"), continuum, "mesh_refinement_mms"),
+    Claim(24, "It is more accurate than mass-spring systems.", "that is more accurate than PBD mass-spring systems",
+          ("mesh_refinement/beam",), beats_springs, "mesh_refinement_beam"),
+    Claim(25, "The dual form stays solvable as nu tends to 1/2.", "", ("conditioning/sweeps",), incompressible, "conditioning_sweeps"),
+)

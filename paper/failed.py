@@ -1,0 +1,113 @@
+"""What failed: verdicts with their causes, and solves that are not ok."""
+
+import re
+
+import pandas as pd
+
+from content import Section, Table, compared, number, share
+from reading import VERDICTS
+from selecting import why
+from tables import SOLVES
+
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(\.\d+)?(e[-+]?\d+)?(?![\w.]*[a-z_])")
+METHOD = ("integrator", "outer", "relaxation", "method", "solver", "friction", "law")
+ALONE = ("outer", "relaxation")  # of it where a table has one method
+TIMED = ("effects.empty.free", "effects.removed", "effects.frictionless.cheaper", "effects.linear", "joints.linear", "rival.fine",
+         "rival.coarse", "stability.auto_cost", "worlds.slowest")  # what these verdicts measure is a time
+
+
+def all_verdicts(results, experiments):
+    """Every verdict of the complete runs, with its experiment."""
+    frames = [results.verdicts(name).assign(experiment=name) for name in experiments if not results.shortfall(name)]
+    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=["experiment", "verdict"])
+
+
+def stripped(reason):
+    """A reason without its numbers, which differ from solve to solve."""
+    return NUMBER.sub("#", reason)
+
+
+def solves(results, experiment):
+    """One row a solve of any table with a status: table, method (what of it varies in the table), status, reason."""
+    for name, frame in results.all_tables(experiment):
+        if "status" not in frame:
+            continue
+        frame = frame.assign(reason=frame.get("reason", ""))
+        if (experiment, name) in SOLVES:
+            frame = frame.drop_duplicates([*SOLVES[experiment, name].split(), "status", "reason"])
+        known = [column for column in METHOD if column in frame]
+        telling = [column for column in known if frame[column].nunique() > 1] or [column for column in known if column in ALONE]
+        method = frame[telling].agg(lambda row: ", ".join(f"`{cell}`" for cell in row if cell), axis=1) if telling else "all"
+        yield pd.DataFrame({"table": name, "method": method, "status": frame["status"], "reason": frame["reason"].map(stripped)})
+
+
+def failures(results, experiments):
+    """One row an experiment, status and reason: how many of the solves, and a list of how many of each method."""
+    rows = []
+    for experiment in experiments:
+        found = list(solves(results, experiment))
+        if not found:
+            continue
+        frame = pd.concat(found, ignore_index=True)
+        totals = frame.groupby("method", sort=False).size()
+        bad = frame[frame["status"] != "ok"]
+        groups = sorted(bad.groupby(["status", "reason"], sort=False), key=lambda group: -len(group[1]))
+        for (status, reason), group in groups:
+            counts = group["method"].value_counts()
+            rows.append([f"`{experiment}`, [#{experiment}]", f"`{status}`", reason, share(len(group), len(frame)),
+                         [f"{method} {share(count, totals[method])}" for method, count in counts.items()]])
+    return rows
+
+
+def cause(results, verdict):
+    """Why a verdict fails, as far as the results tell."""
+    times = f"{compared(verdict['measured'] / verdict['bound'], 1)[0]} times its bound" if verdict["bound"] > 0 else "above 0"
+    if verdict["id"].startswith(TIMED):
+        return f"A measured time, {times}: other work on the machine shows in it. `make bench` measures with nothing else running."
+    bad = [frame[frame["status"] != "ok"] for _, frame in results.all_tables(verdict["experiment"]) if "status" in frame]
+    reasons = pd.concat([frame.apply(why, axis=1) for frame in bad if len(frame)]).map(stripped).value_counts() \
+        if any(map(len, bad)) else []
+    told = f"; most rows that are not ok say: {reasons.index[0]}" if len(reasons) else "; every row of its tables is ok"
+    return f"The number is {times}{told}."
+
+
+def failed_section(results, experiments):
+    verdicts = all_verdicts(results, experiments)
+    bad = verdicts[verdicts["verdict"] != VERDICTS[0]]
+    section = Section("What failed", name="failed", paragraphs=[
+        f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" These do not:" if len(bad) else "")])
+    if len(bad):
+        section.tables.append(Table("Verdicts that fail.", ["verdict", "what it says", "measured against bound", "cause", "see"], [
+            [f"`{row['id']}`", f"{row['statement']} ({row['quantity']})", " against ".join(compared(row["measured"], row["bound"])),
+             cause(results, row), f"`{row['experiment']}`, [#{row['experiment']}]"] for _, row in bad.iterrows()]))
+    rows = failures(results, experiments)
+    if not rows:
+        section.paragraphs.append("No solve in any table has a status other than `ok`.")
+        return section
+    header = ["see", "status", "reason (# a number)", "solves", "of each method"]
+    section.tables += [
+        Table("Solves that are not ok, the commonest reasons of each experiment. The failure of a method is a result: it stays in the "
+              "figures as a crossed marker.", header, [[*row[:4], listing(row[4], 2)] for row in first_of_each(rows, 2)]),
+        Table("Solves that are not ok, all of them.", header, [[*row[:4], listing(row[4], len(row[4]))] for row in rows], detail=True)]
+    return section
+
+
+def first_of_each(rows, most):
+    """The first rows of each experiment."""
+    seen = {}
+    return [row for row in rows if seen.setdefault(row[0], []).append(row) or len(seen[row[0]]) <= most]
+
+
+def listing(texts, most):
+    return "; ".join(texts[:most]) + (f"; {len(texts) - most} more" if len(texts) > most else "")
+
+
+def verdicts_section(results, experiments):
+    """Every verdict, of all experiments."""
+    verdicts = all_verdicts(results, experiments)
+    return Section("All verdicts", name="verdicts", paragraphs=[
+        "A verdict holds if what is measured is at most its bound. The table stands in `report.html` and beside it as `verdicts.csv` of "
+        "each experiment."], tables=[Table(
+            f"{len(verdicts)} verdicts.", ["experiment", "id", "statement", "quantity", "measured", "bound", "verdict"],
+            [[f"[#{row['experiment']}]", f"`{row['id']}`", row["statement"], row["quantity"], number(row["measured"]),
+              number(row["bound"]), row["verdict"]] for _, row in verdicts.iterrows()], detail=True)])

@@ -108,6 +108,14 @@ void add_verify(CLI::App& app, VerifyOptions& options) {
   command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
 }
 
+void add_bless(CLI::App& app, BlessOptions& options) {
+  auto* command = app.add_subcommand(
+      "bless", "Make results of `run` the baselines that `verify` compares with (experiments/baselines/)");
+  command->add_option("EXPERIMENT", options.experiments, "Names as of `list experiments`")->required();
+  command->add_option("--reason", options.reason, "Why they changed; kept in the baseline")->required();
+  command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
+}
+
 void add_cone(CLI::App& app, ConeOptions& options) {
   auto* command = app.add_subcommand("cone", "Solve one contact problem with friction from a file");
   command->add_option("PROBLEM", options.problem, "FCLIB (HDF5) or Siconos (text)")->required();
@@ -162,6 +170,7 @@ int run_command(int argc, char** argv) {
   CompareOptions compare_options;
   RunOptions run_options;
   VerifyOptions verify_options;
+  BlessOptions bless_options;
   ConeOptions cone_options;
   std::string shell = "bash";
   add_list(app, list_options);
@@ -169,6 +178,7 @@ int run_command(int argc, char** argv) {
   add_compare(app, compare_options);
   add_run(app, run_options);
   add_verify(app, verify_options);
+  add_bless(app, bless_options);
   add_cone(app, cone_options);
   app.add_subcommand("completion", "Print a completion script: source <(pbdcheck completion bash)")
       ->add_option("SHELL", shell, "bash")
@@ -191,6 +201,7 @@ int run_command(int argc, char** argv) {
     if (app.got_subcommand("compare")) return compare(compare_options);
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("verify")) return verify(verify_options);
+    if (app.got_subcommand("bless")) return bless(bless_options);
     if (app.got_subcommand("cone")) return cone(cone_options);
     return completion(shell);
   } catch (const Interrupted&) {

@@ -63,6 +63,14 @@ struct VerifyOptions {
 };
 int verify(const VerifyOptions& options, const std::vector<LedgerRow>& known = ledger_rows());
 
+struct BlessOptions {
+  std::vector<std::string> experiments;
+  std::string reason;
+  std::filesystem::path directory = default_directory;
+};
+/// Makes results the baselines that `verify` compares with.
+int bless(const BlessOptions& options);
+
 struct ConeOptions {
   std::filesystem::path problem;
   std::string law = "coulomb";

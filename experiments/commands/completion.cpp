@@ -21,7 +21,7 @@ _pbdcheck() {
     --reference) words="@REFERENCES@" ;;
     *)
       if ((COMP_CWORD == 1)); then
-        words="list simulate compare run verify cone completion --help --version"
+        words="list simulate compare run verify bless cone completion --help --version"
       else
         case ${COMP_WORDS[1]} in
           list) words="@KINDS@ --json --help" ;;

@@ -19,5 +19,6 @@ void rolling(Ledger& rows);
 void impacts(Ledger& rows);
 void contact_springs(Ledger& rows);
 void thresholds(Ledger& rows);
+void baseline_rows(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

@@ -1,0 +1,34 @@
+// Baselines: tables of experiments (tier quick) that are kept with the sources, beside which a loss of
+// accuracy shows that no verdict's bound would. They are compared cell by cell:
+//
+//   text                                         equal
+//   sweeps, row_updates, outer_iterations        10 % and two
+//   errors, residuals and differences            half of themselves and 1e-11: a factor of 3/2 shows,
+//   rounding
+//                                                does not
+//   other numbers                                1e-6 of themselves and 1e-11
+//   times (wall_s, cpu_s)                        not at all: they are not kept
+//
+// NaN equals NaN alone. On another processor or by another compiler rounding is another: errors may differ
+// threefold, other numbers by 1e-4.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pbdcheck {
+
+/// Experiments that have a baseline, sorted.
+std::vector<std::string> baselines();
+
+/// How the tables of `results` (of one experiment) differ from its baseline, worst first, a line each; empty
+/// if they do not. Throws SetupError if a table cannot be read.
+std::vector<std::string> differences(const std::string& experiment, const std::filesystem::path& results);
+
+/// Makes the tables of `results` the experiment's baseline, with `reason` and the machine in their heads;
+/// those above 64 kB are left out. Throws SetupError unless they are of a whole run at tier quick.
+void bless_results(const std::string& experiment, const std::filesystem::path& results,
+                   const std::string& reason);
+
+}  // namespace pbdcheck

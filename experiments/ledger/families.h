@@ -19,5 +19,10 @@ void rolling(Ledger& rows);
 void impacts(Ledger& rows);
 void contact_springs(Ledger& rows);
 void thresholds(Ledger& rows);
+void carried(Ledger& rows);
+void solids(Ledger& rows);
+void bars(Ledger& rows);
+void cantilevers(Ledger& rows);
+void elasticas(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

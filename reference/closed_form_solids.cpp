@@ -96,4 +96,12 @@ double greenhill_load_of_links(int links) {
   return generalised_eigenvalues(stiffness, weight)(0);
 }
 
+BarState neo_hookean_bar(double young, double poisson, double stretch) {
+  const double mu = young / (2 * (1 + poisson));
+  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  const auto across = [&](double t) { return mu * (t * t - 1) + lambda * std::log(stretch * t * t); };
+  const double t = find_root(across, 1e-3, 1e3);
+  return {mu * (stretch - 1 / stretch) + lambda * std::log(stretch * t * t) / stretch, t};
+}
+
 }  // namespace pbd::reference

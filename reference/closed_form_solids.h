@@ -33,4 +33,11 @@ double euler_load_of_links(bool pinned, int links);
 double greenhill_load();
 double greenhill_load_of_links(int links);
 
+/// Bar of the energy mu/2 (I1 - 3) - mu ln(J) + lambda/2 ln^2(J) under a stretch l: nominal stress (Pa) mu (l
+/// - 1/l) + lambda ln(J)/l and lateral stretch t, by mu (t^2 - 1) + lambda ln(l t^2) = 0.
+struct BarState {
+  double stress, lateral;
+};
+BarState neo_hookean_bar(double young, double poisson, double stretch);
+
 }  // namespace pbd::reference

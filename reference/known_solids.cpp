@@ -73,6 +73,19 @@ void kirchhoff(Rows& rows) {
   }
 }
 
+void neo_hookean(Rows& rows) {
+  for (const auto& [stretch, stress, lateral] : {std::tuple{0.5, "-935352.057", "1.2107674"},
+                                                 {0.8, "-240005.382", "1.0673384"},
+                                                 {1.2, "174929.147", "0.9456326"},
+                                                 {1.5, "378280.176", "0.8801746"},
+                                                 {2.0, "646744.660", "0.7980775"}}) {
+    const BarState bar = neo_hookean_bar(1e6, 0.3, stretch);
+    const std::string of = "neo-Hookean bar, 1e6 Pa, nu .3, stretch " + number(stretch) + ": ";
+    rows.push_back({"neo_hookean_bar", of + "nominal stress", "Pa", bar.stress, stress, std::nullopt});
+    rows.push_back({"neo_hookean_bar", of + "lateral stretch", "1", bar.lateral, lateral, std::nullopt});
+  }
+}
+
 void hanging_bars(Rows& rows) {
   rows.push_back({"hanging_bar",
                   "bar of 1 m, 1000 kg/m^3, 1e5 Pa, hung: linear",
@@ -137,6 +150,7 @@ void solids(Rows& rows) {
   beams(rows);
   large_deflections(rows);
   kirchhoff(rows);
+  neo_hookean(rows);
   hanging_bars(rows);
   rows.push_back({"manufactured_cube",
                   "manufactured cube: energy",

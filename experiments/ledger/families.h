@@ -24,5 +24,7 @@ void solids(Ledger& rows);
 void bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
+void membranes(Ledger& rows);
+void unreachable(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

@@ -66,7 +66,7 @@ const std::vector<LedgerRow>& ledger_rows() {
          {ledger::oscillators, ledger::particles, ledger::pendulums, ledger::chains, ledger::free_bodies,
           ledger::tops, ledger::mechanisms, ledger::sliding, ledger::rolling, ledger::impacts,
           ledger::contact_springs, ledger::thresholds, ledger::carried, ledger::solids, ledger::bars,
-          ledger::cantilevers, ledger::elasticas})
+          ledger::cantilevers, ledger::elasticas, ledger::membranes, ledger::unreachable})
       family(rows);
     return rows;
   }();

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "closed_form.h"
+#include "closed_form_solids.h"
 #include "known_answers_rows.h"
 #include "linear_fem.h"
 #include "numerics.h"
@@ -72,6 +73,19 @@ void kirchhoff(Rows& rows) {
   }
 }
 
+void neo_hookean(Rows& rows) {
+  for (const auto& [stretch, stress, lateral] : {std::tuple{0.5, "-935352.057", "1.2107674"},
+                                                 {0.8, "-240005.382", "1.0673384"},
+                                                 {1.2, "174929.147", "0.9456326"},
+                                                 {1.5, "378280.176", "0.8801746"},
+                                                 {2.0, "646744.660", "0.7980775"}}) {
+    const BarState bar = neo_hookean_bar(1e6, 0.3, stretch);
+    const std::string of = "neo-Hookean bar, 1e6 Pa, nu .3, stretch " + number(stretch) + ": ";
+    rows.push_back({"neo_hookean_bar", of + "nominal stress", "Pa", bar.stress, stress, std::nullopt});
+    rows.push_back({"neo_hookean_bar", of + "lateral stretch", "1", bar.lateral, lateral, std::nullopt});
+  }
+}
+
 void hanging_bars(Rows& rows) {
   rows.push_back({"hanging_bar",
                   "bar of 1 m, 1000 kg/m^3, 1e5 Pa, hung: linear",
@@ -91,11 +105,52 @@ void hanging_bars(Rows& rows) {
   }
 }
 
+/// The elastica's tip by shooting from the clamp, theta'' = -load cos(theta).
+TipPlace elastica_by_ode(double load) {
+  const auto slope = [load](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) {
+    out << y(1), -load * std::cos(y(0)), std::sin(y(0)), std::cos(y(0));
+  };
+  const auto end = [&](double bent) {
+    return solve_ode(slope, Eigen::Vector4d(0, bent, 0, 0), {1}).states.back();
+  };
+  const Eigen::VectorXd tip =
+      end(find_root([&](double bent) { return end(bent)(1); }, 0.5 * load / (1 + load), load));
+  return {tip(2), 1 - tip(3), tip(0)};
+}
+
+void large_deflections(Rows& rows) {
+  struct Case {
+    double load;
+    const char *drop, *shortening;
+  };
+  for (const Case& c : {Case{0.25, "0.08274592", "0.00411782"}, Case{0.5, "0.16214358", "0.01591896"},
+                        Case{1, "0.30172077", "0.05643324"}, Case{2, "0.49345748", "0.16064172"},
+                        Case{5, "0.71379152", "0.38762836"}, Case{10, "0.81060902", "0.55499560"}}) {
+    const TipPlace tip = elastica(c.load), shot = elastica_by_ode(c.load);
+    const std::string of = "elastica under P L^2/(E I) = " + number(c.load) + ": ";
+    rows.push_back({"elastica", of + "drop", "1", tip.drop, c.drop, shot.drop});
+    rows.push_back({"elastica", of + "shortening", "1", tip.shortening, c.shortening, shot.shortening});
+  }
+  rows.push_back(
+      {"elastica", "its angle under 1", "rad", elastica(1).angle, "0.46135195", elastica_by_ode(1).angle});
+  const double stiffness = 1e7 * std::pow(0.1, 4) / 12;  // N m^2
+  rows.push_back({"buckling", "column of 1 x .1 x .1 m, 1e7 Pa, clamped and free: Euler's load", "N",
+                  euler_load(false) * stiffness, "205.616758", std::nullopt});
+  rows.push_back(
+      {"buckling", "the same, pinned", "N", euler_load(true) * stiffness, "822.467033", std::nullopt});
+  rows.push_back({"buckling", "clamped column under its weight: rho A g L^3/(E I)", "1", greenhill_load(),
+                  "7.83734744", std::nullopt});
+  rows.push_back({"torsion", "bar of .1 x .1 m, 1 m, 1e7 Pa, nu .3 under .1 N m: angle", "rad",
+                  square_bar_twist(1, 0.1, 1e7 / 2.6, 0.1), "0.001849520", std::nullopt});
+}
+
 }  // namespace
 
 void solids(Rows& rows) {
   beams(rows);
+  large_deflections(rows);
   kirchhoff(rows);
+  neo_hookean(rows);
   hanging_bars(rows);
   rows.push_back({"manufactured_cube",
                   "manufactured cube: energy",

@@ -48,8 +48,7 @@ Slack hung_chain(const Method& method, double length, int links) {
   scene.effects.emplace_back(std::move(effect));
   Motion motion(scene, method);
   constexpr double h = 0.3;  // s: the lowest modes, about 4 rad/s, lose a third a step
-  // The corner's first swing is too far for such steps.
-  for (double first = 0.01; first < h; first *= 1.1) motion.advance(first);
+  calm(motion, 0.01, h);
   const State rest = equilibrium(motion, h);
   const double tension = -motion.workspace.forces(1)[0];  // of the first link, at its middle
   const Vec3 along = (rest.x.col(1) - rest.x.col(0)) / link;

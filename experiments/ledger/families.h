@@ -1,11 +1,15 @@
 // The families of the ledger's rows, one source each: each appends its rows.
 #pragma once
 
+#include <numbers>
+
 #include "ledger/ledger.h"
 
 namespace pbdcheck::ledger {
 
 using Ledger = std::vector<LedgerRow>;
+
+inline constexpr double pi = std::numbers::pi;
 
 void oscillators(Ledger& rows);
 void particles(Ledger& rows);
@@ -19,6 +23,13 @@ void rolling(Ledger& rows);
 void impacts(Ledger& rows);
 void contact_springs(Ledger& rows);
 void thresholds(Ledger& rows);
+void carried(Ledger& rows);
+void solids(Ledger& rows);
+void bars(Ledger& rows);
+void cantilevers(Ledger& rows);
+void elasticas(Ledger& rows);
+void membranes(Ledger& rows);
+void unreachable(Ledger& rows);
 void baseline_rows(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

@@ -18,7 +18,7 @@ namespace pbdcheck {
 struct LedgerBound {
   double absolute = 0;  // in the row's unit
   double relative = 0;
-  std::string derivation;  // from step, mesh, order or tolerance, in a phrase
+  std::string derivation{};  // from step, mesh, order or tolerance, in a phrase
 };
 
 /// What a formula says the solver makes of a row whose expected value it cannot reach.

@@ -59,6 +59,10 @@ State equilibrium(const Scene& scene, const Method& method, double h) {
   return equilibrium(motion, h);
 }
 
+void calm(Motion& motion, double first, double h) {
+  for (double step = first; step < h; step *= 1.1) motion.advance(step);
+}
+
 double passage(const Scene& scene, const Method& method, double h, const Observable& value,
                const Observable& rate, double latest, int n) {
   Motion motion(scene, method);

@@ -36,6 +36,9 @@ pbd::State state_after(const pbd::Scene& scene, const pbd::Method& method, doubl
 pbd::State equilibrium(Motion& motion, double h);
 pbd::State equilibrium(const pbd::Scene& scene, const pbd::Method& method, double h);
 
+/// Steps of `first` and ever more, each 1.1 times the last, up to h: a motion that starts far from rest.
+void calm(Motion& motion, double first, double h);
+
 /// Time of the n-th passage of `value` through zero, by the cubic of value and rate at the ends of its step.
 /// Throws std::runtime_error if it does not come before `latest`.
 double passage(const pbd::Scene& scene, const pbd::Method& method, double h, const Observable& value,

@@ -17,7 +17,6 @@ namespace {
 
 using namespace pbd;
 
-constexpr double pi = std::numbers::pi;
 constexpr double fine_h = 1e-3;  // s
 
 /// Order 2 and h, h/2 extrapolated leave a term of order (w h)^3, w the largest rate.

@@ -111,11 +111,78 @@ void spin_rows(Ledger& rows) {
   rows.push_back(std::move(disc));
 }
 
+// ---- a ring that slides and spins, a thin disc that rolls round
+
+void sliding_ring_row(Ledger& rows) {
+  static constexpr double radius = 0.1, speed = 1, time = 0.2;
+  Method ring = patient_method("conjugate_gradients");
+  ring.tolerance = 1e-10;
+  rows.push_back({.id = "friction.sliding_ring",
+                  .statement = "a ring that slides and spins ends with its rim as fast as its centre",
+                  .quantity = "speed over that of the rim",
+                  .unit = "1",
+                  .formula = "1, the only ratio that stays",
+                  .scene = "ring of 0.1 m flat on the ground at 1 m/s and 10 rad/s, friction 0.2, 0.2 s",
+                  .method = ring,
+                  .bound = {.absolute = 0.2 * gravity * 1e-3 / speed, .derivation = "order 1: mu g h/v"},
+                  .expected = [] { return 1.0; },
+                  .run =
+                      [](const Method& method) {
+                        BodyScene build({.friction = 0.2});
+                        build.ground();
+                        const double turns = speed / radius;
+                        build.cylinder(radius, 1e-3, 1,
+                                       {Vec3(0, 0, 5e-4), Eigen::Quaterniond::Identity(),
+                                        Vec3(1.0 * speed, 0, 0), Vec3(0, 0, turns)});
+                        Scene scene = build.finish();
+                        scene.bodies[1].inertia = radius * radius * Vec3(0.5, 0.5, 1);
+                        const State end = state_after(scene, method, 1e-3, std::lround(time / 1e-3));
+                        return end.v.col(1).norm() / (end.spin(2, 1) * radius);
+                      }});
+}
+
+void rolling_disc_row(Ledger& rows) {
+  static constexpr double radius = 0.05, angle = std::numbers::pi / 18, h = 1e-5, time = 0.01, thick = 1e-6;
+  const double rate = reference::rolling_disc_rate(radius, angle, gravity);
+  rows.push_back(
+      {.id = "friction.rolling_disc",
+       .statement = "a thin disc rolls round with its centre at rest",
+       .quantity = "rate of its tilt",
+       .unit = "rad/s",
+       .formula = "sqrt(4 g/(r sin(angle)))",
+       .source = "landau1976mechanics",
+       .scene = "disc of 0.05 m and 1e-6 m thick at 10 degrees from the floor, friction 1, 0.01 s",
+       .method = direct_method(),
+       .bound = {.relative = std::pow(rate * h, 2) + thick / radius,
+                 .derivation = "order 1, h = 1e-5 s and h/2 extrapolated: (w h)^2; thickness over radius"},
+       .expected = [rate] { return rate; },
+       .run =
+           [rate](const Method& method) {
+             const Eigen::Quaterniond tilt(Eigen::AngleAxisd(angle, Vec3::UnitX()));
+             // Tilted about x, it touches below its -y; it turns about that radius.
+             BodyScene build({.friction = 1});
+             build.ground();
+             const double height = radius * std::sin(angle) + thick / 2 * std::cos(angle);
+             build.cylinder(radius, thick, 1,
+                            {Vec3(0, 0, height), tilt, Vec3::Zero(), Vec3(0, rate * std::sin(angle), 0)});
+             const Scene scene = build.finish();
+             const Vec3 before = tilt * Vec3::UnitZ();
+             return std::abs(extrapolated(
+                 [&](double step) {
+                   const State end = state_after(scene, method, step, std::lround(time / step));
+                   return turning_rate(Vec3::UnitZ(), before, end.orientation[1] * Vec3::UnitZ(), time);
+                 },
+                 h, 1));
+           }});
+}
+
 }  // namespace
 
 void rolling(Ledger& rows) {
   roll_rows(rows);
   spin_rows(rows);
+  sliding_ring_row(rows);
+  rolling_disc_row(rows);
 }
 
 }  // namespace pbdcheck::ledger

@@ -1,6 +1,5 @@
 // Tops on a fixed point.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -13,8 +12,6 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
-
-constexpr double pi = std::numbers::pi;
 
 const reference::HeavyTop top{0.0125, 0.005, 9.81 * 0.1};
 

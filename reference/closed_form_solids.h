@@ -1,0 +1,43 @@
+// Elastic bodies with a formula, beyond the beams of closed_form.h: torsion, large deflection, buckling. SI
+// units.
+#pragma once
+
+namespace pbd::reference {
+
+/// Saint-Venant's torsion of a square bar of `side` a: angle (rad) T L/(beta G a^4), beta = 1/3 (1 - 192/pi^5
+/// sum over odd n of tanh(n pi/2)/n^5) = 0.1406.
+double square_bar_twist(double length, double side, double shear_modulus, double torque);
+
+/// Elastica clamped at one end under a load P across it at the other, `load` = P L^2/(E I): how far its tip
+/// drops and comes near, over L, and its angle (rad). With k^2 = (1 + sin(angle))/2 and sin(phi) =
+/// 1/(k sqrt(2)): sqrt(load) = K(k) - F(phi, k), drop 1 - 2 (E(k) - E(phi, k))/sqrt(load)
+/// (landau1976mechanics has the pendulum that its tangent swings as).
+struct TipPlace {
+  double drop, shortening, angle;
+};
+TipPlace elastica(double load);
+
+/// A chain of n rigid links of L/n between hinges with springs of stiffness E I n/L, at the clamp twice that:
+/// half of a chain of 2 n links that is symmetric about the clamp. The elastica's second-order approximation;
+/// place and angle of its tip.
+TipPlace elastica_of_links(double load, int links);
+
+/// Loads along it that bend a straight elastica, over E I/L^2: pi^2/4 clamped and free, pi^2 pinned at both
+/// ends; of n links as above 4 n^2 sin^2(pi/(4 n)) and, without a spring at the ends, 4 n^2 sin^2(pi/(2 n)).
+double euler_load(bool pinned);
+double euler_load_of_links(bool pinned, int links);
+
+/// Greenhill's: rho A g L^3/(E I) at which a clamped column bends under its weight, 9/4 j^2 with j the first
+/// zero of J_(-1/3); of n links as above the lowest root of det(K - load G), G_i = (n - i - 1/2)/n^2 from the
+/// clamp on.
+double greenhill_load();
+double greenhill_load_of_links(int links);
+
+/// Bar of the energy mu/2 (I1 - 3) - mu ln(J) + lambda/2 ln^2(J) under a stretch l: nominal stress (Pa) mu (l
+/// - 1/l) + lambda ln(J)/l and lateral stretch t, by mu (t^2 - 1) + lambda ln(l t^2) = 0.
+struct BarState {
+  double stress, lateral;
+};
+BarState neo_hookean_bar(double young, double poisson, double stretch);
+
+}  // namespace pbd::reference

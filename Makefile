@@ -18,7 +18,7 @@ export OPENBLAS_NUM_THREADS := 1
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 export CTEST_PARALLEL_LEVEL := $(JOBS)
 
-.PHONY: help deps configure build test test-plots reproduce plots report first-figure asan debug format format-check tidy bench clean
+.PHONY: help deps configure build test verify test-plots reproduce plots report first-figure asan debug format format-check tidy bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
@@ -35,6 +35,9 @@ build: configure ## build the program and its tests
 
 test: build ## build, then run all tests
 	ctest --preset release
+
+verify: build ## measure the solver against known answers and baselines
+	$(PBDCHECK) verify --tier $(TIER) --threads $(JOBS) -o $(RESULTS)
 
 test-plots: ## run the tests of the plots and the report
 	@$(INSTALL) plots

@@ -16,7 +16,7 @@ int bless(const BlessOptions& options) {
   if (std::all_of(options.reason.begin(), options.reason.end(), [](char c) { return c == ' '; }))
     throw pbd::SetupError("--reason", "nothing", "why the results of now are the ones to keep");
   for (const std::string& name : options.experiments) {
-    bless_results(name, options.directory / name, options.reason);
+    bless_results(options.directory / name, baseline_of(name), options.reason);
     fmt::print("{}: baseline kept\n", name);
   }
   return exit_done;

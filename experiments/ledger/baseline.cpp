@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 constexpr const char* head_name = "baseline.json";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-fs::path folder() {
-  return source_root() / "experiments/baselines";
-}
-
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
@@ -169,17 +165,15 @@ nlohmann::ordered_json blessed_record(const fs::path& results) {
 
 }  // namespace
 
-std::vector<std::string> baselines() {
-  std::vector<std::string> names;
-  if (!fs::is_directory(folder())) return names;
-  for (const auto& entry : fs::directory_iterator(folder()))
-    if (fs::is_regular_file(entry.path() / head_name)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
+fs::path baseline_of(std::string_view experiment) {
+  return source_root() / "experiments/baselines" / experiment;
 }
 
-std::vector<std::string> differences(const std::string& experiment, const fs::path& results) {
-  const fs::path baseline = folder() / experiment;
+bool is_baseline(const fs::path& baseline) {
+  return fs::is_regular_file(baseline / head_name);
+}
+
+std::vector<std::string> differences(const fs::path& baseline, const fs::path& results) {
   const auto head = read_json(baseline / head_name);
   const auto machine = run_record(1, RunOutcome::complete, "");
   const bool same_machine = head.value("processor", "") == machine.value("processor", "") &&
@@ -200,7 +194,7 @@ std::vector<std::string> differences(const std::string& experiment, const fs::pa
   return lines;
 }
 
-void bless_results(const std::string& experiment, const fs::path& results, const std::string& reason) {
+void bless_results(const fs::path& results, const fs::path& baseline, const std::string& reason) {
   constexpr std::uintmax_t largest = 64 << 10;  // bytes: the repository is to stay small
   const auto record = blessed_record(results);
   nlohmann::ordered_json head{{"reason", reason}};
@@ -211,7 +205,6 @@ void bless_results(const std::string& experiment, const fs::path& results, const
     if (name != "verdicts" && rows.get<int>() > 0) names.push_back(name);
   for (const std::string& name : names)
     head[fs::file_size(results / (name + ".csv")) <= largest ? "tables" : "left_out"].push_back(name);
-  const fs::path baseline = folder() / experiment;
   require_writable(baseline);
   for (const auto& name : head["tables"])
     keep(read_csv(results / (name.get<std::string>() + ".csv")),

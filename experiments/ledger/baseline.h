@@ -15,20 +15,25 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pbdcheck {
 
-/// Experiments that have a baseline, sorted.
-std::vector<std::string> baselines();
+/// The folder of an experiment's baseline, there or not.
+std::filesystem::path baseline_of(std::string_view experiment);
 
-/// How the tables of `results` (of one experiment) differ from its baseline, worst first, a line each; empty
-/// if they do not. Throws SetupError if a table cannot be read.
-std::vector<std::string> differences(const std::string& experiment, const std::filesystem::path& results);
+/// True if there is one.
+bool is_baseline(const std::filesystem::path& baseline);
 
-/// Makes the tables of `results` the experiment's baseline, with `reason` and the machine in their heads;
-/// those above 64 kB are left out. Throws SetupError unless they are of a whole run at tier quick.
-void bless_results(const std::string& experiment, const std::filesystem::path& results,
+/// How the tables of an experiment's `results` differ from its baseline, worst first, a line each; empty if
+/// they do not. Throws SetupError if a table cannot be read.
+std::vector<std::string> differences(const std::filesystem::path& baseline,
+                                     const std::filesystem::path& results);
+
+/// Makes the tables of an experiment's `results` its baseline, with `reason` and the machine beside them;
+/// tables above 64 kB are left out. Throws SetupError unless they are of a whole run at tier quick.
+void bless_results(const std::filesystem::path& results, const std::filesystem::path& baseline,
                    const std::string& reason);
 
 }  // namespace pbdcheck

@@ -39,7 +39,7 @@ double cells_that_differ(const Experiment& experiment) {
   const Scratch results(experiment.name);
   Context context(results.path(), Tier::quick, 1);
   experiment.run(context);
-  const auto found = differences(std::string(experiment.name), results.path());
+  const auto found = differences(baseline_of(experiment.name), results.path());
   if (found.empty()) return 0;
   std::string text = fmt::format("{} differences", found.size());
   for (std::size_t k = 0; k < std::min(shown, found.size()); ++k) text += "; " + found[k];
@@ -49,9 +49,8 @@ double cells_that_differ(const Experiment& experiment) {
 }  // namespace
 
 void baseline_rows(Ledger& rows) {
-  const std::vector<std::string> kept = baselines();
   for (const Experiment& experiment : experiments()) {
-    if (std::find(kept.begin(), kept.end(), experiment.name) == kept.end()) continue;
+    if (!is_baseline(baseline_of(experiment.name))) continue;
     LedgerRow row;
     row.id = fmt::format("baseline.{}", experiment.name);
     row.statement = "The experiment's tables are those of its baseline.";

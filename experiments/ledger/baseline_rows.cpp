@@ -36,10 +36,12 @@ class Scratch {
 /// Throws the worst differences as the reason, if there are any.
 double cells_that_differ(const Experiment& experiment) {
   constexpr std::size_t shown = 3;
-  const Scratch results(experiment.name);
-  Context context(results.path(), Tier::quick, 1);
+  const Scratch scratch(experiment.name);
+  const auto results = scratch.path() / experiment.name;
+  std::filesystem::create_directories(results);
+  Context context(results, Tier::quick, 1);
   experiment.run(context);
-  const auto found = differences(baseline_of(experiment.name), results.path());
+  const auto found = differences(baseline_of(experiment.name), results);
   if (found.empty()) return 0;
   std::string text = fmt::format("{} differences", found.size());
   for (std::size_t k = 0; k < std::min(shown, found.size()); ++k) text += "; " + found[k];

@@ -25,6 +25,7 @@ void bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);
+void rates(Ledger& rows);
 void unreachable(Ledger& rows);
 
 }  // namespace pbdcheck::ledger

@@ -23,7 +23,7 @@ namespace pbd::reference {
 /// A shape where it stands.
 struct PlacedShape {
   const Shape* shape;
-  Frame frame;
+  pbd::Frame frame;
 };
 
 /// s(u) and a point that attains it, in the world. Not of a half space.

@@ -25,9 +25,9 @@ Side Sides::side(int k) const {
 PlacedShape Sides::placed(int k, const State& state) const {
   const auto index = static_cast<std::size_t>(k);
   const Side own = side(k);
-  Frame frame{state.x.col(own.node)};
+  pbd::Frame frame{state.x.col(own.node)};
   if (own.body >= 0) {
-    const Frame& inner = contact_.collider[index].frame;
+    const pbd::Frame& inner = contact_.collider[index].frame;
     frame.rotation = state.orientation[static_cast<std::size_t>(own.body)].toRotationMatrix();
     frame = {frame.place(inner.origin), frame.rotation * inner.rotation};
   }

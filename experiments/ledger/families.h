@@ -19,6 +19,7 @@ void rolling(Ledger& rows);
 void impacts(Ledger& rows);
 void contact_springs(Ledger& rows);
 void thresholds(Ledger& rows);
+void jams(Ledger& rows);
 void carried(Ledger& rows);
 void solids(Ledger& rows);
 void bars(Ledger& rows);

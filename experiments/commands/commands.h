@@ -53,12 +53,12 @@ struct RunOptions {
 int run(const RunOptions& options, const std::vector<Experiment>& known = experiments());
 
 struct VerifyOptions {
-  std::string only;  // a glob of ids; empty: all rows
+  std::string only{};  // a glob of ids; empty: all rows
   std::string tier = "quick";
   int threads = 1;
   bool resume = false;
   bool json = false;
-  std::filesystem::path junit;  // empty: none
+  std::filesystem::path junit{};  // empty: none
   std::filesystem::path directory = default_directory;
 };
 int verify(const VerifyOptions& options, const std::vector<LedgerRow>& known = ledger_rows());

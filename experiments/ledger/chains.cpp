@@ -1,6 +1,5 @@
 // Hanging chains of hard links: catenaries at rest, frequencies.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // Springs that masses land on or rub beside: one mass as a node on the ground.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -117,7 +116,7 @@ void rubbing_rows(Ledger& rows) {
   const LedgerRow row{
       .scene = "1 kg on 100 N/m with friction 0.1, let go at 0.1 m, h = 0.001 s and h/2",
       .method = direct_method(),
-      .bound = {.absolute = std::pow(w * rub_h, 2) * amplitude * std::numbers::pi,
+      .bound = {.absolute = std::pow(w * rub_h, 2) * amplitude * pi,
                 .derivation = "order 1 extrapolated: (w h)^2 of the amplitude over half a turn"}};
   LedgerRow loss = row, period = row, rest = row;
   loss.id = "contact_spring.friction_loss";
@@ -135,7 +134,7 @@ void rubbing_rows(Ledger& rows) {
   period.unit = "s";
   period.formula = "2 pi sqrt(m/k)";
   period.bound = {.relative = 1e-9, .derivation = "implicit Euler's phase atan(w h) undone; tolerance"};
-  period.expected = [w] { return 2 * std::numbers::pi / w; };
+  period.expected = [w] { return 2 * pi / w; };
   period.run = [](const Method& method) {
     constexpr int apart = 50;  // steps, half a radian: all within the first half swing
     Motion motion(rubbing(), method);
@@ -145,7 +144,7 @@ void rubbing_rows(Ledger& rows) {
       each = motion.state.v(0, 1);
     }
     const double phase = sampled_oscillation(v[0], v[1], v[2], v[3]).phase / apart;
-    return 2 * std::numbers::pi * rub_h / std::tan(phase);
+    return 2 * pi * rub_h / std::tan(phase);
   };
   rest.id = "contact_spring.friction_rest";
   rest.statement = "the mass stays where the spring no longer overcomes friction";

@@ -23,12 +23,14 @@ void rolling(Ledger& rows);
 void impacts(Ledger& rows);
 void contact_springs(Ledger& rows);
 void thresholds(Ledger& rows);
+void jams(Ledger& rows);
 void carried(Ledger& rows);
 void solids(Ledger& rows);
 void bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);
+void rates(Ledger& rows);
 void unreachable(Ledger& rows);
 void baseline_rows(Ledger& rows);
 

@@ -1,6 +1,5 @@
 // Springs of one mass: what one step of each integrator makes of them, exactly; chains of springs.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -56,7 +55,7 @@ struct IntegratorAnswer {
   Discrete (*exact)(double wh);
 };
 
-constexpr double w = 2 * std::numbers::pi;  // rad/s
+constexpr double w = 2 * pi;  // rad/s
 
 void integrator_rows(Ledger& rows, const IntegratorAnswer& rule, double h) {
   const auto measured = [h](const Method& method) {

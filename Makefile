@@ -5,6 +5,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 RESULTS ?= results
 TIER ?= quick
+ONLY ?= *
 CLANG_FORMAT ?= clang-format
 # Debian's Python packages are seen by Debian's Python only; another one may come first on the PATH.
 PYTHON ?= /usr/bin/python3
@@ -22,7 +23,7 @@ export CTEST_PARALLEL_LEVEL := $(JOBS)
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
-	@echo "Variables: JOBS=$(JOBS) TIER=$(TIER) (quick or full) RESULTS=$(RESULTS)"
+	@echo "Variables: JOBS=$(JOBS) TIER=$(TIER) (quick or full) RESULTS=$(RESULTS) ONLY=$(ONLY) (rows of verify)"
 
 deps: ## install what building and testing need
 	@$(INSTALL) build
@@ -37,7 +38,7 @@ test: build ## build, then run all tests
 	ctest --preset release
 
 verify: build ## measure the solver against known answers and baselines
-	$(PBDCHECK) verify --tier $(TIER) --threads $(JOBS) -o $(RESULTS)
+	$(PBDCHECK) verify --only '$(ONLY)' --tier $(TIER) --threads $(JOBS) -o $(RESULTS)
 
 test-plots: ## run the tests of the plots and the report
 	@$(INSTALL) plots

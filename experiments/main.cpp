@@ -97,7 +97,8 @@ void add_run(CLI::App& app, RunOptions& options) {
 void add_verify(CLI::App& app, VerifyOptions& options) {
   auto* command = app.add_subcommand(
       "verify", "Measure the solver against known answers; writes DIR/verify/ and exits 1 if a row fails");
-  command->add_option("--only", options.only, "Rows whose id matches the glob, as in 'beams.*'");
+  command->add_option("--only", options.only,
+                      "Rows whose id matches the glob, as in 'bar.*'; all but those with '!bar.*'");
   command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
   add_threads(*command, options.threads);
   command->add_flag("--resume", options.resume, "Keep what rows this very program has measured there already")

@@ -21,10 +21,12 @@
 namespace pbdcheck {
 namespace {
 
+/// The rows whose ids match, of !GLOB those that do not.
 std::vector<LedgerRow> matching(const std::string& glob, const std::vector<LedgerRow>& known) {
   std::vector<LedgerRow> rows;
+  const bool others = glob.starts_with('!');
   std::copy_if(known.begin(), known.end(), std::back_inserter(rows), [&](const LedgerRow& row) {
-    return glob.empty() || fnmatch(glob.c_str(), row.id.c_str(), 0) == 0;
+    return glob.empty() || (fnmatch(glob.c_str() + others, row.id.c_str(), 0) == 0) != others;
   });
   if (!rows.empty()) return rows;
   std::vector<std::string> families, ids;

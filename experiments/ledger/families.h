@@ -15,6 +15,7 @@ void oscillators(Ledger& rows);
 void particles(Ledger& rows);
 void pendulums(Ledger& rows);
 void chains(Ledger& rows);
+void falling_chains(Ledger& rows);
 void free_bodies(Ledger& rows);
 void tops(Ledger& rows);
 void mechanisms(Ledger& rows);

@@ -60,7 +60,7 @@ void baseline_rows(Ledger& rows) {
     row.unit = "1";
     row.formula = "0";
     row.scene = std::string(experiment.name);
-    row.bound = {0, 0, "ledger/baseline.h says of each column what is allowed"};
+    row.bound = {0.5, 0, "a number of cells; ledger/baseline.h says of each column how far it may be off"};
     row.expected = [] { return 0.0; };
     row.run = [experiment](const pbd::Method&) { return cells_that_differ(experiment); };
     rows.push_back(row);

@@ -23,10 +23,11 @@ Automatic::Automatic(StepSystem& system) : proximal_(system) {
 void Automatic::swap_solvers(StepSystem& system) {
   std::swap(system.solver, other_);
   swapped_ = !swapped_;
+  spent_ = 0;
 }
 
 void Automatic::begin(StepSystem& system) {
-  slow_changes_ = 0;
+  slow_changes_ = spent_ = 0;
   if (swapped_) swap_solvers(system);
   proximal_.begin(system);
   if (quasi_newton_) quasi_newton_->begin(system);
@@ -56,9 +57,9 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
     proximal_.iterate(system, progress);
   }
   const Method& method = system.problem.method;
-  const bool spent = progress.sweeps - before >= method.max_sweeps;
-  if (swapped_ || !spent || method.relaxation != ConjugateGradients::name || !any_friction(system.rows))
-    return;
+  if (swapped_ || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
+  spent_ = progress.sweeps - before >= method.max_sweeps ? spent_ + 1 : 0;
+  if (spent_ < most_spent) return;
   swap_solvers(system);
   progress.other_solver = true;
 }

@@ -2,8 +2,8 @@
 // end and a bound of this one's, and as far as the iterates so far show; else proximal. A step that surprises
 // both predictions shows it in two slow iterations, after which it goes on as proximal. Where J is taken
 // between the step's start and end (direction_blend below 1) nothing is predicted: plain, until it is slow.
-// Where conjugate gradients spend all sweeps of an iteration on contacts with friction, nesterov_jacobi takes
-// over for the rest of the step: near sliding they may hardly get on.
+// Where conjugate gradients spend all sweeps of three iterations in a row on contacts with friction,
+// nesterov_jacobi takes over for the rest of the step: near sliding they may hardly get on.
 // Of a sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left
 // to the other two.
 #pragma once
@@ -35,12 +35,15 @@ class Automatic {
   void unsettle(StepSystem& system) { quasi_newton_->unsettle(system); }
 
  private:
+  static constexpr int most_spent = 3;
+
   bool plain_contracts(StepSystem& system, const Progress& progress);
   void swap_solvers(StepSystem& system);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
   LinearSolver other_ = NesterovJacobi{};    // takes over from the solver of the method
   bool swapped_ = false;
+  int spent_ = 0;  // iterations in a row whose sweeps were not enough
   Proximal proximal_;
   GeometricMass mass_;
   int slow_changes_ = 0;  // of v in this step, in a row

@@ -100,7 +100,7 @@ TEST_CASE("an interrupted verify keeps what is done, and --resume does the rest"
   CHECK(counted.first == 2);
 }
 
-TEST_CASE("--resume refuses results that are none") {
+TEST_CASE("results that are none are refused by --resume") {
   const TemporaryFolder folder;
   CountedRows counted;
   VerifyOptions options{.directory = folder.path};

@@ -104,4 +104,8 @@ BarState neo_hookean_bar(double young, double poisson, double stretch) {
   return {mu * (stretch - 1 / stretch) + lambda * std::log(stretch * t * t) / stretch, t};
 }
 
+double hertz_force(double young, double poisson, double radius, double depth) {
+  return 4.0 / 3 * young / (1 - poisson * poisson) * std::sqrt(radius) * std::pow(depth, 1.5);
+}
+
 }  // namespace pbd::reference

@@ -40,4 +40,8 @@ struct BarState {
 };
 BarState neo_hookean_bar(double young, double poisson, double stretch);
 
+/// Force (N) on a rigid sphere pressed by `depth` into an elastic half space: 4/3 E/(1 - nu^2) sqrt(R)
+/// d^(3/2).
+double hertz_force(double young, double poisson, double radius, double depth);
+
 }  // namespace pbd::reference

@@ -33,14 +33,14 @@ Scene node_on_ground(const ContactLaw& law, const Vec3& position) {
 
 // ---- landing on a massless spring: contact of compliance 1/k
 
-constexpr double stiffness = 1000, height = 0.1, h = 1e-4;  // N/m, m, s
+constexpr double landing_stiffness = 1000, height = 0.1, landing_h = 1e-4;  // N/m, m, s
 
 void landing_rows(Ledger& rows) {
-  const double w = std::sqrt(stiffness);
+  const double w = std::sqrt(landing_stiffness);
   const auto scene = [] {
-    return node_on_ground({.friction = 0, .compliance = 1 / stiffness}, Vec3(0, 0, height));
+    return node_on_ground({.friction = 0, .compliance = 1 / landing_stiffness}, Vec3(0, 0, height));
   };
-  const auto exact = [] { return reference::spring_landing(stiffness, 1, gravity, height); };
+  const auto exact = [] { return reference::spring_landing(landing_stiffness, 1, gravity, height); };
   const LedgerRow row{.scene = "1 kg dropped 0.1 m on contact of 1e-3 m/N, h = 1e-4 s and h/2",
                       .method = direct_method()};
   LedgerRow depth = row, time = row;
@@ -50,8 +50,10 @@ void landing_rows(Ledger& rows) {
   depth.unit = "m";
   depth.formula = "s + sqrt(s^2 + 2 s height), s = m g/k";
   // The touch falls anywhere in a step, in which the spring acts from its end on: v w h^2.
-  depth.bound = {.absolute = std::sqrt(2 * gravity * height) * w * h * h + std::pow(w * h, 2) * 0.06,
-                 .derivation = "order 1 extrapolated, touch within a step: v w h^2 + (w h)^2 of the depth"};
+  depth.bound = {
+      .absolute =
+          std::sqrt(2 * gravity * height) * w * landing_h * landing_h + std::pow(w * landing_h, 2) * 0.06,
+      .derivation = "order 1 extrapolated, touch within a step: v w h^2 + (w h)^2 of the depth"};
   depth.expected = [exact] { return exact().compression; };
   depth.run = [scene](const Method& method) {
     return extrapolated(
@@ -64,7 +66,7 @@ void landing_rows(Ledger& rows) {
           } while (lowest == 0 || motion.state.v(2, 1) < 0);
           return -lowest;
         },
-        h, 1);
+        landing_h, 1);
   };
   time.id = "contact_spring.landing_time";
   time.statement = "and stays on it for more than half a period";
@@ -72,8 +74,9 @@ void landing_rows(Ledger& rows) {
   time.unit = "s";
   time.formula = "2/w (pi/2 + atan(g/(w v)))";
   time.bound = {
-      .absolute = 2 * w * h * h + std::pow(w * h, 2) * 0.11,
-      .derivation = "order 1 extrapolated, touch and lift within steps: 2 w h^2 + (w h)^2 of the time"};
+      .absolute = 2 * w * landing_h * landing_h + std::pow(w * landing_h, 2) * 0.11,
+      .derivation =
+          "order 1 extrapolated, touch and lift within steps: 2 w h^2 + (w h)^2 of the time"};
   time.expected = [exact] { return exact().time; };
   time.run = [scene](const Method& method) {
     const auto height_over = [](const State& state) { return place_of(state, 2); };
@@ -83,7 +86,7 @@ void landing_rows(Ledger& rows) {
           return passage(scene(), method, step, height_over, speed_of, 1, 2) -
                  passage(scene(), method, step, height_over, speed_of, 1, 1);
         },
-        h, 1);
+        landing_h, 1);
   };
   rows.push_back(std::move(depth));
   rows.push_back(std::move(time));

@@ -13,8 +13,8 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
+using std::numbers::pi;
 
-constexpr double pi = std::numbers::pi;
 /// Chains of links under load leave residuals of 1e-11.
 Method chain_method() {
   Method method = direct_method();

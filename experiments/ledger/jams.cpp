@@ -14,22 +14,22 @@ namespace {
 
 using namespace pbd;
 
-constexpr double radius = 0.1;  // m
+constexpr double ball_radius = 0.1;  // m
 
 /// A ball on the ground under a plate that is tilted by `angle` (rad) about y, moves up and down alone and is
 /// pressed on it by 10 N; no gravity. The ball is the last body.
 Scene wedge(double angle, double friction) {
   BodyScene build({.friction = friction}, 0);
   build.ground();
-  const int guide = build.fixed(Sphere{radius}, {Vec3(0, 0, 100 * radius)});
+  const int guide = build.fixed(Sphere{ball_radius}, {Vec3(0, 0, 100 * ball_radius)});
   const Eigen::Quaterniond tilt(Eigen::AngleAxisd(angle, Vec3::UnitY()));
   constexpr double thick = 0.02;
-  const Vec3 top = Vec3(0, 0, radius) + tilt * Vec3(0, 0, radius + thick / 2);
+  const Vec3 top = Vec3(0, 0, ball_radius) + tilt * Vec3(0, 0, ball_radius + thick / 2);
   const int plate = build.box(Vec3(0.15, 0.15, thick), 1, {top, tilt});
-  build.ball(radius, 1, {Vec3(0, 0, radius)});
+  build.ball(ball_radius, 1, {Vec3(0, 0, ball_radius)});
   Scene scene = build.finish();
-  scene.effects.emplace_back(
-      LineJoint{{{guide, plate}}, {{top - Vec3(0, 0, 100 * radius), Vec3::Zero()}}, {Vec3::UnitZ()}, {0}});
+  scene.effects.emplace_back(LineJoint{
+      {{guide, plate}}, {{top - Vec3(0, 0, 100 * ball_radius), Vec3::Zero()}}, {Vec3::UnitZ()}, {0}});
   scene.effects.emplace_back(RotationJoint{{{guide, plate}}, {tilt}, {0}});
   scene.effects.emplace_back(
       ExternalForce{{scene.bodies[static_cast<std::size_t>(plate)].node}, {Vec3(0, 0, -10)}});

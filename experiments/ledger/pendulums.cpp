@@ -16,8 +16,8 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
+using std::numbers::pi;
 
-constexpr double pi = std::numbers::pi;
 constexpr double fine_h = 1e-3;  // s
 
 /// Order 2 and h, h/2 extrapolated leave a term of order (w h)^3, w the largest rate.

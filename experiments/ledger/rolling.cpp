@@ -73,7 +73,7 @@ void roll_rows(Ledger& rows) {
   }
 }
 
-void spin_rows(Ledger& rows) {
+void spin_down_rows(Ledger& rows) {
   constexpr double radius = 0.1, friction = 0.2;
   const double spin = 10;  // rad/s
   const LedgerRow row{.quantity = "time to rest",
@@ -180,7 +180,7 @@ void rolling_disc_row(Ledger& rows) {
 
 void rolling(Ledger& rows) {
   roll_rows(rows);
-  spin_rows(rows);
+  spin_down_rows(rows);
   sliding_ring_row(rows);
   rolling_disc_row(rows);
 }

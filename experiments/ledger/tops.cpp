@@ -13,8 +13,7 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const reference::HeavyTop top{0.0125, 0.005, 9.81 * 0.1};
 

@@ -50,10 +50,9 @@ void landing_rows(Ledger& rows) {
   depth.unit = "m";
   depth.formula = "s + sqrt(s^2 + 2 s height), s = m g/k";
   // The touch falls anywhere in a step, in which the spring acts from its end on: v w h^2.
-  depth.bound = {
-      .absolute =
-          std::sqrt(2 * gravity * height) * w * landing_h * landing_h + std::pow(w * landing_h, 2) * 0.06,
-      .derivation = "order 1 extrapolated, touch within a step: v w h^2 + (w h)^2 of the depth"};
+  depth.bound = {.absolute = std::sqrt(2 * gravity * height) * w * landing_h * landing_h +
+                             std::pow(w * landing_h, 2) * 0.06,
+                 .derivation = "order 1 extrapolated, touch within a step: v w h^2 + (w h)^2 of the depth"};
   depth.expected = [exact] { return exact().compression; };
   depth.run = [scene](const Method& method) {
     return extrapolated(
@@ -75,8 +74,7 @@ void landing_rows(Ledger& rows) {
   time.formula = "2/w (pi/2 + atan(g/(w v)))";
   time.bound = {
       .absolute = 2 * w * landing_h * landing_h + std::pow(w * landing_h, 2) * 0.11,
-      .derivation =
-          "order 1 extrapolated, touch and lift within steps: 2 w h^2 + (w h)^2 of the time"};
+      .derivation = "order 1 extrapolated, touch and lift within steps: 2 w h^2 + (w h)^2 of the time"};
   time.expected = [exact] { return exact().time; };
   time.run = [scene](const Method& method) {
     const auto height_over = [](const State& state) { return place_of(state, 2); };

@@ -27,6 +27,7 @@ void bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);
+void shells(Ledger& rows);
 void rates(Ledger& rows);
 void unreachable(Ledger& rows);
 

@@ -104,4 +104,14 @@ BarState neo_hookean_bar(double young, double poisson, double stretch) {
   return {mu * (stretch - 1 / stretch) + lambda * std::log(stretch * t * t) / stretch, t};
 }
 
+double hertz_force(double young, double poisson, double radius, double depth) {
+  return 4.0 / 3 * young / (1 - poisson * poisson) * std::sqrt(radius) * std::pow(depth, 1.5);
+}
+
+double thick_sphere_displacement(const ThickSphere& sphere, double pressure, double r) {
+  const double a3 = std::pow(sphere.inner, 3), b3 = std::pow(sphere.outer, 3);
+  return pressure * a3 * r / (sphere.young * (b3 - a3)) *
+         (1 - 2 * sphere.poisson + (1 + sphere.poisson) * b3 / (2 * r * r * r));
+}
+
 }  // namespace pbd::reference

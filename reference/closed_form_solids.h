@@ -40,4 +40,15 @@ struct BarState {
 };
 BarState neo_hookean_bar(double young, double poisson, double stretch);
 
+/// Force (N) on a rigid sphere pressed by `depth` into an elastic half space: 4/3 E/(1 - nu^2) sqrt(R)
+/// d^(3/2).
+double hertz_force(double young, double poisson, double radius, double depth);
+
+/// Lame's thick sphere, `inner` to `outer` radius a to b (m): displacement outwards (m) at radius r under a
+/// pressure (Pa) within, p a^3 r/(E (b^3 - a^3)) (1 - 2 nu + (1 + nu) b^3/(2 r^3)).
+struct ThickSphere {
+  double young, poisson, inner, outer;
+};
+double thick_sphere_displacement(const ThickSphere& sphere, double pressure, double r);
+
 }  // namespace pbd::reference

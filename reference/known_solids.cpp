@@ -140,6 +140,13 @@ void large_deflections(Rows& rows) {
       {"buckling", "the same, pinned", "N", euler_load(true) * stiffness, "822.467033", std::nullopt});
   rows.push_back({"buckling", "clamped column under its weight: rho A g L^3/(E I)", "1", greenhill_load(),
                   "7.83734744", std::nullopt});
+  for (const auto& [depth, stated] : {std::pair{1e-3, "14.6520147"}, {5e-3, "163.814504"}})
+    rows.push_back({"hertz", "sphere of .1 m, 1e6 Pa, nu .3, pressed " + number(depth) + " m: force", "N",
+                    hertz_force(1e6, 0.3, 0.1, depth), stated, std::nullopt});
+  for (const auto& [r, stated] : {std::pair{1.0, "8.0e-4"}, {2.0, "3.0e-4"}})
+    rows.push_back({"thick_sphere",
+                    "sphere of 1 to 2 m, 1e6 Pa, nu .3, 1e3 Pa within: displacement at " + number(r) + " m",
+                    "m", thick_sphere_displacement({1e6, 0.3, 1, 2}, 1e3, r), stated, std::nullopt});
   rows.push_back({"torsion", "bar of .1 x .1 m, 1 m, 1e7 Pa, nu .3 under .1 N m: angle", "rad",
                   square_bar_twist(1, 0.1, 1e7 / 2.6, 0.1), "0.001849520", std::nullopt});
 }

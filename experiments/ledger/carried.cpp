@@ -1,5 +1,6 @@
 // What contacts carry: a rope over a drum, weights, balls on a box that is pushed.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double drum = 0.1, speed = 1e-4, wound_h = 1e-4;  // m, m/s, s: a step moves nothing worth the name
+constexpr double drum = 0.1, speed = 1e-4, h = 1e-4;  // m, m/s, s: a step moves nothing worth the name
 
 Vec3 on_drum(double angle) {
   return drum * Vec3(std::cos(angle), std::sin(angle), 0);
@@ -56,7 +57,7 @@ Scene rope(double friction, double angle, int links) {
 
 double tension_ratio(const Method& method, double friction, double angle, int links) {
   Motion motion(rope(friction, angle, links), method);
-  motion.advance(wound_h);
+  motion.advance(h);
   const auto tension = motion.workspace.forces(3);
   return tension.back() / tension.front();
 }
@@ -72,8 +73,8 @@ void rope_rows(Ledger& rows) {
        .scene = "32 links over half a turn, friction 0.5",
        .method = direct_method(),
        .bound = {.relative = 1e-6, .derivation = "way of a step over the drum's radius 1e-8; tolerance"},
-       .expected = [] { return reference::capstan_ratio_of_links(0.5, pi, links); },
-       .run = [](const Method& method) { return tension_ratio(method, 0.5, pi, links); }});
+       .expected = [] { return reference::capstan_ratio_of_links(0.5, std::numbers::pi, links); },
+       .run = [](const Method& method) { return tension_ratio(method, 0.5, std::numbers::pi, links); }});
   for (const auto& [friction, turns] : {std::pair{0.1, 0.5},
                                         {0.2, 0.5},
                                         {0.2, 1.0},
@@ -82,7 +83,7 @@ void rope_rows(Ledger& rows) {
                                         {0.3, 1.0},
                                         {0.5, 0.5},
                                         {0.5, 1.0}}) {
-    const double angle = 2 * pi * turns;
+    const double angle = 2 * std::numbers::pi * turns;
     rows.push_back({.id = fmt::format("capstan.rope_{:g}_{:g}", friction, turns),
                     .statement = "ever shorter links over a drum approach a rope",
                     .quantity = "ratio of the tensions",
@@ -138,7 +139,7 @@ void weight_rows(Ledger& rows) {
 // ---- SimBenchmark: 25 balls on a box that is pushed at 60 degrees to the axes
 
 void pushed_rows(Ledger& rows) {
-  constexpr double angle = pi / 3, time = 0.1;
+  constexpr double angle = std::numbers::pi / 3, time = 0.1;
   const Vec3 along(std::cos(angle), std::sin(angle), 0);
   const double on_ball = (150 - 137.34) / 10 / (3.5 + 2.5);  // N, at 1 kg a ball and 10 kg of box
   struct Case {

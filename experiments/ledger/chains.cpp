@@ -1,5 +1,6 @@
 // Hanging chains of hard links: catenaries at rest, frequencies.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // Springs that masses land on or rub beside: one mass as a node on the ground.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -32,14 +33,14 @@ Scene node_on_ground(const ContactLaw& law, const Vec3& position) {
 
 // ---- landing on a massless spring: contact of compliance 1/k
 
-constexpr double stiffness = 1000, height = 0.1, h = 1e-4;  // N/m, m, s
+constexpr double landing_stiffness = 1000, height = 0.1, landing_h = 1e-4;  // N/m, m, s
 
 void landing_rows(Ledger& rows) {
-  const double w = std::sqrt(stiffness);
+  const double w = std::sqrt(landing_stiffness);
   const auto scene = [] {
-    return node_on_ground({.friction = 0, .compliance = 1 / stiffness}, Vec3(0, 0, height));
+    return node_on_ground({.friction = 0, .compliance = 1 / landing_stiffness}, Vec3(0, 0, height));
   };
-  const auto exact = [] { return reference::spring_landing(stiffness, 1, gravity, height); };
+  const auto exact = [] { return reference::spring_landing(landing_stiffness, 1, gravity, height); };
   const LedgerRow row{.scene = "1 kg dropped 0.1 m on contact of 1e-3 m/N, h = 1e-4 s and h/2",
                       .method = direct_method()};
   LedgerRow depth = row, time = row;
@@ -49,7 +50,8 @@ void landing_rows(Ledger& rows) {
   depth.unit = "m";
   depth.formula = "s + sqrt(s^2 + 2 s height), s = m g/k";
   // The touch falls anywhere in a step, in which the spring acts from its end on: v w h^2.
-  depth.bound = {.absolute = std::sqrt(2 * gravity * height) * w * h * h + std::pow(w * h, 2) * 0.06,
+  depth.bound = {.absolute = std::sqrt(2 * gravity * height) * w * landing_h * landing_h +
+                             std::pow(w * landing_h, 2) * 0.06,
                  .derivation = "order 1 extrapolated, touch within a step: v w h^2 + (w h)^2 of the depth"};
   depth.expected = [exact] { return exact().compression; };
   depth.run = [scene](const Method& method) {
@@ -63,7 +65,7 @@ void landing_rows(Ledger& rows) {
           } while (lowest == 0 || motion.state.v(2, 1) < 0);
           return -lowest;
         },
-        h, 1);
+        landing_h, 1);
   };
   time.id = "contact_spring.landing_time";
   time.statement = "and stays on it for more than half a period";
@@ -71,7 +73,7 @@ void landing_rows(Ledger& rows) {
   time.unit = "s";
   time.formula = "2/w (pi/2 + atan(g/(w v)))";
   time.bound = {
-      .absolute = 2 * w * h * h + std::pow(w * h, 2) * 0.11,
+      .absolute = 2 * w * landing_h * landing_h + std::pow(w * landing_h, 2) * 0.11,
       .derivation = "order 1 extrapolated, touch and lift within steps: 2 w h^2 + (w h)^2 of the time"};
   time.expected = [exact] { return exact().time; };
   time.run = [scene](const Method& method) {
@@ -82,7 +84,7 @@ void landing_rows(Ledger& rows) {
           return passage(scene(), method, step, height_over, speed_of, 1, 2) -
                  passage(scene(), method, step, height_over, speed_of, 1, 1);
         },
-        h, 1);
+        landing_h, 1);
   };
   rows.push_back(std::move(depth));
   rows.push_back(std::move(time));
@@ -116,7 +118,7 @@ void rubbing_rows(Ledger& rows) {
   const LedgerRow row{
       .scene = "1 kg on 100 N/m with friction 0.1, let go at 0.1 m, h = 0.001 s and h/2",
       .method = direct_method(),
-      .bound = {.absolute = std::pow(w * rub_h, 2) * amplitude * pi,
+      .bound = {.absolute = std::pow(w * rub_h, 2) * amplitude * std::numbers::pi,
                 .derivation = "order 1 extrapolated: (w h)^2 of the amplitude over half a turn"}};
   LedgerRow loss = row, period = row, rest = row;
   loss.id = "contact_spring.friction_loss";
@@ -134,7 +136,7 @@ void rubbing_rows(Ledger& rows) {
   period.unit = "s";
   period.formula = "2 pi sqrt(m/k)";
   period.bound = {.relative = 1e-9, .derivation = "implicit Euler's phase atan(w h) undone; tolerance"};
-  period.expected = [w] { return 2 * pi / w; };
+  period.expected = [w] { return 2 * std::numbers::pi / w; };
   period.run = [](const Method& method) {
     constexpr int apart = 50;  // steps, half a radian: all within the first half swing
     Motion motion(rubbing(), method);
@@ -144,7 +146,7 @@ void rubbing_rows(Ledger& rows) {
       each = motion.state.v(0, 1);
     }
     const double phase = sampled_oscillation(v[0], v[1], v[2], v[3]).phase / apart;
-    return 2 * pi * rub_h / std::tan(phase);
+    return 2 * std::numbers::pi * rub_h / std::tan(phase);
   };
   rest.id = "contact_spring.friction_rest";
   rest.statement = "the mass stays where the spring no longer overcomes friction";

@@ -1,6 +1,7 @@
 // Large deflection and buckling of rods: chains of rigid links with springs in their hinges, which approach
 // the elastica with the square of the link.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
+using std::numbers::pi;
 
 /// Chains of links under load leave residuals of 1e-11.
 Method chain_method() {

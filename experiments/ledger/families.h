@@ -1,15 +1,11 @@
 // The families of the ledger's rows, one source each: each appends its rows.
 #pragma once
 
-#include <numbers>
-
 #include "ledger/ledger.h"
 
 namespace pbdcheck::ledger {
 
 using Ledger = std::vector<LedgerRow>;
-
-inline constexpr double pi = std::numbers::pi;
 
 void oscillators(Ledger& rows);
 void particles(Ledger& rows);
@@ -31,6 +27,7 @@ void bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);
+void shells(Ledger& rows);
 void rates(Ledger& rows);
 void unreachable(Ledger& rows);
 void baseline_rows(Ledger& rows);

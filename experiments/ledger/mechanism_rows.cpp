@@ -1,5 +1,6 @@
 // Mechanisms of jointed bodies: published benchmarks and a slider-crank.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ const Mechanism& mechanism(std::string_view name) {
 
 /// Angles without their turns.
 double without_turns(double value, std::string_view unit) {
-  return unit == "rad" ? std::remainder(value, 2 * pi) : value;
+  return unit == "rad" ? std::remainder(value, 2 * std::numbers::pi) : value;
 }
 
 /// Loops near a singular place leave residuals of 1e-11.

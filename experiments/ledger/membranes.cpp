@@ -1,5 +1,6 @@
 // Plane benchmarks by membranes of triangles: Cook's, NAFEMS's ellipse.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -70,7 +71,7 @@ double ring_stress(const Method& method, int across) {
   const auto node = [&](int i, int j) { return (i + around) % around + around * j; };
   for (int j = 0; j <= across; ++j)
     for (int i = 0; i < around; ++i) {
-      const double angle = 2 * pi * i / around, out = static_cast<double>(j) / across;
+      const double angle = 2 * std::numbers::pi * i / around, out = static_cast<double>(j) / across;
       mesh.x.col(node(i, j)) =
           Vec3((2 + 1.25 * out) * std::cos(angle), (1 + 1.75 * out) * std::sin(angle), 0);
       if (j == across) continue;

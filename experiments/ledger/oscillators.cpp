@@ -1,5 +1,6 @@
 // Springs of one mass: what one step of each integrator makes of them, exactly; chains of springs.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ struct IntegratorAnswer {
   Discrete (*exact)(double wh);
 };
 
-constexpr double w = 2 * pi;  // rad/s
+constexpr double w = 2 * std::numbers::pi;  // rad/s
 
 void integrator_rows(Ledger& rows, const IntegratorAnswer& rule, double h) {
   const auto measured = [h](const Method& method) {
@@ -111,7 +112,7 @@ void damped_rows(Ledger& rows) {
 // ---- chains of springs
 
 constexpr int links = 20;
-constexpr double link_stiffness = 1e4;  // N/m
+constexpr double stiffness = 1e4;  // N/m
 
 Scene hung_springs(double stretch_m) {
   Scene scene;
@@ -121,7 +122,7 @@ Scene hung_springs(double stretch_m) {
     add_node(scene, Vec3(0, 0, -i * (1 + stretch_m)), 1);
     springs.node.push_back({i - 1, i});
     springs.rest_length.push_back(1);
-    springs.compliance.push_back(1 / link_stiffness);
+    springs.compliance.push_back(1 / stiffness);
   }
   scene.effects.emplace_back(std::move(springs));
   return scene;
@@ -137,7 +138,7 @@ void chain_rows(Ledger& rows) {
                   .scene = scene,
                   .method = direct_method(),
                   .bound = {.relative = 1e-9, .derivation = "exact but for the tolerance"},
-                  .expected = [] { return reference::spring_chain_stretch(links, link_stiffness, 1, 9.81); },
+                  .expected = [] { return reference::spring_chain_stretch(links, stiffness, 1, 9.81); },
                   .run =
                       [](const Method& method) {
                         Scene hung = hung_springs(0);
@@ -154,7 +155,7 @@ void chain_rows(Ledger& rows) {
        .method = direct_method(),
        .bound = {.relative = 1e-8,
                  .derivation = "implicit Euler's phase undone; other modes fall to 1e-12 in 40 steps"},
-       .expected = [] { return reference::spring_chain_frequency(links, link_stiffness, 1); },
+       .expected = [] { return reference::spring_chain_frequency(links, stiffness, 1); },
        .run =
            [](const Method& method) {
              return slowest_frequency(hung_springs(1e-3), method, 0.1, 40,

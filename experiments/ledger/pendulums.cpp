@@ -16,6 +16,7 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
+using std::numbers::pi;
 
 constexpr double fine_h = 1e-3;  // s
 

@@ -16,13 +16,13 @@ namespace {
 
 using namespace pbd;
 
-constexpr double chain_h = 1.0 / 60;  // s; rates of hard chains do not depend on it
+constexpr double rate_h = 1.0 / 60;  // s; rates of hard chains do not depend on it
 
 /// Sweeps in which the error of the velocities falls to a tenth, from the second to the fourth tenth by what
 /// is `expected`: by then the slowest part is left.
 double sweeps_per_decade(Scene scene, std::string_view relaxation, double expected) {
   stir(scene);
-  const LinearStep step = linear_step(scene, scene.initial, chain_h);
+  const LinearStep step = linear_step(scene, scene.initial, rate_h);
   const Points solved = dense_solution(step);
   Rows rows = step.rows;
   Points v = step.v_free;
@@ -80,7 +80,7 @@ void heavy_rows(Ledger& rows) {
     const auto expected = [n = n, ratio = ratio] {
       const Scene scene = chain(n, ratio);
       return reference::iterations_per_decade(
-          reference::relaxation_rates(scene, scene.initial.x, chain_h, 1).gauss_seidel);
+          reference::relaxation_rates(scene, scene.initial.x, rate_h, 1).gauss_seidel);
     };
     row.id = fmt::format("rate.heavy_tip_{}_{:g}", n, ratio);
     row.statement = "a heavy tip slows Gauss-Seidel down as its iteration matrix says";

@@ -1,5 +1,6 @@
 // Bodies that slip until they roll, and spin down.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ Scene slipping(Round shape) {
   constexpr double radius = 0.1, speed = 1;
   BodyScene build({.friction = 0.2});
   build.ground();
-  const Eigen::Quaterniond lying(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()));
+  const Eigen::Quaterniond lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
   if (shape == Round::ball)
     build.ball(radius, 1, {Vec3(0, 0, radius), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
   else
@@ -141,7 +142,7 @@ void sliding_ring_row(Ledger& rows) {
 }
 
 void rolling_disc_row(Ledger& rows) {
-  static constexpr double radius = 0.05, angle = pi / 18, h = 1e-5, time = 0.01, thick = 1e-6;
+  static constexpr double radius = 0.05, angle = std::numbers::pi / 18, h = 1e-5, time = 0.01, thick = 1e-6;
   const double rate = reference::rolling_disc_rate(radius, angle, gravity);
   rows.push_back(
       {.id = "friction.rolling_disc",

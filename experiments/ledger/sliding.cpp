@@ -15,7 +15,7 @@ namespace {
 using namespace pbd;
 
 double radians(double degrees) {
-  return degrees * pi / 180;
+  return degrees * std::numbers::pi / 180;
 }
 
 void incline_rows(Ledger& rows) {
@@ -116,7 +116,7 @@ void stopping_rows(Ledger& rows) {
 /// Deceleration of a box that slides at 45 degrees to the axes of its contacts' tangents.
 double diagonal_deceleration(const Method& method) {
   constexpr int steps = 5;
-  const Scene scene = sliding_box(0, 0.3, 2, pi / 4);
+  const Scene scene = sliding_box(0, 0.3, 2, std::numbers::pi / 4);
   const double end = state_after(scene, method, contact_h, steps).v.col(1).norm();
   return (2 - end) / (steps * contact_h);
 }

@@ -1,6 +1,7 @@
 // Structures that stand or fall: bricks that overhang, arches, ladders, blocks that tip, and the rod of
 // Painleve.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -105,10 +106,10 @@ Scene rod(double angle, double friction, bool against_wall, double speed) {
   build.materials(2, {.friction = friction});
   build.law(0, 1, {.friction = 0});
   build.ground();
-  const Eigen::Quaterniond across(Eigen::AngleAxisd(pi / 2, Vec3::UnitY()));
+  const Eigen::Quaterniond across(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()));
   if (against_wall) build.fixed(HalfSpace{}, {Vec3::Zero(), across}, 1);
   // Its own x axis points from the foot on the floor up to the wall.
-  const Eigen::Quaterniond leaning(Eigen::AngleAxisd(pi + angle, Vec3::UnitY()));
+  const Eigen::Quaterniond leaning(Eigen::AngleAxisd(std::numbers::pi + angle, Vec3::UnitY()));
   const Vec3 up = leaning * Vec3::UnitX();
   const double lift = tip + half * std::abs(up.z());
   const int body =
@@ -122,7 +123,7 @@ Scene rod(double angle, double friction, bool against_wall, double speed) {
 
 void ladder_rows(Ledger& rows) {
   for (const double degrees : {60.0, 65.0, 75.0}) {
-    const double angle = degrees * pi / 180, least = reference::ladder_friction(angle);
+    const double angle = degrees * std::numbers::pi / 180, least = reference::ladder_friction(angle);
     rows.push_back({.id = fmt::format("threshold.ladder_{:g}", degrees),
                     .statement = "a ladder against a smooth wall stands by the friction of the floor",
                     .quantity = "least friction",

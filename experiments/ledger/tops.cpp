@@ -1,5 +1,6 @@
 // Tops on a fixed point.
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ namespace pbdcheck::ledger {
 namespace {
 
 using namespace pbd;
+using std::numbers::pi;
 
 const reference::HeavyTop top{0.0125, 0.005, 9.81 * 0.1};
 

@@ -33,19 +33,13 @@ struct Slack {
 /// A chain of `links` links over a span of 1 m, let go as two straight halves.
 Slack hung_chain(const Method& method, double length, int links) {
   Scene scene;
-  Distance effect;
   const double half = length / 2, depth = std::sqrt(half * half - 0.25), link = length / links;
   for (int i = 0; i <= links; ++i) {
     const double along = static_cast<double>(i) / links;
     const double low = depth * (1 - std::abs(2 * along - 1));
     add_node(scene, Vec3(along, 0, -low), i == 0 || i == links ? infinity : link);
-    if (i == 0) continue;
-    effect.node.push_back({i - 1, i});
-    effect.rest_length.push_back(link);
-    effect.compliance.push_back(0);
   }
-  scene.effects.emplace_back(Gravity{});
-  scene.effects.emplace_back(std::move(effect));
+  add_links(scene, link);
   Motion motion(scene, method);
   constexpr double h = 0.3;  // s: the lowest modes, about 4 rad/s, lose a third a step
   calm(motion, 0.01, h);

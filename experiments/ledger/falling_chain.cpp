@@ -17,19 +17,13 @@ using namespace pbd;
 Scene folded(int links) {
   const double link = 1.0 / links;
   Scene scene;
-  Distance effect;
   const int half = (links - 1) / 2;
   for (int i = 0; i <= links; ++i) {
     const bool down = i <= half;
     const Vec3 place(down ? 0 : link, 0, -link * (down ? i : links - i));
     add_node(scene, place, i == 0 ? infinity : (i == links ? link / 2 : link));
-    if (i == 0) continue;
-    effect.node.push_back({i - 1, i});
-    effect.rest_length.push_back(link);
-    effect.compliance.push_back(0);
   }
-  scene.effects.emplace_back(Gravity{});
-  scene.effects.emplace_back(std::move(effect));
+  add_links(scene, link);
   return scene;
 }
 

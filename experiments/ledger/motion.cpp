@@ -21,6 +21,17 @@ Method direct_method(std::string_view integrator) {
   return method;
 }
 
+void add_links(Scene& scene, double length) {
+  Distance links;
+  for (int i = 1; i < scene.nodes(); ++i) {
+    links.node.push_back({i - 1, i});
+    links.rest_length.push_back(length);
+    links.compliance.push_back(0);
+  }
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(std::move(links));
+}
+
 Motion::Motion(const Scene& scene, const Method& method) : workspace(scene, method), state(scene.initial) {}
 
 void Motion::advance(double h, std::int64_t steps) {

@@ -24,6 +24,9 @@ class Motion {
   pbd::State state;
 };
 
+/// Joins each of the scene's nodes to the next by a hard link of `length` (m), under gravity.
+void add_links(pbd::Scene& scene, double length);
+
 /// A number of a state, and its rate.
 using Observable = std::function<double(const pbd::State&)>;
 

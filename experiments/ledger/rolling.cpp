@@ -15,22 +15,6 @@ namespace {
 
 using namespace pbd;
 
-enum class Round { ball, cylinder, hoop };
-
-Scene slipping(Round shape) {
-  constexpr double radius = 0.1, speed = 1;
-  BodyScene build({.friction = 0.2});
-  build.ground();
-  const Eigen::Quaterniond lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
-  if (shape == Round::ball)
-    build.ball(radius, 1, {Vec3(0, 0, radius), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
-  else
-    build.cylinder(radius, 0.2, 1, {Vec3(0, 0, radius), lying, Vec3(speed, 0, 0)});
-  Scene scene = build.finish();
-  if (shape == Round::hoop) scene.bodies[1].inertia.z() = radius * radius;
-  return scene;
-}
-
 void roll_rows(Ledger& rows) {
   struct Case {
     const char* name;

@@ -1,6 +1,7 @@
 #include "scenes/contacts.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "mass_properties.h"
 
@@ -75,6 +76,20 @@ void BodyScene::law(int first, int second, const ContactLaw& law) {
 Scene BodyScene::finish() const {
   Scene scene = scene_;
   scene.effects.emplace_back(contact_);
+  return scene;
+}
+
+Scene slipping(Round shape) {
+  constexpr double radius = 0.1, speed = 1;
+  BodyScene build({.friction = 0.2});
+  build.ground();
+  const Eigen::Quaterniond lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
+  if (shape == Round::ball)
+    build.ball(radius, 1, {Vec3(0, 0, radius), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
+  else
+    build.cylinder(radius, 0.2, 1, {Vec3(0, 0, radius), lying, Vec3(speed, 0, 0)});
+  Scene scene = build.finish();
+  if (shape == Round::hoop) scene.bodies[1].inertia.z() = radius * radius;
   return scene;
 }
 

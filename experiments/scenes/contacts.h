@@ -50,6 +50,12 @@ class BodyScene {
 pbd::Scene sliding_box(double angle, double friction, double speed, double heading = 0,
                        const pbd::Vec3& size = {0.2, 0.2, 0.1});
 
+enum class Round { ball, cylinder, hoop };
+
+/// One of 1 kg and 0.1 m that slips along x at 1 m/s on level ground, friction 0.2; a hoop is a cylinder with
+/// all its mass at the rim.
+pbd::Scene slipping(Round shape);
+
 /// `count` cubes of 0.2 m and 8 kg on each other, each `ratio` times as heavy as the one below.
 pbd::Scene column(int count, double ratio = 1);
 

@@ -2,7 +2,6 @@
 // in continuous time, balls, cylinders and hoops that slip until they roll, and cubes that must not take off.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -31,21 +30,11 @@ void stop(KnownAnswers& answers, const Method& method, double h) {
               std::abs(moved - continuous - offset) / (a * h * h / 8), run);
 }
 
-enum class Round { ball, cylinder, hoop };
-
 /// Inertia over m R^2 is `share`: where it has slipped to v0/(1 + share), it rolls.
 void roll(KnownAnswers& answers, const Method& method, double h, Round shape, double share,
           const std::string& name) {
-  constexpr double friction = 0.2, speed = 1, radius = 0.1;
-  BodyScene build({.friction = friction});
-  build.ground();
-  const Eigen::Quaterniond lying(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
-  if (shape == Round::ball)
-    build.ball(radius, 1, {Vec3(0, 0, radius), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
-  else
-    build.cylinder(radius, 0.2, 1, {Vec3(0, 0, radius), lying, Vec3(speed, 0, 0)});
-  Scene scene = build.finish();
-  if (shape == Round::hoop) scene.bodies[1].inertia.z() = radius * radius;
+  constexpr double friction = 0.2, speed = 1;
+  const Scene scene = slipping(shape);
   const auto steps = std::lround(0.4 / h);
   const ContactRun run = simulate_contacts(scene, method, h, steps);
   const Slide exact = slide(speed, friction * gravity, h, steps, speed / (1 + share));

@@ -37,11 +37,11 @@ class Texts(unittest.TestCase):
 
     def test_marks(self):
         key = "liu2017quasi"
-        self.assertEqual(to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \citep{{{key}}}")
+        self.assertEqual(to_latex(f"`a_b` [@{key}]"), rf"\texttt{{a\_\allowbreak{{}}b}} \cite{{{key}}}")
         self.assertEqual(to_html(f"`a<b` [@{key}]", {key: ""}), f'<code>a&lt;b</code> [<a href="#{key}">1</a>]')
 
     def test_tables_are_linked(self):
-        self.assertEqual(to_html("`energy/map.csv` `a.csv`", {}),
+        self.assertEqual(to_html("`energy/map.csv` `a.csv`", {}, files={"energy/map.csv"}),
                          '<a href="energy/map.csv"><code>energy/map.csv</code></a> <code>a.csv</code>')
 
     def test_references_are_to_what_there_is(self):

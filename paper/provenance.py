@@ -52,7 +52,7 @@ def citation(results, experiments):
 
 
 def provenance_section(results, experiments):
-    section = Section("What was run, and by what", name="provenance", paragraphs=[citation(results, experiments), TIMES])
+    section = Section("What was run, by which program and machine", name="provenance", appendix=True, paragraphs=[citation(results, experiments), TIMES])
     rows = []
     for name in experiments:
         shortfall = results.shortfall(name)

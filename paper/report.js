@@ -9,7 +9,7 @@ function element(tag, properties, ...children) {
   return made;
 }
 
-// ---- Folding. A folded section is still found by the browser's search, which unfolds it.
+// ---- Folding. The browser unfolds what its search finds and what a link leads to.
 
 function fold(button, folded) {
   button.setAttribute("aria-expanded", String(!folded));
@@ -33,21 +33,6 @@ function foldAll(folded) {
   all("h2 button").forEach((button) => fold(button, folded));
   all("main details").forEach((details) => { details.open = !folded; });
 }
-
-// Shows what the address names, wherever it is folded away.
-function reveal() {
-  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-  if (!target) return;
-  for (let at = target; at; at = at.parentElement) {
-    if (at.tagName === "DETAILS") at.open = true;
-    if (at.tagName === "SECTION") all(":scope > h2 button", at).forEach((button) => fold(button, false));
-  }
-  target.scrollIntoView();
-}
-addEventListener("hashchange", reveal);
-document.addEventListener("click", (event) => { // the address may be named already
-  if (event.target.closest("a")?.hash === location.hash) reveal();
-});
 
 // ---- Tables.
 
@@ -149,5 +134,3 @@ const seen = new IntersectionObserver((entries) => {
   }
 }, { rootMargin: "-10% 0px -80% 0px" });
 all("main > section[id]").forEach((section) => seen.observe(section));
-
-reveal();

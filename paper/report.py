@@ -11,7 +11,7 @@ import jinja2
 
 import provenance
 import sections
-from answers import answers
+from answers import answers, guide
 from claims import against, claims_section, findings
 from command import command, replacing
 from content import places
@@ -31,6 +31,7 @@ class Body:
     notice: str
     answers: list
     limits: str
+    guide: list
     sections: list
 
 
@@ -52,7 +53,7 @@ def compose(results):
             verdicts_section(results, names), provenance.provenance_section(results, names)]
     for number, table in enumerate((table for section in body for table in section.tables), start=1):
         table.number = number
-    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), body)
+    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), guide(body), body)
 
 
 def column_widths(table):

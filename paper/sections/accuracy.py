@@ -1,6 +1,6 @@
 """Do solutions agree with the references, and with the continuum?"""
 
-from content import Figure, Section, Table, counted, listed, number, span
+from content import Figure, Section, Table, counted, number, share, span
 from selecting import failed, good, step_text
 
 
@@ -40,9 +40,9 @@ def dual_vs_primal(results):
                    "`ok`.")])
     frame = results.table("dual_vs_primal", "final")
     if frame is not None:
-        section.paragraphs.append("Final errors, over all materials: " + "; ".join(
-            f"{listed(name)} {span(group['error'])} ({counted(len(failed(group, 'error')), 'case')} of {len(group)} not ok)"
-            for name, group in frame.groupby(["outer", "relaxation"], sort=False)) + ".")
+        section.tables.append(Table("Final errors over all materials.", ["outer", "relaxation", "ok", "error"], [
+            [f"`{outer}`", f"`{relaxation}`", share(len(group) - len(failed(group, "error")), len(group)), span(group["error"])]
+            for (outer, relaxation), group in frame.groupby(["outer", "relaxation"], sort=False)]))
     return section
 
 

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from content import Figure, Section, Table, counted, span
+from content import Figure, Section, Table, counted, share, span
 from reading import CONTRACTING
 from selecting import cost_ratios, failed, good, stiffens
 
@@ -101,16 +101,15 @@ def stability_map(results):
 
 def solved_text(frame, cell):
     """In how many cells each method finds the step, in how many iterations, and where its claim is not true."""
-    parts, claims = [], 0
+    found, claims = [], 0
     for (outer, memory), rows in frame.groupby(["outer", "memory"], sort=False):
         reached = rows["iterations"].notna()
         claims += (rows["status"].eq("ok") & ~reached).sum()
         name = f"`{outer}`" + (" without acceleration" if outer == "proximal" and memory == 0 else "")
-        counts = f" in {span(rows['iterations'])} iterations" if reached.any() else ""
-        parts.append(f"{name} {reached.sum()}{counts}")
-    cells = counted(len(frame[cell].drop_duplicates()), "cell")
-    text = f"Of {cells} of `{frame['scene'].iloc[0]}` these find the step: {'; '.join(parts)}."
-    return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
+        found.append([name, share(int(reached.sum()), len(frame[cell].drop_duplicates())), span(rows["iterations"]) if reached.any() else ""])
+    return Table(f"In how many cells of `{frame['scene'].iloc[0]}` each outer iteration finds the step, and in how many iterations."
+                 + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else ""),
+                 ["outer", "cells", "iterations"], found)
 
 
 def cantilevers_text(frame):

@@ -18,6 +18,7 @@ class Table:
     header: list
     rows: list  # of texts
     detail: bool = False  # folded in HTML, and left out of the PDF
+    first: bool = False  # before the figures
     number: int = 0  # in the report
 
 

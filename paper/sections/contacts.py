@@ -33,8 +33,21 @@ LIMITS = (
     "programme over the thrust and its height at the crown.")
 
 
+def errors_table(frame):
+    """The largest error of each quantity, one column a relaxation."""
+    judged = frame[frame["bound"].notna()]
+    names = list(judged["relaxation"].unique())
+    rows = []
+    for quantity, here in judged.groupby("quantity", sort=False):
+        largest = here.groupby("relaxation")["error"].agg(lambda errors: errors.max(skipna=False))
+        rows.append([quantity.replace("_", " "), here["unit"].iloc[0], number(here["bound"].min()),
+                     *(number(largest[name]) if name in largest else "" for name in names)])
+    return Table("Largest error of each quantity, beside its bound (the smallest of its runs).",
+                 ["quantity", "unit", "bound", *names], rows, first=True)
+
+
 def answers_table(frame):
-    """The largest error of each quantity and relaxation."""
+    """The largest error of each quantity and relaxation, and the work."""
     rows = []
     for (quantity, relaxation), here in frame.groupby(["quantity", "relaxation"], sort=False):
         judged = here[here["bound"].notna()]
@@ -56,7 +69,7 @@ def answers_text(frame):
 
 def told(results, experiment, title, question, theory, figures=()):
     section = Section(title, question, figures=[Figure(f"{experiment}_answers", ANSWERS), *figures])
-    return section.tell(results.table(experiment, "answers"), lambda frame: theory, answers_text, answers_table)
+    return section.tell(results.table(experiment, "answers"), lambda frame: theory, answers_text, errors_table, answers_table)
 
 
 def incline(results):

@@ -36,7 +36,7 @@ def work_precision(results):
         tried = frame[frame["status"] != "skipped"]
         section.paragraphs.append(f"{len(frame) - len(bad)} of {counted(len(tried), 'run')} are ok; {len(frame) - len(tried)} "
                                   "more were skipped because the method had missed a looser tolerance, or cannot do the scene. "
-                                  "The first table names the quickest method of each scene and step.")
+                                  "The first table names the quickest method.")
     section.tell(results.table("work_precision", "contacts"), contacts_table)
     return section
 
@@ -81,7 +81,7 @@ def fastest_table(frame):
             for (scene, step), group in quickest(frame, SHOWN).groupby(["scene", "step_s"], sort=False)]
     return Table("Which method to take: the quickest one that reaches an error, and its wall time of a step in ms. `rival` is Newton's "
                  "method with CHOLMOD, for scenes without hard constraints.",
-                 ["scene", "step", *(f"error {number(level)}" for level in SHOWN)], rows)
+                 ["scene", "step", *(f"error {number(level)}" for level in SHOWN)], rows, first=True)
 
 
 def rival_newton(results):

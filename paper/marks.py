@@ -86,7 +86,7 @@ def references(text):
 
 
 def plain_bibtex(text):
-    for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
+    for mark, letter in ((r'{\"u}', "ü"), (r'\"a', "ä"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
                          ("{$O(1/k^2)$}", "O(1/k²)"), ("--", "–")):
         text = text.replace(mark, letter)
     return text.replace("{", "").replace("}", "")

@@ -68,6 +68,10 @@ class Texts(unittest.TestCase):
         self.assertTrue(cited)
         self.assertEqual(set(cited) - set(known) - {"key"}, set())
         self.assertEqual(len(known), BIBLIOGRAPHY.count("\n@") + 1)
+        for entry in known.values():
+            self.assertNotRegex(entry.text, r"[\\{}]")
+            self.assertEqual({c for c in entry.text if not c.isascii()} - set(LATEX), set())
+            self.assertRegex(entry.link, r"^(https://\S+)?$")
 
     def test_numbers(self):
         self.assertEqual([number(v) for v in (1e-6, 0.25, float("nan"), float("-inf"))],

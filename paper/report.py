@@ -23,7 +23,7 @@ from reading import InputError
 from results import Results
 
 HERE = Path(__file__).resolve().parent
-LONGEST = 15  # rows of an experiment's table in the PDF; longer ones are in the HTML alone
+LONGEST = 12  # rows of an experiment's table in the PDF; longer ones are in the HTML alone
 
 
 @dataclass
@@ -44,7 +44,7 @@ def compose(results):
     cited = {claim.figure for claim, _ in found}
     for section in studies:
         section.files = results.files(section.name)
-        section.tables.sort(key=lambda table: not table.first)
+        section.tables = sorted((table for table in section.tables if table.rows), key=lambda table: not table.first)
         section.paragraphs += against(found, section.name)
         for number, figure in enumerate(section.figures):
             figure.detail = number > 0 and figure.name not in cited

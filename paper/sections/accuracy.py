@@ -49,8 +49,8 @@ def dual_vs_primal(results):
 def mesh_refinement(results):
     section = Section(
         "Do the solids approach the continuum?",
-        "A clamped beam is refined, with linear tetrahedra and with a mass-spring network on the same mesh whose one "
-        "stiffness is fitted to both load cases on each mesh, and compared with Timoshenko's beam and with the rod; a manufactured "
+        "A clamped beam is refined. It is made of linear tetrahedra, or of a mass-spring network on the same mesh, whose one "
+        "stiffness is fitted to both load cases on each mesh. Both are compared with Timoshenko's beam and with the rod. A manufactured "
         "solution gives the order of convergence [@roache1994perspective].",
         figures=[
             Figure("mesh_refinement_beam", "Relative error of bending compliance and first frequency against Timoshenko's "

@@ -15,12 +15,11 @@ GYROSCOPIC = (
     "integrator removes. On hard joints `newmark` with alpha = 1/2 and `midpoint` are marginal, as the section on energy "
     "derives; their orders on the hard top are shown, not judged.")
 SINGULAR = (
-    "The four-bar chain of N loops moves with one degree of freedom, all legs parallel. Where its legs lie along the "
-    "couplers, the joints' rows depend on each other, and the number of degrees of freedom jumps from 1 to N + 1 for that "
-    "moment: any loop may fold into an antiparallelogram. The constraints alone do not say there which way the chain goes on; "
-    "the velocity it comes with does. Beside that place a step ends where rounding leaves it: places up to L from the origin are "
-    "known to eps L, the rates of constraints to eps L/h, and the step changes velocities by g h, so that eps L/(g h²) of it "
-    "may be left, which exceeds the tolerance of 1e-12 at the shorter steps.")
+    "Why the four-bar chain misses its tolerance at short steps. A chain of N loops has one degree of freedom, with all legs parallel. Where "
+    "its legs lie along the couplers, the joints' rows depend on each other, and for that moment the chain has N + 1 degrees of freedom: any "
+    "loop may fold into an antiparallelogram. The constraints alone do not say how the chain goes on; its velocity does. Near that "
+    "place rounding limits a step: positions up to L from the origin are known to eps L, and the rates of constraints to eps L/h. The step "
+    "changes velocities by g h, so that eps L/(g h²) of that may be left. At the shorter steps this exceeds the tolerance of 1e-12.")
 MULTIPLIERS = (
     "Where rows depend on each other, the impulses p are not unique: all with the same J^T p are solutions. The motion and the net "
     "force of the joints of one place are unique. The part of p that has no effect depends on the relaxation. `direct` (whose shift "

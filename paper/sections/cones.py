@@ -36,7 +36,7 @@ def solves_text(frame):
 def reached_table(frame):
     return Table("Natural residuals reached on the planted problems.", ["law", "solver", "within 1e-8", "natural residual"],
                  [[f"`{law}`", f"`{solver}`", share(int((rows["status"] == "ok").sum()), len(rows)), span(rows["natural_residual"])]
-                  for (law, solver), rows in tightest(frame).groupby(["law", "relaxation"], sort=False)])
+                  for (law, solver), rows in tightest(frame).groupby(["law", "relaxation"], sort=False)], first=True)
 
 
 def rivals_text(frame):

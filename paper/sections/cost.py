@@ -153,5 +153,5 @@ def effects_cost(results):
         section.tables.append(Table(
             "Cost of each effect.", ["scene", "effect", "rows", "bytes per row", "wall time (s)"],
             [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
-              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()]))
+              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()], first=True))
     return section

@@ -64,7 +64,7 @@ def change_table(frame):
             cells[scene] = (f"{change:+.2g}" if np.isfinite(change) else "not a number") + ("" if status == "ok" else f", {status}")
         rows.append([f"`{rule}`", *(cells.get(scene, "") for scene in scenes)])
     return Table(f"Change of the energy at the end, relative to its scale, h = {step_text(named['step_s'].iloc[0])}.",
-                 ["integrator", *scenes], rows)
+                 ["integrator", *scenes], rows, first=True)
 
 
 def drift_text(frame):

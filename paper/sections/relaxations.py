@@ -50,7 +50,7 @@ def fastest_table(errors, target=1e-6):
     names = list(errors["relaxation"].unique())
     rows = [[f"`{scene}`", *("never" if np.isnan(reached.get((scene, name), np.nan)) else f"{reached[scene, name]:.0f}" for name in names)]
             for scene in errors["scene"].unique()]
-    return Table(f"Sweeps until the error first falls to {number(target)}.", ["scene", *names], rows)
+    return Table(f"Sweeps until the error first falls to {number(target)}.", ["scene", *names], rows, first=True)
 
 
 def conditioning(results):

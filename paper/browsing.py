@@ -83,9 +83,10 @@ class BrowserTest(unittest.TestCase):
     def seen(self, element):
         return self.run_js("return arguments[0].checkVisibility()", element)
 
-    def table(self, rows):
-        """A table of at least so many rows, in sight."""
-        found = self.run_js("return [...document.querySelectorAll('table')].find(t => t.tBodies[0].rows.length >= arguments[0])", rows)
+    def table(self, rows, holding=""):
+        """A table of at least so many rows with such a text, in sight."""
+        found = self.run_js("return [...document.querySelectorAll('table')].find(t => t.tBodies[0].rows.length >= arguments[0] && "
+                            "t.tBodies[0].textContent.match(arguments[1]))", rows, holding)
         self.run_js("for (let d = arguments[0].closest('details'); d; d = d.parentElement.closest('details')) d.open = true; "
                     "document.querySelectorAll('h2 button[aria-expanded=false]').forEach(b => b.click()); "
                     "arguments[0].scrollIntoView()", found)

@@ -44,7 +44,7 @@ def compose(results):
     cited = {claim.figure for claim, _ in found}
     for section in studies:
         section.files = results.files(section.name)
-        section.tables = sorted((table for table in section.tables if table.rows), key=lambda table: not table.first)
+        section.tables.sort(key=lambda table: not table.first)
         section.paragraphs += against(found, section.name)
         for number, figure in enumerate(section.figures):
             figure.detail = number > 0 and figure.name not in cited

@@ -58,7 +58,7 @@ def contact_hard_cases(results):
     gates, frontier = results.table("contact_hard_cases", "gates"), results.table("contact_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))
-        section.tables.append(failed_gates(gates))
+        section.tables += failed_gates(gates)
     if frontier is not None:
         section.paragraphs.append(
             f"All gates hold up to steps of {span(frontier['largest_step_s'])} s, in "

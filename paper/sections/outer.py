@@ -96,7 +96,7 @@ def stability_map(results):
     section.tell(results.table("stability_map", "cantilever"), partial(solved_text, cell=["young_pa", "step_s"]))
     section.tell(results.table("stability_map", "cantilevers"), cantilevers_text)
     section.tell(results.table("stability_map", "predictions"), predictions_text)
-    return section.tell(results.table("stability_map", "cost"), cost_text)
+    return section.tell(results.table("stability_map", "cost"), cost_table)
 
 
 def solved_text(frame, cell):
@@ -131,15 +131,16 @@ def predictions_text(frame):
             f"{span(difference)} (relative).")
 
 
-def cost_text(frame):
+def cost_table(frame):
     """What auto costs where plain contracts with a rate below 0.9, at the default tolerance."""
     ratios = cost_ratios(frame)
-    parts = []
+    names = list(ratios["relaxation"].unique())
+    rows = []
     for scene, cells in ratios.groupby("scene", sort=False):
-        found = [f"{span(rows['ratio'])} with `{relaxation}`" for relaxation, rows in cells.groupby("relaxation", sort=False)]
-        parts.append(f"{'wall time' if cells['timed'].all() else 'row updates'} of `{scene}`, {', '.join(found)}")
-    return (f"Where the measured rate of `plain` is below 0.9, `auto` costs these multiples of it: {'; '.join(parts)} "
-            f"({counted(len(ratios), 'run')} to the default tolerance).") if parts else "`plain` solves no step of a rate below 0.9."
+        found = {relaxation: span(runs["ratio"]) for relaxation, runs in cells.groupby("relaxation")}
+        rows.append([f"`{scene}`", "wall time" if cells["timed"].all() else "row updates", *(found.get(name, "") for name in names)])
+    return Table(f"Cost of `auto` as a multiple of that of `plain`, where the measured rate of `plain` is below 0.9: {counted(len(ratios), 'run')} "
+                 "to the default tolerance.", ["scene", "cost", *names], rows)
 
 
 def contraction(results):

@@ -19,7 +19,7 @@ def point_hard_cases(results):
     gates, frontier = results.table("point_hard_cases", "gates"), results.table("point_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))
-        section.tables.append(failed_gates(gates))
+        section.tables += failed_gates(gates)
     if frontier is not None:
         section.paragraphs.append("Largest step at which all gates hold: " + "; ".join(
             f"`{name}` {span(rows['largest_step_s'])} s, none in {counted(int(rows['largest_step_s'].isna().sum()), 'case')} of "
@@ -39,10 +39,11 @@ def gates_text(gates):
 
 
 def failed_gates(gates):
+    """A table of them, if there are any."""
     bad = gates[(gates["status"] != "skipped") & (gates["holds"] != 1)]
-    return Table("Gates that fail.", ["scene", "relaxation", "steps", "gate", "measured", "bound", "status", "reason"],
+    return [Table("Gates that fail.", ["scene", "relaxation", "steps", "gate", "measured", "bound", "status", "reason"],
                  [[f"`{r['scene']}`", f"`{r['relaxation']}`", f"{r['steps']:.0f} of {step_text(r['step_s'])}", f"`{r['gate']}`",
-                   number(r["measured"]), number(r["bound"]), f"`{r['status']}`", r["reason"]] for _, r in bad.iterrows()])
+                   number(r["measured"]), number(r["bound"]), f"`{r['status']}`", r["reason"]] for _, r in bad.iterrows()])] if len(bad) else []
 
 
 def generated_scenes(results):

@@ -167,8 +167,9 @@ class Page(BrowserTest):
         for role in ("heading", "button", "searchbox", "link", "image"):
             self.assertTrue(all(name.strip() for name in said.get(role, [])), role)
         self.assertEqual(len(said["image"]), len(self.all("figure svg")))
-        titles = self.run_js("return [...document.querySelectorAll('main h2')].length")
-        self.assertGreaterEqual(len(said["heading"]), titles)
+        levels = self.run_js("return [...document.querySelectorAll('h1, h2, h3, h4')].map(h => Number(h.tagName[1]))")
+        self.assertEqual(len(said["heading"]), len(levels))
+        self.assertTrue(all(after <= before + 1 for before, after in zip([0, *levels], levels)), levels)
 
     def test_without_script_everything_is_in_sight(self):
         self.driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})

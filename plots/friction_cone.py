@@ -25,7 +25,8 @@ def plane(frame):
     fig, axes = panels(len(groups), columns=2, height=2.8)
     for ax, (law, rows) in zip(axes, groups):
         end = 1.1 * max([1e-3, *rows["normal_n_s"], *rows["tangent"]])
-        ax.plot([0, end], [0, end], color="#888888", linewidth=0.8, label="boundary of the cone")
+        ax.plot([0, end], [0, end], color="#888888", linewidth=0.8)
+        ax.text(0.97 * end, 0.93 * end, "boundary", fontsize=6.5, ha="right", color="#666666")
         for place, (name, found) in enumerate(rows.groupby("relaxation", sort=False)):
             look = style(name) | {"linestyle": "none", "markerfacecolor": "none", "markersize": 3 + place / 2}
             ax.plot(found["tangent"], found["normal_n_s"], label=name, markeredgewidth=0.6, **look)

@@ -4,7 +4,7 @@ import numpy as np
 
 from common import figure, footnote, panels, shared_legend
 from finding import MOST_SERIES, fewer, finding
-from styles import style
+from styles import RELAXATIONS, style
 from selecting import drawable, failed, good, text_number, tightest
 from wording import counted, joined, number, share
 
@@ -26,12 +26,16 @@ def performance(frame, tolerance):
 
 
 def most_solved(frame):
-    """At most seven relaxations, those that solve the largest shares at the smallest tolerance, and a sentence on the others."""
-    shares = frame[frame["tolerance"] == frame["tolerance"].min()]["status"].eq("ok").groupby(frame["relaxation"], sort=False).mean()
-    ranked = shares.sort_values(ascending=False, kind="stable")
-    kept = list(ranked.index[:MOST_SERIES])
-    others = [f"{name} ({part:.0%} solved)" for name, part in ranked.items() if name not in kept]
-    return kept, f"Not drawn: {', '.join(others)}. " if others else ""
+    """At most seven relaxations, the solver's own and of the others those that solve the largest shares, and a sentence on the
+    rest."""
+    return chosen({name: [part] for name, part in frame["status"].eq("ok").groupby(frame["relaxation"], sort=False).mean().items()})
+
+
+def chosen(solved):
+    """The relaxations that are drawn, by the shares of problems that each one solves, and a sentence on those that are not."""
+    ranked = sorted(solved, key=lambda name: (name not in RELAXATIONS, -np.mean(solved[name])))
+    others = [f"{name} (solves {min(solved[name]):.0%} to {max(solved[name]):.0%})" for name in ranked[MOST_SERIES:]]
+    return ranked[:MOST_SERIES], f"Not drawn: {', '.join(others)}. " if others else ""
 
 
 @figure("cone_problems", "profiles", table="solves")
@@ -69,15 +73,12 @@ def profiles(frame):
 
 
 def drawn_profiles(groups):
-    """At most seven relaxations over all panels, those that solve most of the problems that they were given, and a sentence on
-    the others."""
+    """What `chosen` says of the relaxations of all panels."""
     solved = {}
     for _, tolerance, rows in groups:
         for name, ratios in performance(rows, tolerance).items():
             solved.setdefault(name, []).append(np.isfinite(ratios).mean())
-    ranked = sorted(solved, key=lambda name: -np.mean(solved[name]))
-    others = [f"{name} (solves {min(solved[name]):.0%} to {max(solved[name]):.0%})" for name in ranked[MOST_SERIES:]]
-    return ranked[:MOST_SERIES], f"Not drawn: {', '.join(others)}. " if others else ""
+    return chosen(solved)
 
 
 @figure("cone_problems", "large", table="large")

@@ -55,23 +55,18 @@ def frontier(frame):
     steps = swept.groupby("kind", sort=False)["largest_step_s"].median()
     finding(fig, f"Half of the cases pass at steps of {joined(step_text(step) + ' (' + kind + ')' for kind, step in steps.dropna().items())}"
             if steps.notna().any() else f"None of {counted(len(frame), 'case')} passes at any step",
-            f"{counted(len(never), 'case')} of {len(frame)} pass{'es' if len(never) == 1 else ''} at none" +
-            (f": {some(row_names(frame)[never.index])}" if len(never) else ""))
+            f"{share(len(never), len(frame))} pass at none: {some(row_names(frame)[never.index])}" if len(never) else "")
     footnote(fig, "All cases are in the table. " + ("Without sweeps: every row is compliant. " if (swept["kind"] == UNSWEPT).any() else ""))
     return fig
 
 
 def stairs(ax, rows, column, label, look, falling):
     """The share of cases whose largest step is at least x, or whose fewest sweeps are at most x."""
-    values = np.sort(rows[column][drawable(rows, [column])])
-    if not len(values):
-        ax.plot([], [], label=label, **look)
-        return
-    part = 100 * np.arange(1, len(values) + 1) / len(rows)
-    if falling:
-        x, y = np.concatenate([[values[0] / 3], values]), np.concatenate([[part[-1]], part[::-1]])
-        ax.plot(x, y, drawstyle="steps-pre", label=label, **look)
-        ax.plot(values[-1:], y[-1:], "o", color=look["color"], markersize=3)
-    else:
-        x, y = np.concatenate([values[:1], values, [3 * values[-1]]]), np.concatenate([[0], part, part[-1:]])
-        ax.plot(x, y, drawstyle="steps-post", label=label, **look)
+    values = rows[column][drawable(rows, [column])].to_numpy()
+    places = np.unique(values)
+    part = np.array([100 * ((values >= x) if falling else (values <= x)).sum() / len(rows) for x in places])
+    if len(places):
+        places, part = (np.concatenate([[places[0] / 3], places]), np.concatenate([part[:1], part])) if falling else \
+            (np.concatenate([places, [3 * places[-1]]]), np.concatenate([part, part[-1:]]))
+    ax.plot(places, part, drawstyle="steps-pre" if falling else "steps-post", label=label, **look)
+    ax.plot(*((places[-1:], part[-1:]) if falling else (places[:1], part[:1])), "o", color=look["color"], markersize=3)

@@ -27,6 +27,7 @@ STYLES = {
     "coulomb": (BLUE, "o", "-"), "cone": (RED, "s", "--"), "box": (ORANGE, "D", "-."), "disc": (GREEN, "^", ":"),
     "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }
+RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct")  # the solver's own
 FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),
             (SKY, "P", "--"), (BLACK, "X", "-.")]
 

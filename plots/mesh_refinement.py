@@ -1,10 +1,10 @@
 """Do the finite elements approach the continuum, and do mass-spring systems?"""
 
 from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, ticks
-from styles import BLUE, RED, style
+from styles import BLACK, BLUE, FALLBACK, RED, style
 from selecting import failed, good, reasons_note
 
-QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
+QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance", "poisson": "lateral contraction"}
 MODELS = {"tet_p1": "linear tetrahedra, constraint solver", "tet_p1 reference": "linear tetrahedra, finite element judge",
           "springs": "mass-spring network"}
 
@@ -26,6 +26,20 @@ def beam(frame):
     axes[0].set_ylabel("error against Timoshenko's beam\n(axial: the rod), relative")
     shared_legend(fig, axes, columns=2)
     footnote(fig, reasons_note(failed(frame, "error_beam")))
+    return fig
+
+
+@figure("mesh_refinement", "locking", table="locking")
+def locking(frame):
+    """The deflection over that of beam theory, over the distance of Poisson's ratio from 1/2, one line a mesh."""
+    fig, (ax,) = panels(1, height=2.6)
+    frame = frame.assign(left=1 - 2 * frame["poisson"], share=frame["value"] / frame["reference_beam"])
+    for (n, rows), (color, marker, line) in zip(frame.groupby("n"), FALLBACK):
+        curve_points(ax, rows, "left", "share", f"n = {n:.0f}", {"color": color, "marker": marker, "linestyle": line})
+    ax.axhline(1, color=BLACK, linewidth=0.5)
+    ax.set(xscale="log", ylim=(0, 1.1), xlabel="1 - 2 nu", ylabel="deflection over beam theory")
+    shared_legend(fig, [ax])
+    footnote(fig, reasons_note(failed(frame, "share")))
     return fig
 
 

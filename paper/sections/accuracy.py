@@ -54,7 +54,8 @@ def mesh_refinement(results):
         "solution gives the order of convergence [@roache1994perspective].",
         figures=[
             Figure("mesh_refinement_beam", "Relative error of bending compliance and first frequency against Timoshenko's "
-                   "beam, of axial compliance against the rod."),
+                   "beam, of axial compliance against the rod, of lateral over axial strain against nu."),
+            Figure("mesh_refinement_locking", "Deflection of linear tetrahedra over that of beam theory as nu tends to 1/2 (to the left)."),
             Figure("mesh_refinement_mms", "Manufactured solution, error against the exact displacement; triangles show the "
                    "expected orders.")])
     beam, mms = results.table("mesh_refinement", "beam"), results.table("mesh_refinement", "mms")
@@ -66,7 +67,15 @@ def mesh_refinement(results):
         last = mms.sort_values("n").iloc[-1]
         section.paragraphs.append(f"The manufactured solution converges with order {last['order_l2']:.2f} in the L2 norm and "
                                   f"{last['order_h1']:.2f} in the H1 seminorm at n = {last['n']:.0f}.")
-    return section
+    return section.tell(results.table("mesh_refinement", "locking"), locking_text)
+
+
+def locking_text(frame):
+    """How much of the beam's deflection each mesh keeps."""
+    parts = [f"{span(rows['value'] / rows['reference_beam'])} (n = {n:.0f})" for n, rows in frame.groupby("n")]
+    return (f"From nu = {frame['poisson'].min():g} to {frame['poisson'].max():g} linear tetrahedra bend by these shares of beam theory: "
+            f"{', '.join(parts)}. {len(good(frame, 'error_mesh'))} of {counted(len(frame), 'equilibrium')} are ok; they differ from the mesh's "
+            f"own by {span(frame['error_mesh'])}.".replace("equilibriums", "equilibria"))
 
 
 def nearer_text(beam):

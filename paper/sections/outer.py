@@ -2,7 +2,9 @@
 
 from functools import partial
 
-from content import Figure, Section, Table, counted, span
+import numpy as np
+
+from content import Figure, Section, Table, counted, number, span
 from reading import CONTRACTING
 from selecting import cost_ratios, failed, good, stiffens
 
@@ -173,3 +175,43 @@ def effects_table(frame):
     return Table("Rates of at least 0.001: measured over the dense radius, the bound over measured, and, where the bound exceeds "
                  "0.7 and a prediction is computed, predicted over measured.",
                  ["effect", "decided by", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)
+
+
+def contact_contraction(results):
+    section = Section(
+        "Does the outer iteration contract in contact?",
+        "Spheres and cubes that rest, roll, slide or tumble on what curves, or turn on an edge or a corner. Near a solution where no "
+        "contact is about to open, to slide or to stick, the map of `plain` is differentiable: pressing contacts are equations, sliding "
+        "ones with a force along their slip. A judge states these equations by itself and differentiates them. Its spectral radius is "
+        "compared with that of the solver's own map, which is measured by single iterations of `plain` from either side of the solution.",
+        figures=[Figure("contact_contraction_radii", "Spectral radius of the solver's map over that of the judge's. Filled: `plain` does "
+                        "not return to the solution from 1e-6 of the step beside it. Dashed: a radius of 1.")])
+    return section.tell(results.table("contact_contraction", "rates"), contact_rates_text, contact_orders_table)
+
+
+def contact_rates_text(frame):
+    """How near prediction and measurement are, where there is no contraction, and what the solver's own prediction says."""
+    seen = good(frame, "predicted_rate", "measured_rate")
+    beyond, seen = seen[seen["predicted_rate"] >= 1], seen[seen["predicted_rate"] >= 0.01]
+    own = [rows["predicted_contraction"] / rows["measured_rate"] for rows in (seen[seen["sliding"] == 0], seen[seen["sliding"] > 0])]
+    return (f"Where the radius is 0.01 or more ({counted(len(seen), 'case')}) the solver's map has {span(seen['measured_rate'] / seen['predicted_rate'])} "
+            f"times the judge's. It is 1 or more in {counted(len(beyond), 'case')}; `plain` returns in {int(beyond['returns'].sum())} of them, "
+            f"and in {int(frame.loc[frame['predicted_rate'] < 1, 'returns'].sum())} of {counted((frame['predicted_rate'] < 1).sum(), 'other')}. "
+            f"The solver's own prediction, an upper bound below 0.7, is {span(own[0])} times the measured radius where all contacts stick, "
+            f"{span(own[1])} times where some slide.")
+
+
+def contact_orders(frame):
+    """The power of h by which the rate falls between the two shortest steps, of each scene and law."""
+    rows = good(frame, "measured_rate").sort_values("step_s")
+    for (scene, law), own in rows.groupby(["scene", "friction"], sort=False):
+        if len(own) > 1:
+            first, second = own.iloc[0], own.iloc[1]
+            order = np.log(second["measured_rate"] / first["measured_rate"]) / np.log(second["step_s"] / first["step_s"])
+            yield scene, law, own["measured_rate"], order
+
+
+def contact_orders_table(frame):
+    return Table("Measured rates over all steps, and the power of h by which they fall between the two shortest ones.",
+                 ["scene", "law", "rates", "power of h"],
+                 [[scene, f"`{law}`", span(rates), number(order)] for scene, law, rates, order in contact_orders(frame)])

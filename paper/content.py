@@ -50,10 +50,11 @@ class Section:
 
 
 def places(sections, answers=()):
-    """What [#name] is written as: the number of each section, and of each figure that is drawn."""
+    """What [#name] is written as: the number of each section, and of each figure if it is drawn."""
     found = {section.name: f"section {number}" for number, section in enumerate(sections, start=1) if section.name}
     figures = [answer.figure for answer in answers] + [figure for section in sections for figure in section.figures]
     drawn = [figure.name for figure in figures if figure.drawn]
+    found |= {figure.name: "a figure that is not drawn" for figure in figures}
     return found | {name: f"figure {number}" for number, name in enumerate(drawn, start=1)}
 
 

@@ -27,7 +27,7 @@ class Texts(unittest.TestCase):
 
     def test_references_are_to_what_there_is(self):
         known = places([Section("", name="energy", figures=[Figure("not_drawn", ""), Figure("a_b", "", drawn=True)])])
-        self.assertEqual(known, {"energy": "section 1", "a_b": "figure 1"})
+        self.assertEqual(known, {"energy": "section 1", "not_drawn": "a figure that is not drawn", "a_b": "figure 1"})
         self.assertEqual(to_html("[#energy] [#a_b] [#none]", {}, known),
                          '<a href="#energy">section 1</a> <a href="#a_b">figure 1</a> [#none]')
         self.assertEqual(to_latex("[#a_b] [#none]", known), r"\hyperref[a_b]{figure~1} {[}\#none]")

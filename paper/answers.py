@@ -17,7 +17,7 @@ GUIDE = {
     "What does an effect cost?": "effects_cost",
     "Which claims of the paper hold?": "claims",
     "What failed, and why?": "failed",
-    "What changed since the last run?": "history",
+    "What did the last change of the program change?": "changes",
     "What does a word mean?": "words",
     "Which machine and program, and how to cite?": "provenance",
 }  # and the section that answers it

@@ -34,7 +34,7 @@ for experiment in ("incline", "stopping", "restitution", "stack"):
 @figure("friction_isotropy", "headings", table="headings")
 def headings(frame):
     """Left the deceleration over the heading, as a polar curve; right the errors over their bounds."""
-    fig = plt.figure(figsize=(6.5, 3.3))
+    fig = plt.figure(figsize=(6.5, 3.3), layout="none")
     polar, ax = fig.add_axes([0.02, 0.05, 0.4, 0.66], projection="polar"), fig.add_axes([0.62, 0.3, 0.22, 0.3])
     shown = good(frame, "heading_deg", "deceleration_share")
     sizes = {law: 7 - 1.5 * k for k, law in enumerate(dict.fromkeys(frame["friction"]))}

@@ -23,7 +23,7 @@ def simbenchmark(results):
         figures=[
             Figure("simbenchmark_accuracy", "Error over the step, this solver (solid) and five engines as published. Crossed: a step "
                    "missed its tolerance, or the run diverged."),
-            Figure("simbenchmark_cost", "The same over seconds: wall time here, processor time as published of the engines, on another machine.")])
+            Figure("simbenchmark_cost", "Time of the runs whose times were published: wall time here, processor time of the engines, on another machine.")])
     frame = results.table("simbenchmark", "accuracy")
     section.tell(None if frame is None else frame[frame["solver"] == "pbdcheck"], lambda frame: ENERGY, lambda frame: EXACT,
                  benchmark_text, benchmark_table)
@@ -52,8 +52,9 @@ def contact_hard_cases(results):
         "as it is by default, none for any case; the verdicts are about it. In the full tier `conjugate_gradients` and "
         "`gauss_seidel` stand beside it, with at most 1000 sweeps a step.",
         figures=[
-            Figure("contact_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails."),
-            Figure("contact_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold.")])
+            Figure("contact_hard_cases_gates", "Every gate of every case, measured over its bound. Crossed: the gate fails."),
+            Figure("contact_hard_cases_frontier", "The share of cases in which all gates hold, over the step and over the sweeps of an "
+                   "outer iteration.")])
     gates, frontier = results.table("contact_hard_cases", "gates"), results.table("contact_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))

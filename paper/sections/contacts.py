@@ -3,8 +3,8 @@
 from content import Figure, Section, Table, counted, number, span
 from selecting import failed, good
 
-ANSWERS = ("Largest errors by relaxation and law of friction (GS `gauss_seidel`, J `jacobi`, NJ `nesterov_jacobi`, CG "
-           "`conjugate_gradients`); dashed: the bound. Crossed: some step was not solved, or the run diverged.")
+ANSWERS = ("Every error over its bound, of each relaxation and law of friction; at the right how many are within it. Crossed: above "
+           "the bound, some step was not solved, or the run diverged.")
 RECURRENCE = (
     "A box on a plane tilted by a slides by a constant force, and implicit Euler makes of it v' = v + h g (sin a - mu cos a), "
     "x' = x + h v', exactly; it sticks where mu >= tan a. By the convex law it hovers at h mu v: while it speeds up, it rises, "
@@ -71,7 +71,7 @@ def stopping(results):
 def friction_isotropy(results):
     section = Section("Is friction the same in every direction?", "A box slides on a floor at 36 headings, by each law.",
                       figures=[Figure("friction_isotropy_headings", "Deceleration along the heading, and the errors of it and "
-                                      "of the heading. Crossed: the run did not end well.")])
+                                      "of the heading over their bounds. Crossed: above it, or the run did not end well.")])
     return section.tell(results.table("friction_isotropy", "headings"), lambda frame: SQUARE, headings_text)
 
 

@@ -151,7 +151,7 @@ def contraction(results):
         "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect, to which "
         "of rods half the angle that they turn in the step is added. Corotational rows hold their rotation fixed: J is not dc/dx, "
         "and what the rows leave out is d(J^T p)/dx + J^T A^-1 (J - dc/dx), by which the dense radius is computed.",
-        figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
+        figures=[Figure("contraction_effects", "Measured rates over what they are compared with; shaded: not allowed. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction.")])
     return section.tell(results.table("contraction", "rates"), effects_table)

@@ -6,7 +6,7 @@ import pandas as pd
 
 from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, ticks
 from finding import beyond, finding, guide, name_lines
-from selecting import drawable, failed, good, reasons_note, text_number
+from selecting import failed, good, reasons_note, text_number
 from strips import EDGES, strip, strips, verdict
 from styles import BLACK, style
 from wording import counted, number, share, some, span

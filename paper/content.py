@@ -16,6 +16,8 @@ class Table:
     header: list
     rows: list  # of texts
     detail: bool = False  # folded in HTML, and left out of the PDF
+    first: bool = False  # before the figures
+    number: int = 0  # in the report
 
 
 @dataclass
@@ -36,6 +38,8 @@ class Section:
     tables: list = field(default_factory=list)
     name: str = ""  # what [#name] refers to
     page: bool = False  # begins a page of the PDF
+    appendix: bool = False  # folded in HTML
+    files: list = field(default_factory=list)  # results.File: what it is made from
 
     def tell(self, frame, *parts):
         """Adds the text or Table that each of `parts` makes of a result table, if there is one."""
@@ -45,10 +49,11 @@ class Section:
         return self
 
 
-def places(sections):
+def places(sections, answers=()):
     """What [#name] is written as: the number of each section, and of each figure that is drawn."""
     found = {section.name: f"section {number}" for number, section in enumerate(sections, start=1) if section.name}
-    drawn = [figure.name for section in sections for figure in section.figures if figure.drawn]
+    figures = [answer.figure for answer in answers] + [figure for section in sections for figure in section.figures]
+    drawn = [figure.name for figure in figures if figure.drawn]
     return found | {name: f"figure {number}" for number, name in enumerate(drawn, start=1)}
 
 

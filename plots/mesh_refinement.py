@@ -2,11 +2,11 @@
 
 from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, slope_triangle, ticks
 from finding import fewer, finding, name_lines
-from styles import BLUE, RED, style
+from styles import BLACK, BLUE, FALLBACK, RED, style
 from selecting import failed, good, reasons_note
 from wording import counted, number, share
 
-QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance"}
+QUANTITIES = {"compliance_j": "bending compliance", "frequency_hz": "first frequency", "axial_j": "axial compliance", "poisson": "lateral contraction"}
 MODELS = {"tet_p1": "linear tetrahedra, constraint solver", "tet_p1 reference": "linear tetrahedra, finite element judge",
           "springs": "mass-spring network"}
 
@@ -42,6 +42,23 @@ def nearer(here, quantity):
     if errors.empty:
         return f"{quantity}: none of {counted(len(here), 'run')} ended well"
     return f"{quantity}: {number(errors.loc[errors.index.max()].min())} off on the finest mesh"
+
+
+@figure("mesh_refinement", "locking", table="locking")
+def locking(frame):
+    """The deflection over that of beam theory, over the distance of Poisson's ratio from 1/2, one line a mesh."""
+    fig, (ax,) = panels(1, height=2.6)
+    frame = frame.assign(left=1 - 2 * frame["poisson"], share=frame["value"] / frame["reference_beam"])
+    for (n, rows), (color, marker, line) in zip(frame.groupby("n"), FALLBACK):
+        curve_points(ax, rows, "left", "share", f"n = {n:.0f}", {"color": color, "marker": marker, "linestyle": line})
+    ax.axhline(1, color=BLACK, linewidth=0.5)
+    ax.set(xscale="log", ylim=(0, 1.1), xlabel="1 - 2 nu", ylabel="deflection over beam theory")
+    shared_legend(fig, [ax])
+    done = good(frame, "share")
+    finding(fig, *[f"nu = {nu:g}: at best {number(rows['share'].max())} of beam theory's deflection, with n = "
+                   f"{rows.loc[rows['share'].idxmax(), 'n']:.0f}" for nu, rows in done.groupby("poisson") if nu == done["poisson"].max()])
+    footnote(fig, reasons_note(failed(frame, "share")))
+    return fig
 
 
 @figure("mesh_refinement", "mms", table="mms")

@@ -1,8 +1,10 @@
 """Does the plain iteration contract in contact at the predicted rate?"""
 
 from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from finding import finding, guide
 from selecting import drawable, failed, good, reasons_note
 from styles import BLACK, style
+from wording import share
 
 LEAST = 1e-3  # smaller rates are not drawn
 
@@ -28,10 +30,15 @@ def radii(frame):
             draw_failed(ax, failed(own, "measured_rate"), "predicted_rate", "measured_rate", look | {"linestyle": "none"})
         line = [LEAST, drawn["predicted_rate"].max()]
         ax.plot(line, line, color=BLACK, linewidth=0.5, label="equal to the radius")
-        ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.6)
         ax.set(xscale="log", yscale="log", title=title)
+        guide(ax, 1, horizontal=False)
     fig.supxlabel("spectral radius of the judge's map, error per iteration", fontsize=8)
     fig.supylabel("of the solver's map", fontsize=8)
     shared_legend(fig, axes, columns=3)
+    right = good(drawn, "measured_rate")
+    agree = ((right["returns"] == 1) == (right["predicted_rate"] < 1)).sum()
+    finding(fig, f"Whether plain returns to the solution in contact is as the judge's radius says in {share(agree, len(drawn))} cases",
+            f"The solver's radius is that of the judge to {100 * abs(right['measured_rate'] / right['predicted_rate'] - 1).max():.2g} %"
+            if len(right) else "")
     footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
     return fig

@@ -52,8 +52,8 @@ def rates(frame):
     fell = len(failed(frame, "measured_rate"))
     finding(fig, "Rates of plain: " + ", ".join(said))
     footnote(fig, f"Filled: stiffening decides; open: compression; red cross: outside. {len(frame) - len(compared)} of "
-             f"{counted(len(frame), 'case')} are not compared: {fell} have no measured rate, the others are below {number(LEAST)}; radius and prediction are compared where the radius is from 0.01 to 0.95. "
-             f"What is beyond a panel stands on its edge. " + reasons_note(failed(frame, "measured_rate")))
+             f"{counted(len(frame), 'case')} are not compared: {fell} have no measured rate, the others are below {number(LEAST)}; "
+             "radius and prediction are compared where the radius is from 0.01 to 0.95. What is beyond a panel stands on its edge. " + reasons_note(failed(frame, "measured_rate")))
     return fig
 
 

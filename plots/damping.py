@@ -92,7 +92,9 @@ def rotation(frame):
     fig.supxlabel("time (s)", fontsize=8)
     shared_legend(fig, axes)
     left = {damped: left_of(rows[(rows["retardation_s"] > 0) == damped]) for damped in (True, False)}
-    finding(fig, f"Of the vibration's energy damping leaves {span(left[True])}, no damping {span(left[False])}")
+    finding(fig, f"Of the vibration's energy damping leaves {span(left[True])}, no damping {span(left[False])}"
+            if left[True].notna().any() and left[False].notna().any() else
+            f"None of {counted(rows['integrator'].nunique(), 'integrator')} has energies to compare")
     footnote(fig, others(rows) + reasons_note(rows[rows["status"] != "ok"]))
     return fig
 

@@ -40,16 +40,17 @@ def scaling(frame):
 @figure("effects_cost", "bytes", table="costs")
 def bytes_per_row(frame):
     """Memory of an effect's rows."""
-    return bars(frame.assign(value=frame["bytes"] / frame["rows"]), "bytes per row", "A row takes")
+    return bars(frame.assign(value=frame["bytes"] / frame["rows"]), "bytes per row", "bytes", "A row takes")
 
 
 @figure("effects_cost", "seconds", table="costs")
 def seconds_per_row(frame):
     """Time an effect's rows took in one step of the run."""
-    return bars(frame.assign(value=frame["wall_s_per_step"] / frame["rows"] * 1e6), "wall time per row and step (µs)", "A row and step take")
+    return bars(frame.assign(value=frame["wall_s_per_step"] / frame["rows"] * 1e6), "wall time per row and step (µs)", "µs",
+                "A row and step take")
 
 
-def bars(frame, label, said):
+def bars(frame, label, unit, said):
     frame = frame[frame["rows"] > 0]  # what is outside the effects has no rows
     rows = good(frame, "value").assign(name=lambda rows: rows["effect"] + ", " + rows["scene"])
     bad = failed(frame, "value")
@@ -60,9 +61,9 @@ def bars(frame, label, said):
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     ax.set(xlabel=label)
-    ends = len(rows) and f" ({rows.loc[rows['value'].idxmin(), 'name']}) to {number(rows['value'].max())} ({rows.loc[rows['value'].idxmax(), 'name']})"
-    finding(fig, f"{said} from {number(rows['value'].min())}{ends} {label.split(' per ')[0] if 'bytes' in label else 'µs'}" if len(rows)
-            else f"None of {counted(len(frame), 'effect')} has a number")
+    if len(rows):
+        low, high = (f"{number(rows['value'][k])} {unit} ({rows['name'][k]})" for k in (rows["value"].idxmin(), rows["value"].idxmax()))
+    finding(fig, f"{said} from {low} to {high}" if len(rows) else f"None of {counted(len(frame), 'effect')} has a number")
     missing = ", ".join(bad["effect"] + " in " + bad["scene"])
     footnote(fig, f"Not drawn, no number: {missing}" if missing else "")
     return fig

@@ -50,26 +50,27 @@ def beyond(ax, low, high, horizontal=True):
 
 
 def name_lines(ax, size=6.5):
-    """The name of each labelled line at its last point, apart from the others; call it when all is drawn."""
-    height = ax.get_position().height * ax.figure.get_figheight() * 72
-    gap = 1.15 * size / height
-    ends = []
-    for line in ax.lines:
-        x, y = (np.asarray(values, dtype=float) for values in line.get_data(orig=False))
-        known = np.isfinite(x) & np.isfinite(y)
-        if line.get_label().startswith("_") or not known.any():
-            continue
-        at = ax.transData.transform((x[known][-1], y[known][-1]))
-        ends.append((ax.transAxes.inverted().transform(at)[1], line))
-    ends.sort(key=lambda end: end[0])
+    """The name of each labelled line at its last point, apart from the others; one without a point says so. Call it when all
+    is drawn."""
+    gap = 1.15 * size / (ax.get_position().height * ax.figure.get_figheight() * 72)
+    lines = [line for line in ax.lines if not line.get_label().startswith("_")]
+    ends = sorted(((end_of(ax, line), line) for line in lines), key=lambda end: end[0])
     places = [np.clip(place, 0, 1) for place, _ in ends]
     for i in range(1, len(places)):
         places[i] = max(places[i], places[i - 1] + gap)
-    excess = places[-1] - 1 if places else 0
-    if excess > 0:
+    if places and places[-1] > 1:
         places[-1] = 1
         for i in range(len(places) - 2, -1, -1):
             places[i] = min(places[i], places[i + 1] - gap)
-    for place, (_, line) in zip(places, ends):
-        ax.text(1.02, place, line.get_label(), transform=ax.transAxes, color=line.get_color(), fontsize=size, va="center",
-                gid="name")
+    for place, (end, line) in zip(places, ends):
+        ax.text(1.02, place, line.get_label() + ("" if np.isfinite(end) else " (no point)"), transform=ax.transAxes,
+                color=line.get_color(), fontsize=size, va="center", gid="name")
+
+
+def end_of(ax, line):
+    """The height of a line's last point, as a part of the axes'; -inf without one."""
+    x, y = (np.asarray(values, dtype=float) for values in line.get_data(orig=False))
+    known = np.isfinite(x) & np.isfinite(y)
+    if not known.any():
+        return -np.inf
+    return ax.transAxes.inverted().transform(ax.transData.transform((x[known][-1], y[known][-1])))[1]

@@ -6,7 +6,7 @@ import pandas as pd
 
 from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend, ticks
 from finding import beyond, finding, guide, name_lines
-from selecting import drawable, failed, good, reasons_note, text_number
+from selecting import failed, good, reasons_note, text_number
 from strips import EDGES, strip, strips, verdict
 from styles import BLACK, style
 from wording import counted, number, share, some, span
@@ -34,7 +34,7 @@ for experiment in ("incline", "stopping", "restitution", "stack"):
 @figure("friction_isotropy", "headings", table="headings")
 def headings(frame):
     """Left the deceleration over the heading, as a polar curve; right the errors over their bounds."""
-    fig = plt.figure(figsize=(6.5, 3.3))
+    fig = plt.figure(figsize=(6.5, 3.3), layout="none")
     polar, ax = fig.add_axes([0.02, 0.05, 0.4, 0.66], projection="polar"), fig.add_axes([0.62, 0.3, 0.22, 0.3])
     shown = good(frame, "heading_deg", "deceleration_share")
     sizes = {law: 7 - 1.5 * k for k, law in enumerate(dict.fromkeys(frame["friction"]))}

@@ -74,6 +74,7 @@ def sample(frame):
 def agreement(frame):
     """Bars of the first steps of each variant by what became of them beside the scene as it is."""
     counts = summed(frame, "variant", frame["outcome"], "first_steps")
-    same, missed, told = ((frame["first_steps"][frame["outcome"] == kind]).sum() for kind in (OUTCOMES[0], OUTCOMES[4], OUTCOMES[2]))
-    return stacked(counts, OUTCOMES, "first steps", f"{share(int(same), int(frame['first_steps'].sum()))} first steps are the same in other words; "
-                   f"{missed:.0f} are missed, {told:.0f} are another solution")
+    same, missed, told = (int(frame["first_steps"][frame["outcome"] == OUTCOMES[k]].sum()) for k in (0, 4, 2))
+    return stacked(counts, OUTCOMES, "first steps",
+                   f"{share(same, int(frame['first_steps'].sum()))} first steps are the same in other words; "
+                   f"{missed} are missed, {told} are another solution")

@@ -27,38 +27,25 @@ def beam(frame):
         ticks(ax, frame["n"], "{:.0f}".format)
     axes[0].set_ylabel("error against Timoshenko's beam\n(axial: the rod), relative")
     shared_legend(fig, axes, columns=2)
-    finding(fig, *[nearer(frame[frame["quantity"] == quantity], QUANTITIES.get(quantity, quantity)) for quantity in quantities])
+    finding(fig, *told(frame, quantities))
     footnote(fig, left + reasons_note(failed(frame, "error_beam")))
     return fig
 
 
-def nearer(here, quantity):
-    """On how many meshes springs or tetrahedra are the nearer to theory; without springs, how near the finest mesh comes."""
-    errors = good(here, "error_beam").pivot_table("error_beam", "n", "model")
-    if {"springs", "tet_p1"} <= set(errors):
-        both = errors[["springs", "tet_p1"]].dropna()
-        return f"{quantity}: springs are nearer to theory than tetrahedra on {share((both['springs'] < both['tet_p1']).sum(), len(both))}" \
-               " meshes"
-    if errors.empty:
-        return f"{quantity}: none of {counted(len(here), 'run')} ended well"
-    return f"{quantity}: {number(errors.loc[errors.index.max()].min())} off on the finest mesh"
-
-
-@figure("mesh_refinement", "locking", table="locking")
-def locking(frame):
-    """The deflection over that of beam theory, over the distance of Poisson's ratio from 1/2, one line a mesh."""
-    fig, (ax,) = panels(1, height=2.6)
-    frame = frame.assign(left=1 - 2 * frame["poisson"], share=frame["value"] / frame["reference_beam"])
-    for (n, rows), (color, marker, line) in zip(frame.groupby("n"), FALLBACK):
-        curve_points(ax, rows, "left", "share", f"n = {n:.0f}", {"color": color, "marker": marker, "linestyle": line})
-    ax.axhline(1, color=BLACK, linewidth=0.5)
-    ax.set(xscale="log", ylim=(0, 1.1), xlabel="1 - 2 nu", ylabel="deflection over beam theory")
-    shared_legend(fig, [ax])
-    done = good(frame, "share")
-    finding(fig, *[f"nu = {nu:g}: at best {number(rows['share'].max())} of beam theory's deflection, with n = "
-                   f"{rows.loc[rows['share'].idxmax(), 'n']:.0f}" for nu, rows in done.groupby("poisson") if nu == done["poisson"].max()])
-    footnote(fig, reasons_note(failed(frame, "share")))
-    return fig
+def told(frame, quantities):
+    """On how many meshes springs are nearer to theory than tetrahedra; of what has no springs how near the finest mesh comes."""
+    beaten, near = [], []
+    for quantity in quantities:
+        errors = good(frame[frame["quantity"] == quantity], "error_beam").pivot_table("error_beam", "n", "model")
+        name = QUANTITIES.get(quantity, quantity)
+        if {"springs", "tet_p1"} <= set(errors):
+            both = errors[["springs", "tet_p1"]].dropna()
+            beaten.append(f"{name} {share((both['springs'] < both['tet_p1']).sum(), len(both))}")
+        elif len(errors):
+            near.append(f"{name} {number(errors.loc[errors.index.max()].min())}")
+    return (f"Meshes where springs are nearer to theory than tetrahedra: {', '.join(beaten)}" if beaten else "",
+            f"Off on the finest mesh: {', '.join(near)}" if near else "",
+            "" if beaten or near else f"None of {counted(len(frame), 'run')} ended well")
 
 
 @figure("mesh_refinement", "mms", table="mms")

@@ -10,8 +10,8 @@ def judges(results):
         "Two references solve the same step: Newton's method with sparse factorisations, and an interior point method. "
         "They share the statement of masses, energies and constraints, and nothing of the solver under test. How far apart "
         "are their solutions? Where rigid bodies are joined, the solver's own step stands beside them.",
-        figures=[Figure("judges_agreement", "Relative difference of the positions found by the references, and the residual "
-                        "each claims, by family of scenes. The table has every step.")])
+        figures=[Figure("judges_agreement", "Relative difference of the positions found by the references, by the experiment "
+                        "that the step is of. The table has the residual that each claims, too.")])
     frame = results.table("judges", "agreement")
     if frame is not None:
         rows = good(frame, "difference")
@@ -35,7 +35,7 @@ def dual_vs_primal(results):
         "reach the minimum of the incremental potential, found by Newton's method on the energy?",
         figures=[
             Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
-                   "of the step, over the sweeps."),
+                   "of the step, over the sweeps, at the middle stiffness of each mesh and strain."),
             Figure("dual_vs_primal_final", "Final error of every method and material; a cross marks a status other than "
                    "`ok`.")])
     frame = results.table("dual_vs_primal", "final")

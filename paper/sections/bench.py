@@ -24,7 +24,8 @@ def simbenchmark(results):
         figures=[
             Figure("simbenchmark_accuracy", "Error over the step, this solver (solid) and five engines as published. Crossed: a step "
                    "missed its tolerance, or the run diverged."),
-            Figure("simbenchmark_cost", "The same over seconds: wall time here; for the engines processor time as published, on another machine.")])
+            Figure("simbenchmark_cost", "Time of the runs whose times were published: wall time here; for the engines processor time, on another "
+                   "machine.")])
     frame = results.table("simbenchmark", "accuracy")
     section.tell(None if frame is None else frame[frame["solver"] == "pbdcheck"], lambda frame: ENERGY, lambda frame: EXACT,
                  benchmark_text, benchmark_table)
@@ -53,8 +54,9 @@ def contact_hard_cases(results):
         "default and none for any case; the verdicts are about it. In the full tier `conjugate_gradients` and "
         "`gauss_seidel` run them, too, with at most 1000 sweeps a step.",
         figures=[
-            Figure("contact_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails."),
-            Figure("contact_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold.")])
+            Figure("contact_hard_cases_gates", "Every gate of every case, measured over its bound. Crossed: the gate fails."),
+            Figure("contact_hard_cases_frontier", "The share of cases in which all gates hold, over the step and over the sweeps of an "
+                   "outer iteration.")])
     gates, frontier = results.table("contact_hard_cases", "gates"), results.table("contact_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))

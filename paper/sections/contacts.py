@@ -3,8 +3,8 @@
 from content import Figure, Section, Table, number, share, span
 from selecting import failed, good
 
-ANSWERS = ("Largest errors by relaxation and law of friction (GS `gauss_seidel`, J `jacobi`, NJ `nesterov_jacobi`, CG "
-           "`conjugate_gradients`); dashed: the bound. Crossed: some step was not solved, or the run diverged.")
+ANSWERS = ("Every error over its bound, of each relaxation and law of friction; at the right how many are within it. Crossed: above "
+           "the bound, some step was not solved, or the run diverged.")
 RECURRENCE = (
     "The quantities are: `creep`, the speed that a box has left where it should stick, which is how far friction drifts; `threshold`, the speed "
     "that it gains where mu is just below tan a; `acceleration` where it slides; and `mass`, the same for light and heavy boxes. "
@@ -86,7 +86,7 @@ def stopping(results):
 def friction_isotropy(results):
     section = Section("Is friction the same in every direction?", "A box slides on a floor at 36 headings, by each law.",
                       figures=[Figure("friction_isotropy_headings", "Deceleration along the heading, and the errors of it and "
-                                      "of the heading. Crossed: the run did not end well.")])
+                                      "of the heading over their bounds. Crossed: above it, or the run did not end well.")])
     return section.tell(results.table("friction_isotropy", "headings"), lambda frame: SQUARE, headings_text)
 
 

@@ -14,21 +14,22 @@ def work_precision(results):
         "What does accuracy cost: which method for which error?",
         "Every method does the same step to the same tolerances, timed on one thread. Comparisons follow the "
         "practice of benchmarking optimisation software [@dolan2002benchmarking]: work is shown beside time, and failures are "
-        "shown, too.",
+        "named.",
         figures=[
             Figure("work_precision_seconds", "Error against the judge over wall time. The judge that errors are measured "
                    "against stands on the lower edge. Of each outer iteration, the relaxation "
-                   "that is quickest. Each marker is a run to one tolerance; the stairs join those that no other run of the method "
-                   "beats in both time and error. Crossed: not solved to its tolerance."),
+                   "that is quickest. The stairs join the runs that no other run of the method beats in both time and error; methods "
+                   "that do not come to 1e-6 are named."),
             Figure("work_precision_row_updates", "The same runs over row updates, which do not depend on the machine, without "
                    "`direct`, which factors."),
             Figure("work_precision_outer_iterations", "The same runs over outer iterations."),
-            Figure("work_precision_contact_seconds", "One step of bodies in contact from a cold start, by every relaxation and law "
-                   "of friction. `incline`: a box that slides askew; `stack` and `arch`: their top is struck; `pile`: bodies that "
+            Figure("work_precision_contact_seconds", "One step of bodies in contact from a cold start, by every relaxation under "
+                   "Coulomb's law. `incline`: a box that slides askew; `stack` and `arch`: their top is struck; `pile`: bodies that "
                    "stick, slide and leave each other. The judges of contact problems solve the rows that the solver linearises "
-                   "at the judges' own iterates. The convex law is beside its own solution, the others beside that of Coulomb's "
-                   "law: what `box` keeps is the law's error."),
-            Figure("work_precision_contact_row_updates", "The same runs over row updates, without `direct`, which factors.")])
+                   "at the judges' own iterates. The table has the other laws, too: `box` and "
+                   "`disc` are beside the solution by Coulomb's law, and keep their law's error."),
+            Figure("work_precision_contact_cone_seconds", "The same by the convex law, beside its own solution."),
+            Figure("work_precision_contact_row_updates", "The runs under Coulomb's law over row updates, without `direct`, which factors.")])
     frame = results.table("work_precision", "points")
     if frame is not None:
         section.tables.append(fastest_table(frame))
@@ -141,7 +142,7 @@ def effects_cost(results):
         "What does each effect cost?",
         "Does an effect that a scene does not use cost nothing? Does one that it uses cost time in proportion to its rows?",
         figures=[
-            Figure("effects_cost_scaling", "Wall time of one sweep over the number of rows."),
+            Figure("effects_cost_scaling", "Wall time of one sweep and row over the number of rows: level where cost is in proportion."),
             Figure("effects_cost_bytes", "Memory of each effect's rows."),
             Figure("effects_cost_seconds", "Wall time of each effect per row and step, linearising and relaxing.")])
     scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")

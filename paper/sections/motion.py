@@ -14,9 +14,9 @@ def direction(results):
             Figure("direction_largest_steps", "Largest stable step. On the taut chain it is predicted: 2/(w sqrt(1 - 2 b)) with w "
                    "of the fastest mode, without bound from b = 1/2 on. `auto` may end at a folded solution of a long step."),
             Figure("direction_modes", "A mode of the taut chain with h w = 1: what a step leaves of its energy."),
-            Figure("direction_energy", "A hard pendulum released horizontally: all schemes, and the same enlarged."),
+            Figure("direction_energy", "A hard pendulum released horizontally: schemes, and the same enlarged."),
             Figure("direction_equal_work", "Largest violation of a link over work. Position: more linearisations of a step of 1/60 s; "
-                   "velocity: as many shorter steps. Crossed: some step was not solved, or the motion blew up. A step of velocity "
+                   "velocity: as many shorter steps. Solved runs alone are drawn, and counted above. A step of velocity "
                    "time stepping does not claim to be solved.")])
     section.tell(results.table("direction", "largest_steps"), steps_text, steps_table)
     section.tell(results.table("direction", "energy"), energy_table)
@@ -100,7 +100,7 @@ def damping(results):
         "stay undamped?",
         figures=[
             Figure("damping_decrements", "The decrement's distance from that of the matrix that an integrator's step makes of the "
-                   "oscillator. Dotted: the bound of the verdict."),
+                   "oscillator. Dashed: the bound of the verdict."),
             Figure("damping_order", "The decay rate approaches c/(2 m) as the step shrinks; 1 kg, 100 N/m, 1 N s/m."),
             Figure("damping_rotation", "Two masses on a spring, spinning and vibrating: the energy beside that of the steady rotation "
                    "with the same angular momentum.")])

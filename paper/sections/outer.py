@@ -153,7 +153,7 @@ def contraction(results):
         "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect; for rods the bound "
         "includes half the angle that they turn in the step. Corotational rows hold their rotation fixed, so that J is not dc/dx. The "
         "dense radius is that of what such rows leave out, d(J^T p)/dx + J^T A^-1 (J - dc/dx).",
-        figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
+        figures=[Figure("contraction_effects", "Measured rates over what they are compared with; shaded: not allowed. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction.")])
     return section.tell(results.table("contraction", "rates"), effects_table)

@@ -16,7 +16,7 @@ def inner_convergence(results):
                    "the same rows."),
             Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
             Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
-                   "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
+                   "`nesterov_jacobi` and `conjugate_gradients` have bounds, not rates: they are in the table.")])
     section.tell(results.table("inner_convergence", "errors"), fastest_table)
     return section.tell(results.table("inner_convergence", "rates"), decay_text, rates_table)
 
@@ -93,8 +93,8 @@ def inexact(results):
         "An outer iteration stops its sweeps when the linear residual has fallen to a given share of the nonlinear one. One step of the "
         "swinging chain is solved to its tolerance. How much work does the default share save, compared with solving every linear "
         "problem to a tenth of that tolerance?",
-        figures=[Figure("inexact_row_updates", "Row updates until the step is solved. Solid: linear problems to the default share of "
-                        "the nonlinear residual; dashed: each to a tenth of the step's tolerance.")])
+        figures=[Figure("inexact_row_updates", "Row updates until the step is solved: those with linear problems to the default share of "
+                        "the nonlinear residual over those with each to a tenth of the step's tolerance.")])
     return section.tell(results.table("inexact", "solves"), saving_text)
 
 

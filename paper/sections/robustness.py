@@ -12,10 +12,10 @@ def point_hard_cases(results):
         "other units. The default method runs all of them, without a setting for any case; the verdicts are about it. `direct` and `gauss_seidel` "
         "run the cases that need sweeps. Which gates hold? The gates are the same for all cases.",
         figures=[
-            Figure("point_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails, grey was "
-                   "not asked."),
-            Figure("point_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold. Squares: cases "
-                   "that `quasi_newton` solves without a sweep.")])
+            Figure("point_hard_cases_gates", "Every gate of every case, measured over its bound. Crossed: the gate fails; those cases "
+                   "are named."),
+            Figure("point_hard_cases_frontier", "The share of cases in which all gates hold, over the step and over the sweeps of an outer "
+                   "iteration. `quasi_newton` solves some without a sweep.")])
     gates, frontier = results.table("point_hard_cases", "gates"), results.table("point_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))

@@ -29,10 +29,10 @@ TEST_CASE("probes of momentum and of a body's point are those of the formulas") 
   pbd::add_node(file.scene, {1, 0, 0}, 2, {0, 3, 0});
   const Eigen::Quaterniond quarter(Eigen::AngleAxisd(std::acos(0.0), pbd::Vec3::UnitZ()));
   const int body = pbd::add_body(file.scene, {0, 0, 7}, 1, {1, 1, 3}, quarter, {0, 0, 4}, {0, 0, 5});
-  file.probes = {{.kind = "momentum"},
-                 {.kind = "position", .body = body, .point = {1, 0, 0}},
-                 {.kind = "velocity", .body = body, .point = {1, 0, 0}},
-                 {.kind = "angular_velocity", .body = body}};
+  file.probes = {{.kind = "momentum", .name = ""},
+                 {.kind = "position", .name = "", .body = body, .point = {1, 0, 0}},
+                 {.kind = "velocity", .name = "", .body = body, .point = {1, 0, 0}},
+                 {.kind = "angular_velocity", .name = "", .body = body}};
   const std::vector<double> expected{0, 6, 4, 0, 0, 6 + 15, 0, 1, 7, -5, 0, 4, 0, 0, 5};
   const auto found = probed(file);
   REQUIRE(found.size() == expected.size());
@@ -74,4 +74,14 @@ TEST_CASE("the gate of claims asks for what the status says") {
   CHECK(claims->measured == Approx(judged.residual / allowed).epsilon(1e-12));
   CHECK(claims->measured > 0);
   CHECK(claims->bound == 1);
+}
+
+// Implicit Euler takes energy from what moves: what a step has is less than it began with and was given.
+TEST_CASE("the gate of energy tells a gain, and a loss as none") {
+  HardCase each{"chain", chain(4), 0.01, 1};
+  const auto simulated = simulate(each, pbd::Method{}, each.h, {20, 20, 1});
+  const auto energy = std::find_if(simulated.gates.begin(), simulated.gates.end(),
+                                   [](const Gate& gate) { return gate.name == "energy"; });
+  REQUIRE(energy != simulated.gates.end());
+  CHECK(energy->measured < 0);
 }

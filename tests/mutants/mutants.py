@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build/mutants"
 TREE = WORK / "tree"
 BUILD = TREE / "build/release"
+BUILT = set()  # targets, of the copy as it is
 LEAST_CAUGHT = 0.95
 LONGEST_S = 1800  # of a check that has not been timed: all tests on a busy machine
 
@@ -62,7 +63,7 @@ class NoAnswer(Exception):
 
 
 def read_faults(path=Path(__file__).with_name("faults.toml")):
-    return [Fault(**fault) for fault in tomllib.loads(path.read_text())["fault"]]
+    return [Fault(**fault) for fault in tomllib.loads(path.read_text(encoding="utf-8"))["fault"]]
 
 
 def apply(fault, text):
@@ -73,7 +74,7 @@ def apply(fault, text):
 
 
 def commands_of(check):
-    """What is to be built (None: nothing) and run for a check."""
+    """What is to be built ('': nothing) and run for a check."""
     folder, _, rest = check.partition(": ")
     if check == "ctest":
         return "all", ["ctest", "--test-dir", str(BUILD), "--stop-on-failure"]
@@ -86,21 +87,23 @@ def commands_of(check):
     folder, _, rest = check.partition("/")
     pattern, _, method = rest.partition(" ")
     select = ["-k", method] if method else []
-    return None, [sys.executable, "-m", "unittest", "discover", "--start-directory", folder, "-p", pattern, *select]
+    return "", [sys.executable, "-m", "unittest", "discover", "--start-directory", folder, "-p", pattern, *select]
 
 
 def build(target):
     """False if the tree does not compile."""
-    if target is None:
-        return True
-    command = ["cmake", "--build", str(BUILD), "-j", "1", "--target", target]
-    return subprocess.run(command, cwd=TREE, capture_output=True, check=False).returncode == 0
+    if target not in BUILT:
+        command = ["cmake", "--build", str(BUILD), "-j", "1", "--target", target]
+        if subprocess.run(command, cwd=TREE, capture_output=True, check=False).returncode != 0:
+            return False
+        BUILT.add(target)
+    return True
 
 
 def passes(check, longest_s=LONGEST_S):
     """True, False, or "too long"; raises NoAnswer if nothing was built or nothing is of the check's name."""
     target, command = commands_of(check)
-    if not build(target):
+    if target and not build(target):
         raise NoAnswer(f"does not compile: {target}")
     try:
         run = subprocess.run(command, cwd=TREE, capture_output=True, text=True, timeout=longest_s, check=False)
@@ -112,21 +115,23 @@ def passes(check, longest_s=LONGEST_S):
     return run.returncode == 0
 
 
-def judge(fault, checks, longest_s):
-    """The check that catches the fault, or None. The copy is as it was afterwards."""
+def put(source, text):
+    source.write_text(text, encoding="utf-8")
+    BUILT.clear()
+
+
+def judge(fault, check, longest_s):
+    """The check if it catches the fault, else ''. The copy is as it was afterwards."""
     source = TREE / fault.file
-    text = source.read_text()
+    text = source.read_text(encoding="utf-8")
     try:
-        source.write_text(apply(fault, text))
-        for check in checks:
-            found = passes(check, longest_s.get(check, LONGEST_S))
-            if found == "too long" and not fault.hangs:
-                raise NoAnswer(f"no answer in {longest_s.get(check, LONGEST_S):.0f} s: {check}")
-            if found is not True:
-                return check + (" (does not end)" if found == "too long" else "")
-        return None
+        put(source, apply(fault, text))
+        found = passes(check, longest_s)
     finally:
-        source.write_text(text)
+        put(source, text)
+    if found == "too long" and not fault.hangs:
+        raise NoAnswer(f"no answer in {longest_s:.0f} s: {check}")
+    return "" if found is True else check + (" (does not end)" if found == "too long" else "")
 
 
 def copy_tree():
@@ -159,6 +164,11 @@ def read_results(path):
         return {row["name"]: Result(**row) for row in csv.DictReader(file)}
 
 
+def is_done(fault, results):
+    done = results.get(fault.name)
+    return done is not None and done.digest == fault.digest() and done.result != "error"
+
+
 def write_results(path, results):
     partial = path.with_suffix(".part")
     with partial.open("w", newline="") as file:
@@ -168,20 +178,34 @@ def write_results(path, results):
     partial.replace(path)
 
 
-def examine(fault, tree, longest_s):
-    """The result of one fault. Its named check is run without it first: one that fails then catches nothing."""
-    start = time.monotonic()
+class Limits(dict):
+    """How long each check may take with a fault, s; a check is run without any first: one that fails then catches nothing."""
+
+    def __missing__(self, check):
+        begun = time.monotonic()
+        try:
+            self[check] = None if passes(check) is True else NoAnswer(f"fails without the fault: {check}")
+        except NoAnswer as reason:
+            self[check] = reason
+        if self[check] is None:
+            self[check] = 60 + 10 * (time.monotonic() - begun)
+        return self[check]
+
+    def of(self, check):
+        if isinstance(self[check], NoAnswer):
+            raise self[check]
+        return self[check]
+
+
+def examine(fault, tree, limits):
+    """The result of one fault."""
+    start, result, check = time.monotonic(), "survived", ""
     try:
-        for check in [fault.check, *fault.rest()]:
-            if check not in longest_s:
-                begun = time.monotonic()
-                if passes(check) is not True:
-                    raise NoAnswer(f"fails without the fault: {check}")
-                longest_s[check] = 60 + 10 * (time.monotonic() - begun)
-            caught = judge(fault, [check], longest_s)
-            if caught:
+        for asked in [fault.check, *fault.rest()]:
+            found = judge(fault, asked, limits.of(asked))
+            if found:
+                result, check = "caught", found
                 break
-        result, check = ("caught", caught) if caught else ("survived", "")
     except NoAnswer as reason:
         result, check = "error", str(reason)
     return Result(fault.name, fault.digest(), tree, result, check, f"{time.monotonic() - start:.0f}")
@@ -208,14 +232,14 @@ def main():
         parser.error(f"--only {only}: no such fault in faults.toml")
     WORK.mkdir(parents=True, exist_ok=True)
     tree, path = copy_tree(), WORK / "results.csv"
-    results, longest_s = read_results(path), {}
-    for number, fault in enumerate(faults, 1):
-        done = results.get(fault.name)
-        if done and done.digest == fault.digest() and done.result != "error":
-            continue
-        results[fault.name] = examine(fault, tree, longest_s)
+    results, limits = read_results(path), Limits()
+    left = [fault for fault in faults if not is_done(fault, results)]
+    for check in sorted({fault.check for fault in left}):  # all of them at once: the tree is built once
+        print(f"without a fault: {check}: {limits[check] if isinstance(limits[check], NoAnswer) else 'passes'}", flush=True)
+    for number, fault in enumerate(left, 1):
+        results[fault.name] = examine(fault, tree, limits)
         write_results(path, results)
-        print(f"{number}/{len(faults)} {fault.name}: {results[fault.name].result} {results[fault.name].check}", flush=True)
+        print(f"{number}/{len(left)} {fault.name}: {results[fault.name].result} {results[fault.name].check}", flush=True)
     return print_table(faults, results, tree)
 
 

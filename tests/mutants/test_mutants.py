@@ -58,7 +58,7 @@ class Tool(unittest.TestCase):
                 raise answer
             return answer
         with mock.patch.object(mutants, "passes", passes):
-            result = examine(fault, "tree", {})
+            result = examine(fault, "tree", mutants.Limits())
         self.assertEqual((self.tree / "sum.cpp").read_text(encoding="utf-8"), "a + b")
         return result.result, result.check
 

@@ -57,7 +57,8 @@ TEST_CASE("conjugate gradients begin anew where a limit holds or lets go") {
   const auto held = [&](const Points& v) {
     std::vector<bool> found;
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const auto change = -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
+      const RowBlock<1, 2>::Value change =
+          -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
       found.push_back(block.impulse[i][0] <= 0 && change[0] < 0);
     }
     return found;

@@ -1,4 +1,5 @@
 // What holds at a step's end, solved or not.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "scenes.h"

@@ -1,7 +1,9 @@
 // What probes and checks of steps tell, against formulas.
 #include "harness/probes.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "harness/step_checks.h"
 #include "residual.h"

@@ -19,7 +19,7 @@ export OPENBLAS_NUM_THREADS := 1
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 export CTEST_PARALLEL_LEVEL := $(JOBS)
 
-.PHONY: help deps configure build test verify test-plots test-report reproduce plots report first-figure asan debug format format-check tidy bench clean
+.PHONY: help deps configure build test verify test-plots test-report mutants reproduce plots report first-figure asan debug format format-check tidy bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
@@ -40,10 +40,16 @@ test: build ## build, then run all tests
 verify: build ## measure the solver against known answers and baselines
 	$(PBDCHECK) verify --only '$(ONLY)' --tier $(TIER) --threads $(JOBS) -o $(RESULTS)
 
-test-plots: ## run the tests of the plots and the report
+test-plots: ## run the tests of the plots, the report and the planted faults
 	@$(INSTALL) plots
 	$(PYTHON) -m unittest discover --start-directory plots
 	$(PYTHON) -m unittest discover --start-directory paper
+	$(PYTHON) -m unittest discover --start-directory tests/mutants
+
+# Works on a copy in build/mutants; goes on where it was interrupted.
+mutants: deps ## plant faults one at a time and name the test that catches each (hours)
+	@$(INSTALL) plots paper
+	$(PYTHON) tests/mutants/mutants.py
 
 # Without a report in RESULTS, one of made-up results is tested. test-plots runs this test, too, where a browser is installed.
 test-report: ## test the report's page in a browser, without a window

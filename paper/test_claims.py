@@ -1,5 +1,6 @@
 """Tests of the claims and the answers: each says what the data say, whichever way."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -9,8 +10,9 @@ import pandas as pd
 
 import answers
 import claims
-from claims.claim import REFUTED, SUPPORTED, UNTESTED, find, worst
+from claims.claim import REFUTED, SUPPORTED, UNTESTED, find, judge, worst
 from results import Results
+from sections.cost import LEVELS
 
 import sample
 from reading import SETTINGS
@@ -194,6 +196,10 @@ class Claims(unittest.TestCase):
         self.assertEqual(worst_of((9.0, 1.0), (1.0, 0.0)), [1.0, 0.0])
         self.assertTrue(np.isnan(worst_of((9.0, 1.0), (np.nan, 1.0))[0]))
 
+    def test_a_claim_that_holds_in_part_has_its_condition(self):
+        self.assertEqual([judge(True, True, "h"), judge(False, True, "h"), judge(False, False, "h")],
+                         [SUPPORTED, f"{SUPPORTED} under h", REFUTED])
+
     def test_rows_of_another_method_are_not_tested(self):
         claim = claims.CLAIMS[0]
         self.assertEqual(self.found(claim, {"map": lambda frame: frame.assign(outer="auto")}),
@@ -247,6 +253,26 @@ class Answers(unittest.TestCase):
         self.assertIn("In none of", after[0])
         self.assertIn("0 of", after[1])
         self.assertIn("fails", after[2])
+
+    def test_a_case_passes_by_all_of_its_gates_that_were_asked(self):
+        def cases_told(change):
+            return int(re.search(r"(\d+) of \d+ hard cases", self.told({"gates": change})[1])[1])
+
+        def marked(first, rest):
+            def change(frame):
+                place = frame.groupby(["scene", "relaxation"]).cumcount()
+                return frame.assign(status=np.where(place == 0, first[0], rest[0]), holds=np.where(place == 0, first[1], rest[1]))
+            return change
+        every = cases_told(marked(("ok", 1.0), ("ok", 1.0)))
+        self.assertGreater(every, 0)
+        self.assertEqual(cases_told(marked(("ok", 0.0), ("ok", 1.0))), 0)
+        self.assertEqual(cases_told(marked(("skipped", 0.0), ("ok", 1.0))), every)
+
+    def test_accuracy_costs_the_time_of_the_tightest_over_the_loosest(self):
+        def points(frame):
+            rows = frame[~frame["outer"].isin(["judge", "rival"])].iloc[[0, 0]]
+            return rows.assign(outer="plain", status="ok", wall_s=[1.0, 7.0], error=[0.9 * LEVELS[0], 0.9 * LEVELS[-1]])
+        self.assertIn("takes 7 times as long", self.told({"points": points})[0])
 
 
 def sample_figures():

@@ -14,7 +14,7 @@ from unittest import mock
 
 import report
 import sections
-from failed import cause, failures, stripped
+from failed import cause, failed_section, failures, stripped
 from reading import InputError
 from results import Results
 
@@ -121,6 +121,9 @@ class Report(unittest.TestCase):
         self.change_run("judges", verdicts={"holds": 2, "fails": 0})
         with self.assertRaisesRegex(InputError, "judges/run.json: key 'verdicts': got holds = 2; allowed: 1"):
             self.html()
+        self.change_run("judges", verdicts={"holds": 1, "fails": 0})
+        with self.assertRaisesRegex(InputError, "judges/run.json: key 'verdicts': got fails = 0; allowed: 1"):
+            self.html()
 
     def test_special_characters_everywhere(self):
         sample.write_all(self.directory)
@@ -183,6 +186,20 @@ class Report(unittest.TestCase):
                      [("plain", 1.0, "diverged", f"far by {k}.5e-3") for k in range(3)] + [("plain", 1.0, "ok", ""), ("auto", 1.0, "ok", "")])
         sample.write_run(self.directory, "a")
         self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`diverged`", "far by #", "3 of 5", ["`plain` 3 of 4"]]])
+
+    def test_skipped_solves_are_counted(self):
+        sample.write(self.directory, "a", "t", "outer error status reason",
+                     [("plain", 1.0, "ok", ""), ("plain", float("nan"), "skipped", "too large")])
+        sample.write_run(self.directory, "a")
+        self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`skipped`", "too large", "1 of 2", ["`plain` 1 of 2"]]])
+
+    def test_a_verdict_on_nan_fails(self):
+        sample.write(self.directory, "a", "verdicts", "id statement quantity measured bound verdict",
+                     [("a.b", "It works", "share", float("nan"), 2.0, "fails"), ("a.c", "It works", "share", 1.0, 2.0, "holds")])
+        sample.write_run(self.directory, "a", holds=1, fails=1)
+        section = failed_section(Results(self.directory), ["a"])
+        self.assertIn("1 of 2 verdicts hold. These do not:", section.paragraphs)
+        self.assertEqual([row[0] for row in section.tables[0].rows], ["`a.b`"])
 
     def test_names_with_digits_stay(self):
         self.assertEqual(stripped("node 4 of chain20 fell 1e-3 m in 20 steps"), "node # of chain20 fell # m in # steps")

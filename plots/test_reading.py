@@ -161,6 +161,15 @@ class Failures(unittest.TestCase):
             self.assertEqual([(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses], [place])
             common.plt.close(figure)
 
+    def test_a_cost_ratio_is_auto_s_work_over_plain_s(self):
+        frame = reading.pd.DataFrame([("plain", 10.0, 1.0, "ok"), ("auto", 30.0, 1.0, "ok"), ("auto", 0.0, 5.0, "ok"), ("auto", 30.0, 1.0, "diverged")],
+                                     columns=["outer", "row_updates", "wall_s", "status"])
+        for key in ("scene", "parameter", "value", "step_s", "measured_rate", "relaxation"):
+            frame[key] = 1.0
+        found = selecting.cost_ratios(frame)
+        self.assertEqual(found["ratio"].tolist()[:2], [3.0, 5.0])  # of updates; of times where there are none
+        self.assertTrue(math.isnan(found["ratio"][2]))
+
     def test_scenes_read_with_short_numbers(self):
         for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
                             ("chain20 tip x100", "chain20 tip x100")):

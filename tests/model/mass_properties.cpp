@@ -95,3 +95,19 @@ TEST_CASE("principal axes rebuild the inertia, and stay where it is diagonal") {
   CHECK(r.determinant() == Approx(1));
   CHECK(principal_inertia(Vec3(3, 1, 2).asDiagonal()).moments == Vec3(3, 1, 2));
 }
+
+TEST_CASE("a pyramid, whose nodes' mean is not its centre") {
+  // Of base a and height h: h/4 above its base; m a^2/10 about its axis, m (a^2/20 + 3 h^2/80) across it.
+  constexpr double a = 2, h = 3, density = 5;
+  TriangleMesh surface;
+  surface.x.resize(3, 5);
+  surface.x << 0, a, a, 0, a / 2, 0, 0, a, a, a / 2, 0, 0, 0, 0, h;
+  surface.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  const MassProperties found = surface_properties(surface, density);
+  const double mass = density * a * a * h / 3, across = mass * (a * a / 20 + 3 * h * h / 80);
+  CHECK(found.mass == Approx(mass).epsilon(1e-14));
+  CHECK((found.centre - Vec3(a / 2, a / 2, h / 4)).norm() < 1e-14 * h);
+  const Vec3 moments(across, across, mass * a * a / 10);
+  CHECK((found.inertia - Eigen::Matrix3d(moments.asDiagonal())).cwiseAbs().maxCoeff() <
+        1e-13 * moments.sum());
+}

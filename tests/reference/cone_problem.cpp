@@ -139,6 +139,8 @@ TEST_CASE("one contact by the law box: each tangent has a bound of its own") {
     CHECK(measure_cone(problem, FrictionLaw::box, exact + 1e-3 * Vector3d::Unit(axis)).natural_residual >
           1e-4 / free.norm());
   CHECK(measure_cone(problem, FrictionLaw::coulomb, exact).natural_residual > 1e-3);
+  const ConeProblem both = contact(Vector3d(2, 1, 0.8).asDiagonal(), Vector3d(-1, 3, -4), 0.5);
+  CHECK(measure_cone(both, FrictionLaw::box, Vector3d(0.5, -0.25, 0.25)).residual() < 1e-15);  // both slide
 }
 
 TEST_CASE("one contact that separates: nothing by Coulomb's law, an impulse by the cone's if it slips fast") {
@@ -210,4 +212,13 @@ TEST_CASE("no impulse holds a contact that nothing moves") {
       CHECK(found.outcome == Outcome::not_converged);
       CHECK_FALSE(found.reason.empty());
     }
+}
+
+TEST_CASE("impulses so large that rounding hides the velocity are not certified") {
+  const ConeProblem fixed = contact(Matrix3d::Zero(), Vector3d(-1, 0, 0), 0.5);
+  ConeSolution large;
+  large.impulse = Vector3d(1e17, 0, 0);  // 1e17 + 1 is 1e17
+  certify(fixed, FrictionLaw::coulomb, 1e-8, large);
+  CHECK(large.measures.residual() <= 1e-8);
+  CHECK(large.outcome == Outcome::not_converged);
 }

@@ -1,4 +1,4 @@
-#include "outer/anderson.h"
+#include "outer/acceleration.h"
 
 #include <catch2/catch.hpp>
 
@@ -88,4 +88,31 @@ TEST_CASE("a rejected acceleration leaves the image") {
   CHECK(v == image);
   anderson.begin(rows, v);
   CHECK_FALSE(anderson.accelerate(rows.inverse_mass, rows, v));  // nothing is left to combine
+}
+
+TEST_CASE("an acceleration after which the residual is more than ten times as large is taken back") {
+  for (const double growth : {9.9, 10.1}) {
+    Scene scene;
+    add_node(scene, Vec3::Zero(), 1);
+    const Method method;
+    StepSystem system(scene, method);
+    system.problem.inverse_mass = system.rows.inverse_mass = {1};
+    Points& v = system.at.v;
+    v = Points::Ones(3, 1);
+    Points image = v;
+    Acceleration acceleration(5);
+    Progress progress;
+    progress.primal = 1;
+    for (int k = 0; k < 3; ++k) {
+      CHECK_FALSE(acceleration.refuted(system, progress));
+      acceleration.note(system);
+      v = Vec3(0.5, -2, 3).cwiseProduct(Vec3(v.col(0)));
+      image = v;
+      acceleration.accelerate(system);
+    }
+    REQUIRE(v != image);
+    progress.primal = growth;
+    CHECK(acceleration.refuted(system, progress) == (growth > 10));
+    CHECK((v == image) == (growth > 10));
+  }
 }

@@ -48,6 +48,46 @@ TEST_CASE("conjugate gradients end after as many sweeps as a chain has links, wh
   CHECK(error.back() < bound);
 }
 
+// Where limits begin to hold or let go, earlier directions say nothing: a solver that has swept does what a
+// fresh one does, bit for bit.
+TEST_CASE("conjugate gradients begin anew where a limit holds or lets go") {
+  Planted problem(chain(12, 5));
+  auto& block = std::get<RowBlock<1, 2>>(problem.rows.blocks.at(0));
+  block.bounds.assign(block.size(), {});  // ropes that only push: half of the planted impulses are none
+  const auto held = [&](const Points& v) {
+    std::vector<bool> found;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const RowBlock<1, 2>::Value change =
+          -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
+      found.push_back(block.impulse[i][0] <= 0 && change[0] < 0);
+    }
+    return found;
+  };
+  ConjugateGradients used;
+  Points v = problem.v_free;
+  used.begin(problem.rows, v, true);
+  std::vector<bool> last(block.size(), false);
+  int changed = 0, gone_on = 0;
+  for (int k = 0; k < 60; ++k) {
+    const std::vector<bool> now = held(v);
+    Planted copy = problem;
+    Points fresh_v = v;
+    ConjugateGradients fresh;
+    fresh.begin(copy.rows, fresh_v, true);
+    fresh.sweep(copy.rows, fresh_v, nullptr);
+    used.sweep(problem.rows, v, nullptr);
+    if (k > 0 && now != last) {
+      ++changed;
+      CHECK(v == fresh_v);
+    } else {
+      gone_on += v != fresh_v;
+    }
+    last = now;
+  }
+  CHECK(changed > 1);
+  CHECK(gone_on > 1);
+}
+
 TEST_CASE("direct solves doubled constraints and gives equal motion") {
   Scene doubled = chain(8);
   doubled.effects.push_back(doubled.effects.back());

@@ -1,0 +1,78 @@
+// What takes part in contact: all that meets within a step, by turning, falling or coming both ways, and
+// nothing that only passes.
+#include "contact_runs.h"
+#include "mesh.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using pbdcheck::BodyScene;
+
+TEST_CASE("what turns in place meets what only its turning reaches") {
+  // A plank of 1 m turns by 0.1 rad in the step: its end goes 45 mm sideways, to a ball 10 mm beside it.
+  constexpr double h = 0.05, half_width = 0.05, radius = 0.05;
+  BodyScene build({.friction = 0}, 0);
+  build.box({1, 2 * half_width, 0.1}, 1, {.position = {0, 0, 0}, .spin = {0, 0, 2}});
+  build.ball(radius, 1, {.position = {0.45, half_width + radius + 0.01, 0}});
+  const State end = run(build.finish(), contact_method("direct"), h, 1);
+  const Vec3 own = end.orientation[0].conjugate() * Vec3(end.x.col(1) - end.x.col(0));
+  CHECK(end.v(1, 1) > 0);
+  CHECK(own.y() >= half_width + radius - 1e-9);
+}
+
+TEST_CASE("a node that falls far within a step is stopped at the ground") {
+  constexpr double radius = 0.01, h = 0.01;
+  BodyScene build({.friction = 0}, 0);
+  build.ground();
+  Scene scene = build.finish();
+  const int node = add_node(scene, Vec3(0, 0, 0.5), 1, Vec3(0, 0, -100));  // 1 m a step
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.node = {node};
+  contact.radius = {radius};
+  contact.node_material = {0};
+  const State end = run(scene, contact_method("direct"), h, 1);
+  CHECK(std::abs(end.x(2, node) - radius) <= 1e-9);
+}
+
+TEST_CASE("what passes within reach and meets nothing is not thrown back") {
+  // A ball flies 0.1 m a step along the ground, 50 mm above it, and comes down by 1 mm of them.
+  const Vec3 velocity(10, 0, -0.1);
+  BodyScene build({.friction = 0, .restitution = 0.5}, 0);
+  build.ground();
+  build.ball(0.1, 1, {.position = {0, 0, 0.15}, .velocity = velocity});
+  const Scene scene = build.finish();
+  Workspace workspace(scene, contact_method("direct"));
+  const State end = run(scene, contact_method("direct"), 0.01, 1, workspace);
+  CHECK(workspace.contacts().size() == 1);  // it is within reach
+  CHECK((end.v.col(1) - velocity).norm() <= 1e-12 * velocity.norm());
+}
+
+TEST_CASE("sheets that approach each other do not pass through each other") {
+  // A triangle that stands on its corner and a level one, 50 mm apart, each of which comes 30 mm a step.
+  constexpr double thickness = 2e-3, apart = 0.05, speed = 3, h = 0.01;
+  Scene scene;
+  Contact contact;
+  Distance links;
+  const auto triangle = [&](const Eigen::Matrix3d& x, double up) {
+    const int first = scene.nodes();
+    for (int k = 0; k < 3; ++k) add_node(scene, x.col(k), 1, Vec3(0, 0, up));
+    contact.triangle.push_back({first, first + 1, first + 2});
+    for (const auto& [a, b] : {std::array{0, 1}, std::array{1, 2}, std::array{0, 2}}) {
+      links.node.push_back({first + a, first + b});
+      links.rest_length.push_back((x.col(a) - x.col(b)).norm());
+      links.compliance.push_back(0);
+    }
+  };
+  Eigen::Matrix3d level, standing;
+  level << -1, 1, 0, -1, -1, 1, 0, 0, 0;
+  standing << 0, 0.1, 0, 0, 0, 0.1, thickness + apart, 1, 1;
+  triangle(level, speed);
+  triangle(standing, -speed);
+  contact.thickness = thickness;
+  contact.law[0].friction = 0;
+  scene.effects = {links, contact};
+  const State end = run(scene, contact_method("direct"), h, 1);
+  const Vec3 a = end.x.col(0), b = end.x.col(1), c = end.x.col(2);
+  const double gap = (b - a).cross(c - a).normalized().dot(Vec3(end.x.col(3)) - a);
+  CHECK(gap >= thickness - 1e-9);
+}

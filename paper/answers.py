@@ -89,11 +89,11 @@ def effects_told(verdicts):
     found = verdicts.set_index("id")
     def measured(name):
         return found["measured"].get(name, float("nan"))
-    free = found["verdict"].get("effects.empty.free", "not measured")
+    free = found["verdict"].get("effects.empty.free", "not measured").replace("_", " ")
     bound = found["bound"].get("effects.empty.free", float("nan"))
     change = number(100 * measured("effects.empty.free"))
     return (f"{change} %", "is what effects that are present and empty change of the time",
             f"Effects that are present and empty change {number(measured('effects.empty.bitwise'))} numbers of the result, and the time by "
             f"{change} % (at most {number(100 * bound)} % is asked for: {free}); contacts without friction take {number(100 * measured('effects.frictionless.cheaper'))} "
-            f"% of the time of those with it, and a solid's strain that is removed takes "
-            f"{number(100 * (1 - measured('effects.removed.cheaper')))} % of its own time with it. See [#effects_cost].")
+            f"% of the time of those with it, and a scene without its solid's strain {number(100 * measured('effects.removed.cheaper'))} % of "
+            "that with it. See [#effects_cost].")

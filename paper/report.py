@@ -20,6 +20,7 @@ from command import command, replacing
 from content import places
 from failed import failed_section, verdicts_section
 from glossary import glossary_section
+from history import history_section
 from marks import BIBLIOGRAPHY, plain, references, to_html, to_latex
 from reading import InputError
 from results import Results
@@ -50,7 +51,7 @@ def compose(results):
             figure.detail = number > 0 and figure.name not in cited
         for table in section.tables:
             table.detail = len(table.rows) > LONGEST
-    body = [claims_section(found), failed_section(results, names), glossary_section(), *studies,
+    body = [claims_section(found), failed_section(results, names), history_section(results, names), glossary_section(), *studies,
             verdicts_section(results, names), provenance.provenance_section(results, names)]
     return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), body)
 

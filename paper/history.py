@@ -11,6 +11,7 @@ MACHINE = ("tier", "processor", "threads")  # runs that differ in these are not 
 PROGRAM = ("commit", "changes")
 LINE = {"date": str, "commit": str, "tier": str, "processor": str, "threads": int, "experiments": dict}
 ENTRY = {"status": str, "run_s": (int, float), "work": dict, "verdicts": list}
+SHOWN = 12  # numbers that stand in the PDF, too
 MOVED = 1.01  # a number that grows or shrinks by less is not shown
 
 
@@ -130,9 +131,11 @@ def history_section(results, experiments):
         f"{100 * (MOVED - 1):.0f} %.")
     if turns:
         section.tables.append(Table("Verdicts that turned.", ["verdict", "was", "is", "see"], turns))
-    if moves:
-        section.tables.append(Table("Numbers over their bounds, the largest changes first.", ["verdict", "was", "is", "factor", "see"],
-                                    [row for _, row in moves]))
+    header, rows = ["verdict", "was", "is", "factor", "see"], [row for _, row in moves]
+    if rows:
+        section.tables.append(Table("Numbers over their bounds, the largest changes first.", header, rows[:SHOWN]))
+    if len(rows) > SHOWN:
+        section.tables.append(Table("Numbers over their bounds, all that changed.", header, rows, detail=True))
     section.tables.append(Table(
         "Work and time beside the earlier run: 1 is no change.",
         ["see", "outer iterations, factor", "sweeps, factor", "row updates, factor", "run (s)", "run, factor"],

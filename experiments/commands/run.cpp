@@ -1,4 +1,3 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -147,10 +146,9 @@ int run_one(const Experiment& experiment, const RunOptions& options, nlohmann::o
 }
 
 nlohmann::ordered_json history_line(const RunOptions& options, const nlohmann::ordered_json& experiments) {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   const auto by = run_record(options.threads, RunOutcome::complete, "");
-  nlohmann::ordered_json line{{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))}, {"tier", options.tier}};
-  for (const auto* key : {"commit", "dirty", "changes", "processor", "threads"}) line[key] = by[key];
+  nlohmann::ordered_json line{{"tier", options.tier}};
+  for (const auto* key : {"date", "commit", "dirty", "changes", "processor", "threads"}) line[key] = by[key];
   line["experiments"] = experiments;
   return line;
 }

@@ -211,9 +211,9 @@ int simulate(const SimulateOptions& options) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   output.close();
-  TableTotals totals = output.totals();
+  TableTotals tables = output.totals();
   if (checks) {
-    write_checks(options.directory / "checks.csv", *checks, totals);
+    write_checks(options.directory / "checks.csv", *checks, tables);
     if (outcome == RunOutcome::complete && checks->refuted_steps() > 0) {
       outcome = RunOutcome::refuted;
       reason = checks->text();
@@ -223,7 +223,7 @@ int simulate(const SimulateOptions& options) {
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
-  json["rows"] = totals.rows;
+  json["rows"] = tables.rows;
   json["report"] = report_json(totals, workspace);
   if (checks) json["checks"] = checks_json(*checks);
   record.write(json_text(json));

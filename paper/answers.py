@@ -112,11 +112,11 @@ def effects_told(verdicts):
     found = verdicts.set_index("id")
     def measured(name):
         return found["measured"].get(name, float("nan"))
-    free = found["verdict"].get("effects.empty.free", "not measured")
+    free = found["verdict"].get("effects.empty.free", "not measured").replace("_", " ")
     bound = found["bound"].get("effects.empty.free", float("nan"))
     change = number(100 * measured("effects.empty.free"))
     return (f"{change} %", "change of the time by effects that nothing in the scene uses",
             f"Effects that are switched on and that nothing uses change {number(measured('effects.empty.bitwise'))} numbers of the result. They change "
-            f"the time by {change} %; the bound is {number(100 * bound)} % ({free}). Contacts without friction take "
-            f"{number(100 * measured('effects.frictionless.cheaper'))} % of the time of contacts with it. Removing a solid's strain saves "
-            f"{number(100 * (1 - measured('effects.removed.cheaper')))} % of the time that was measured for the strain itself. See [#effects_cost].")
+            f"the time by {change} %; the goal is {number(100 * bound)} % ({free}). Contacts without friction take "
+            f"{number(100 * measured('effects.frictionless.cheaper'))} % of the time of contacts with it. A scene without its solid's strain takes "
+            f"{number(100 * measured('effects.removed.cheaper'))} % of the time of the scene with it. See [#effects_cost].")

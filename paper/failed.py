@@ -5,7 +5,7 @@ import re
 import pandas as pd
 
 from content import Section, Table, compared, number, share
-from reading import VERDICTS
+from reading import CLASSES, VERDICTS
 from selecting import why
 from tables import SOLVES
 
@@ -14,6 +14,12 @@ METHOD = ("integrator", "outer", "relaxation", "method", "solver", "friction", "
 ALONE = ("outer", "relaxation")  # of it where a table has one method
 TIMED = ("effects.empty.free", "effects.removed", "effects.frictionless.cheaper", "effects.linear", "joints.linear", "rival.fine",
          "rival.coarse", "stability.auto_cost", "worlds.slowest")  # what these verdicts measure is a time
+MEANINGS = {
+    "code": "our solver against code that shares nothing with it",
+    "theory": "a number, and how far the solver may be from it, that are derived",
+    "paper": "a claim of the paper",
+    "robustness": "the solver ends well: no throw, no false claim, no state that blows up",
+    "goal": "a number that we chose; to miss it is no failure"}
 
 
 def all_verdicts(results, experiments):
@@ -60,7 +66,9 @@ def failures(results, experiments):
 
 
 def cause(results, verdict):
-    """Why a verdict fails, as far as the results tell."""
+    """Why a verdict does not hold, as far as the results tell."""
+    if verdict["verdict"] == "not_decided":
+        return f"{verdict['reason']}."
     times = f"{compared(verdict['measured'] / verdict['bound'], 1)[0]} times its bound" if verdict["bound"] > 0 else "above 0"
     if verdict["id"].startswith(TIMED):
         return f"A measured time, {times}. Other work on the machine slows it; `make bench` repeats the measurement with nothing else running."
@@ -71,15 +79,29 @@ def cause(results, verdict):
     return f"The number is {times}{told}."
 
 
+def classes_table(verdicts):
+    """How many verdicts of each class hold."""
+    counts = verdicts.groupby(["class", "verdict"]).size().unstack(fill_value=0).reindex(columns=VERDICTS, fill_value=0)
+    return Table("Verdicts by what they rest on.", ["class", "what it is", "verdicts", "hold", "fail", "missed", "not decided"], [
+        [name, MEANINGS[name], str(int(counts.loc[name].sum())), *(str(int(n)) for n in counts.loc[name])]
+        for name in CLASSES if name in counts.index])
+
+
 def failed_section(results, experiments):
     verdicts = all_verdicts(results, experiments)
     bad = verdicts[verdicts["verdict"] != VERDICTS[0]]
     section = Section("What failed", name="failed", paragraphs=[
-        f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" These do not:" if len(bad) else "")])
-    if len(bad):
-        section.tables.append(Table("Verdicts that fail.", ["verdict", "what it says", "measured against bound", "cause", "see"], [
-            [f"`{row['id']}`", f"{row['statement']} ({row['quantity']})", " against ".join(compared(row["measured"], row["bound"])),
-             cause(results, row), f"`{row['experiment']}`, [#{row['experiment']}]"] for _, row in bad.iterrows()]))
+        f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" Some do not, see the tables." if len(bad) else "")])
+    if len(verdicts):
+        section.tables.append(classes_table(verdicts))
+    for word, caption in (("fails", "Verdicts that fail."), ("missed", "Goals that are missed."),
+                          ("not_decided", "Times that are not decided: repeats lie on both sides of the bound.")):
+        rows = bad[bad["verdict"] == word]
+        if len(rows):
+            section.tables.append(Table(caption, ["verdict", "class", "what it says", "measured against bound", "cause", "see"], [
+                [f"`{row['id']}`", row["class"], f"{row['statement']} ({row['quantity']})",
+                 " against ".join(compared(row["measured"], row["bound"])), cause(results, row),
+                 f"`{row['experiment']}`, [#{row['experiment']}]"] for _, row in rows.iterrows()]))
     rows = failures(results, experiments)
     if not rows:
         section.paragraphs.append("No solve in any table has a status other than `ok`.")
@@ -106,8 +128,8 @@ def verdicts_section(results, experiments):
     """Every verdict, of all experiments."""
     verdicts = all_verdicts(results, experiments)
     return Section("All verdicts", name="verdicts", appendix=True, paragraphs=[
-        "A verdict holds if the measured number is at most its bound. The table is in `report.html`; each experiment has its own in "
+        "A verdict holds if the measured number is from 0 to its bound. The table is in `report.html`; each experiment has its own in "
         "`verdicts.csv`."], tables=[Table(
-            f"{len(verdicts)} verdicts.", ["experiment", "id", "statement", "quantity", "measured", "bound", "verdict"],
-            [[f"[#{row['experiment']}]", f"`{row['id']}`", row["statement"], row["quantity"], number(row["measured"]),
+            f"{len(verdicts)} verdicts.", ["experiment", "id", "class", "statement", "quantity", "measured", "bound", "verdict"],
+            [[f"[#{row['experiment']}]", f"`{row['id']}`", row["class"], row["statement"], row["quantity"], number(row["measured"]),
               number(row["bound"]), row["verdict"]] for _, row in verdicts.iterrows()], detail=True)])

@@ -57,8 +57,8 @@ def provenance_section(results, experiments):
     for name in experiments:
         shortfall = results.shortfall(name)
         run = {} if shortfall else results.run(name)
-        holds, fails = (run.get("verdicts", {}).get(word, 0) for word in ("holds", "fails"))
-        total = holds + fails
+        counts = run.get("verdicts", {})
+        holds, total = counts.get("holds", 0), sum(counts.values())
         rows.append([f"`{name}`", shortfall or COMPLETE, f"{holds} of {total} hold" if total else "", str(run.get("date", UNRECORDED)),
                      number(run["load"]) if "load" in run else UNRECORDED, number(run["wall_s"]) if run else ""])
     section.tables.append(Table("Experiments.", ["experiment", "run", "verdicts", "ended (UTC)", "load", "wall time (s)"], rows))

@@ -17,6 +17,7 @@ from command import command, replacing
 from content import places
 from failed import failed_section, verdicts_section
 from glossary import glossary_section
+from history import history_section
 from marks import BIBLIOGRAPHY, plain, references, to_latex
 from page import page
 from reading import InputError
@@ -50,7 +51,7 @@ def compose(results):
             figure.detail = number > 0 and figure.name not in cited
         for table in section.tables:
             table.detail = len(table.rows) > LONGEST
-    body = [claims_section(found), failed_section(results, names), glossary_section(), *studies,
+    body = [claims_section(found), failed_section(results, names), history_section(results, names), glossary_section(), *studies,
             verdicts_section(results, names), provenance.provenance_section(results, names)]
     for number, table in enumerate((table for section in body for table in section.tables), start=1):
         table.number = number

@@ -17,7 +17,9 @@ import sections
 from failed import cause, failed_section, failures, stripped
 from reading import InputError
 from results import Results
+from tables import VERDICTS
 
+import reading
 import sample
 from common import FIGURES
 import make  # noqa: F401  (registers the figures)
@@ -173,8 +175,7 @@ class Report(unittest.TestCase):
             self.assertEqual(self.html().count("<details><summary>"), sum(table.detail for section in body.sections for table in section.tables))
 
     def test_unknown_experiment_is_shown(self):
-        sample.write(self.directory, "brand_new", "verdicts", "id statement quantity measured bound verdict",
-                     [("n.1", "It <works>", "share", 1.0, 2.0, "holds")])
+        sample.write(self.directory, "brand_new", "verdicts", VERDICTS, [sample.verdict("n.1", "It <works>", "share", 1.0, 2.0)])
         sample.write_run(self.directory, "brand_new", holds=1)
         with mock.patch.object(report, "write_pdf"):
             text = self.html()
@@ -213,10 +214,34 @@ class Report(unittest.TestCase):
     def test_a_failed_verdict_has_a_cause(self):
         sample.write(self.directory, "a", "t", "error status reason", [(1.0, "diverged", "far by 3")] * 2)
         sample.write_run(self.directory, "a")
-        verdict = {"experiment": "a", "id": "a.b", "measured": 3.0, "bound": 2.0}
+        verdict = {"experiment": "a", "id": "a.b", "measured": 3.0, "bound": 2.0, "verdict": "fails"}
         self.assertEqual(cause(Results(self.directory), verdict),
                          "The number is 1.5 times its bound; most rows that are not ok say: diverged: far by #.")
         self.assertIn("A measured time, 1.5 times", cause(Results(self.directory), verdict | {"id": "effects.empty.free"}))
+
+    def told(self, *verdicts):
+        """The section of failures of an experiment with these verdicts: its sentences and its tables by their captions."""
+        sample.write(self.directory, "a", "verdicts", VERDICTS, verdicts)
+        sample.write_run(self.directory, "a")
+        self.change_run("a", verdicts={word: [row[8] for row in verdicts].count(word) for word in reading.VERDICTS})
+        section = failed_section(Results(self.directory), ["a"])
+        return section.paragraphs[0], {table.caption: table.rows for table in section.tables}
+
+    def test_what_does_not_hold_is_counted_by_class_and_told_by_kind(self):
+        said, tables = self.told(sample.verdict("a.1", "x", "y", 1.0, 2.0), sample.verdict("a.2", "x", "y", 3.0, 2.0, "theory"),
+                                 sample.verdict("a.3", "x", "y", 3.0, 2.0, "goal"), sample.verdict("a.4", "x", "y", 2.0, 2.0, spread=1.0))
+        self.assertTrue(said.startswith("1 of 4 verdicts hold."))
+        self.assertEqual([row[:1] + row[2:] for row in tables["Verdicts by what they rest on."]],
+                         [["code", "2", "1", "0", "0", "1"], ["theory", "1", "0", "1", "0", "0"], ["goal", "1", "0", "0", "1", "0"]])
+        self.assertEqual([row[0] for row in tables["Verdicts that fail."]], ["`a.2`"])
+        self.assertEqual([row[0] for row in tables["Goals that are missed."]], ["`a.3`"])
+        self.assertEqual([row[0] for caption, rows in tables.items() if "not decided" in caption for row in rows], ["`a.4`"])
+
+    def test_skipped_solves_are_counted(self):
+        sample.write(self.directory, "a", "t", "outer error status reason",
+                     [("plain", 1.0, "skipped", "too large"), ("plain", 1.0, "skipped", "too large"), ("plain", 1.0, "ok", "")])
+        sample.write_run(self.directory, "a")
+        self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`skipped`", "too large", "2 of 3", ["`plain` 2 of 3"]]])
 
     def test_no_folder(self):
         with self.assertRaises(InputError):

@@ -14,7 +14,8 @@ import pandas as pd
 CONTRACTING = ("converged", "converging")  # the error falls steadily
 BEHAVIOURS = (*CONTRACTING, "oscillating", "diverging")
 STATUSES = ("ok", "not_converged", "diverged", "skipped")
-VERDICTS = ("holds", "fails")
+VERDICTS = ("holds", "fails", "missed", "not_decided")  # missed: a goal
+CLASSES = ("code", "theory", "paper", "robustness", "goal")
 COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
@@ -24,7 +25,7 @@ RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": s
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"benchmark", "solver", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
         "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
-        "verdict", "method", "case", "name", "unit", "gate", "reference_status",
+        "verdict", "class", "method", "case", "name", "unit", "gate", "reference_status",
         "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law", "variant",
         "check", "what", "kind"}
 
@@ -57,14 +58,25 @@ def read_verdicts(path, columns):
     """A table of verdicts, each word of which is what the numbers beside it say."""
     frame = read_table(path, columns)
     _check_words(path, frame, "verdict", VERDICTS)
+    _check_words(path, frame, "class", CLASSES)
     for i, row in frame.iterrows():
         if not np.isfinite(row["bound"]):
             raise InputError(f"{path}: line {i + 2}: column 'bound': got {row['bound']}; allowed: a finite number")
-        truth = "holds" if row["measured"] <= row["bound"] else "fails"  # not a number never holds
+        truth = _ruling(row)
         if row["verdict"] != truth:
             raise InputError(f"{path}: line {i + 2}: column 'verdict': got '{row['verdict']}'; allowed: '{truth}', for "
                              f"measured = {row['measured']:.17g} and bound = {row['bound']:.17g}")
     return frame
+
+
+def _ruling(row):
+    """What a verdict's numbers say: a size within its bound holds, one that is not a number or negative never does."""
+    low, value, high, bound = (row[name] for name in ("measured_low", "measured", "measured_high", "bound"))
+    if 0 <= low <= value <= high <= bound:
+        return "holds"
+    if 0 <= low <= bound and low <= value <= high:
+        return "not_decided"
+    return "missed" if row["class"] == "goal" else "fails"
 
 
 def _read_cells(path):

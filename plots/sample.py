@@ -10,12 +10,13 @@ from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems, friction_cone
 from sample_contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
 from sample_cost import METHOD_COLUMNS, effects_cost, method_points, rival_newton, work_precision
-from sample_files import write, write_run
+from sample_files import verdict, write, write_run
 from sample_motion import damping, direction
 from sample_outer import contact_contraction, contraction, outer_convergence, stability_map
 from sample_robustness import generated_scenes, generated_worlds, point_hard_cases
 from sample_solvers import conditioning, dual_vs_primal, inexact, inner_convergence, mesh_refinement
 from sample_time import energy, time_order
+import tables
 
 def judges(directory):
     write(directory, "judges", "agreement", "scene nodes step_s reference_a reference_b difference residual_a "
@@ -34,9 +35,9 @@ CLAIMED = {  # ids of verdicts that the report's claims and answers read
     "cone_problems": ("cone_problems.ipopt", "cone_problems.velocity"), "time_order": ("time_order.spring.bdf2",),
     "mesh_refinement": ("mesh.mms.l2", "mesh.n1.solver"), "generated_worlds": ("worlds.refuted",),
     "effects_cost": ("effects.empty.free", "effects.empty.bitwise", "effects.removed.cheaper", "effects.frictionless.cheaper",
-                     "effects.linear.chain.gauss_seidel")}
-VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predicted rate", "relative difference", 0.01, 0.05, "holds"),
-            ("outer_convergence.all", "The plain iteration converges everywhere", "share not converged", 0.4, 0.0, "fails")]
+                     "effects.linear.chain")}
+VERDICTS = [verdict("outer_convergence.rate", "The fixed point contracts at the predicted rate", "relative difference", 0.01, 0.05),
+            verdict("outer_convergence.all", "The plain iteration converges everywhere", "share not converged", 0.4, 0.0)]
 
 
 def write_all(directory):
@@ -47,8 +48,8 @@ def write_all(directory):
                        effects_cost, point_hard_cases, generated_scenes, generated_worlds, judges):
         experiment(directory)
         name = experiment.__name__
-        claimed = [(verdict, "It does", "share", 0.01, 0.05, "holds") for verdict in CLAIMED.get(name, ())]
-        write(directory, name, "verdicts", "id statement quantity measured bound verdict", VERDICTS + claimed)
+        claimed = [verdict(claim, "It does", "share", 0.01, 0.05) for claim in CLAIMED.get(name, ())]
+        write(directory, name, "verdicts", tables.VERDICTS, VERDICTS + claimed)
         write_run(directory, name, holds=1 + len(claimed), fails=1)
     write(directory, ".", "compare", METHOD_COLUMNS.replace("tolerance ", "") + " method",
           [(*row, row[4] if row[3] == "judge" else f"outer={row[3]} relaxation={row[4]}") for row in method_points(False)])

@@ -16,10 +16,17 @@ def write(directory, experiment, table, columns, rows):
         writer.writerows([repr(float(c)) if isinstance(c, float) else c for c in row] for row in rows)
 
 
+def verdict(name, statement, quantity, measured, bound, basis="code", spread=0.0):
+    """A row of verdicts, with what its numbers say."""
+    low, high = measured - spread, measured + spread
+    word = "holds" if high <= bound else "not_decided" if low <= bound else "missed" if basis == "goal" else "fails"
+    return name, basis, statement, quantity, measured, low, high, bound, word, "" if word == "holds" else "as it is made up"
+
+
 def write_run(directory, experiment, holds=0, fails=0):
     """The run.json of a complete run."""
     run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
            "flags": "-O3 -march=native", "processor": "Made-up CPU", "date": "2026-01-02T03:04:05Z", "load": 1.5, "threads": 2, "seed": 1, "tier": "quick",
            "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5,
-           "verdicts": {"holds": holds, "fails": fails}, "status": "complete"}
+           "verdicts": {"holds": holds, "fails": fails, "missed": 0, "not_decided": 0}, "status": "complete"}
     (Path(directory) / experiment / "run.json").write_text(json.dumps(run), encoding="utf-8")

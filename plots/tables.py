@@ -121,7 +121,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("contact_hard_cases", "gates"): "scene relaxation",
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
-VERDICTS = "id statement quantity measured bound verdict"
+VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
 OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart")  # shown by the report, never a figure
 
 

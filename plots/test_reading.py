@@ -79,18 +79,32 @@ class Reading(unittest.TestCase):
         self.assert_refused("sweep\nnan\n", "line 2", "'sweep'", columns=["sweep"])
         self.assertEqual(self.read("sweep\n0\n", ["sweep"])["sweep"].tolist(), [0])
 
-    def verdicts(self, measured, bound, word):
-        self.path.write_text(f"measured,bound,verdict\n{measured},{bound},{word}\n", encoding="utf-8")
-        return reading.read_verdicts(self.path, ["measured", "bound", "verdict"])["verdict"].tolist()
+    def verdicts(self, measured, bound, word, basis="code", low=None, high=None):
+        low, high = (measured if end is None else end for end in (low, high))
+        self.path.write_text("class,measured_low,measured,measured_high,bound,verdict\n"
+                             f"{basis},{low},{measured},{high},{bound},{word}\n", encoding="utf-8")
+        return reading.read_verdicts(self.path, ["class", "bound", "verdict"])["verdict"].tolist()
 
     def test_verdicts_are_what_their_numbers_say(self):
-        for measured, bound, word in ((1, 1, "holds"), (2, 1, "fails"), ("nan", 1, "fails"), ("inf", 1, "fails"), ("", 1, "fails")):
+        for measured, bound, word in ((1, 1, "holds"), (2, 1, "fails"), ("nan", 1, "fails"), ("inf", 1, "fails"), ("", 1, "fails"),
+                                      (-1, 1, "fails")):
             self.assertEqual(self.verdicts(measured, bound, word), [word])
         for measured, bound, word, allowed in ((2, 1, "holds", "'fails'"), (1, 1, "fails", "'holds'"), ("nan", 1, "holds", "'fails'"),
+                                               (2, 1, "missed", "'fails'"), (2, 1, "not_decided", "'fails'"), (-1, 1, "holds", "'fails'"),
                                                (1, "nan", "fails", "a finite number"), (1, "inf", "holds", "a finite number"),
                                                (1, 2, "passes", "holds, fails"), (1, 2, "", "holds, fails")):
             with self.assertRaisesRegex(reading.InputError, f"table.csv: line 2: .*allowed: {allowed}"):
                 self.verdicts(measured, bound, word)
+
+    def test_a_goal_is_missed_and_a_spread_over_the_bound_is_not_decided(self):
+        self.assertEqual(self.verdicts(2, 1, "missed", "goal"), ["missed"])
+        self.assertEqual(self.verdicts(1, 1.2, "not_decided", low=0.9, high=1.3), ["not_decided"])
+        self.assertEqual(self.verdicts(2, 1.2, "fails", low=1.3, high=3), ["fails"])
+        for word, low, high in (("holds", 0.9, 1.3), ("holds", "nan", 1), ("not_decided", 0.9, "nan"), ("not_decided", 1.1, 1.3)):
+            with self.assertRaisesRegex(reading.InputError, "column 'verdict'"):
+                self.verdicts(1, 1.2, word, low=low, high=high)
+        with self.assertRaisesRegex(reading.InputError, "column 'class': got 'taste'"):
+            self.verdicts(1, 1, "holds", "taste")
 
     def test_empty_and_absent_file(self):
         self.assert_refused("", "header")

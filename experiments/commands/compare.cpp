@@ -53,7 +53,7 @@ class Comparison {
         table_(options.directory / "compare.csv",
                {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
                 "sweeps", "row_updates", "wall_s", "error", "status", "reason", "method"},
-               &rows_) {}
+               &totals_) {}
 
   /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
   void add_judge(const std::string& name, const Judged& judged) {
@@ -85,7 +85,7 @@ class Comparison {
   }
 
   void close() { table_.close(); }
-  const RowCounts& rows() const { return rows_; }
+  const TableTotals& totals() const { return totals_; }
 
  private:
   void add(const Contender& contender, const TracePoint& point, std::string_view status,
@@ -98,7 +98,7 @@ class Comparison {
 
   std::string scene_;
   double step_s_;
-  RowCounts rows_;
+  TableTotals totals_;
   Table table_;
 };
 
@@ -186,7 +186,7 @@ int compare(const CompareOptions& options) {
   comparison.close();
   auto json = run_record(1, outcome, reason);
   json["settings"] = comparison_json(options, file, name);
-  json["rows"] = comparison.rows();
+  json["rows"] = comparison.totals().rows;
   json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   record.write(json_text(json));
   record.complete();

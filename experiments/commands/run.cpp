@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "commands/commands.h"
 #include "error.h"
 #include "harness/files.h"
+#include "harness/history.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
 #include "scenes/choices.h"
@@ -77,15 +79,38 @@ void remove_tables(const std::filesystem::path& directory) {
     if (entry.is_regular_file() && entry.path().extension() == ".csv") std::filesystem::remove(entry.path());
 }
 
-void report_failures(const Experiment& experiment, const Context& context) {
+void report_rulings(const Experiment& experiment, const Context& context) {
+  constexpr std::array<std::string_view, 4> words{"", "FAILS", "goal missed", "not decided"};
   for (const auto& verdict : context.verdicts())
-    if (!verdict.holds())
-      fmt::print("{} {}: FAILS: {} = {:.6g} > {:.6g} ({})\n", experiment.name, verdict.id, verdict.quantity,
-                 verdict.measured, verdict.bound, verdict.statement);
+    if (verdict.ruling() != Ruling::holds)
+      fmt::print("{} {}: {}: {}, {} ({}; {})\n", experiment.name, verdict.id,
+                 words[static_cast<std::size_t>(verdict.ruling())], verdict.quantity, verdict.reason(),
+                 verdict.statement, basis_names[static_cast<std::size_t>(verdict.basis)]);
 }
 
-/// Runs it and records it; returns what that makes of the exit code.
-int run_one(const Experiment& experiment, const RunOptions& options) {
+using Counts = std::array<std::int64_t, ruling_names.size()>;
+
+Counts counted(const Context& context) {
+  Counts counts{};
+  for (const auto& verdict : context.verdicts()) ++counts[static_cast<std::size_t>(verdict.ruling())];
+  return counts;
+}
+
+nlohmann::ordered_json counts_json(const Counts& counts) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < counts.size(); ++i) json[std::string(ruling_names[i])] = counts[i];
+  return json;
+}
+
+std::string counts_text(const Counts& counts) {
+  auto text = fmt::format("{} verdicts hold, {} fail", counts[0], counts[1]);
+  if (counts[2] > 0) text += fmt::format(", {} goals missed", counts[2]);
+  if (counts[3] > 0) text += fmt::format(", {} not decided", counts[3]);
+  return text;
+}
+
+/// Runs it, records it, also in `history`; returns what that makes of the exit code.
+int run_one(const Experiment& experiment, const RunOptions& options, nlohmann::ordered_json& history) {
   const auto directory = options.directory / experiment.name;
   require_writable(directory);
   Context context(directory, options.tier == "full" ? Tier::full : Tier::quick, options.threads);
@@ -93,15 +118,15 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  std::int64_t holding = 0, failing = 0;
+  Counts counts{};
   const auto record = [&](RunOutcome outcome, const std::string& reason) {
     auto json = run_record(options.threads, outcome, reason);
     json["experiment"] = experiment.name;
     json["tier"] = options.tier;
     json["settings"] = tier_json(options);
     json["wall_s"] = seconds();
-    json["rows"] = context.rows();
-    json["verdicts"] = {{"holds", holding}, {"fails", failing}};
+    json["rows"] = context.totals().rows;
+    json["verdicts"] = counts_json(counts);
     write_file(directory / "run.json", json_text(json));
   };
   record(RunOutcome::interrupted, "ended before it was done");  // until it is: the program may be killed
@@ -109,12 +134,23 @@ int run_one(const Experiment& experiment, const RunOptions& options) {
   const auto [outcome, exit_code, reason] = run_guarded(experiment, context);
   context.write_verdicts();
   if (outcome == RunOutcome::failed) error_message(fmt::format("{}: {}", experiment.name, reason));
-  report_failures(experiment, context);
-  for (const auto& verdict : context.verdicts()) ++(verdict.holds() ? holding : failing);
+  report_rulings(experiment, context);
+  counts = counted(context);
   record(outcome, reason);
-  fmt::print("{}: {}, {} verdicts hold, {} fail, {:.1f} s\n", experiment.name,
-             outcome_names[static_cast<std::size_t>(outcome)], holding, failing, seconds());
-  return exit_code == exit_done && failing > 0 ? exit_failed : exit_code;
+  const auto status = outcome_names[static_cast<std::size_t>(outcome)];
+  history[std::string(experiment.name)] =
+      history_entry(status, seconds(), context.totals(), context.verdicts());
+  fmt::print("{}: {}, {}, {:.1f} s\n", experiment.name, status, counts_text(counts), seconds());
+  const bool failed = counts[static_cast<std::size_t>(Ruling::fails)] > 0;
+  return exit_code == exit_done && failed ? exit_failed : exit_code;
+}
+
+nlohmann::ordered_json history_line(const RunOptions& options, const nlohmann::ordered_json& experiments) {
+  const auto by = run_record(options.threads, RunOutcome::complete, "");
+  nlohmann::ordered_json line{{"tier", options.tier}};
+  for (const auto* key : {"date", "commit", "dirty", "changes", "processor", "threads"}) line[key] = by[key];
+  line["experiments"] = experiments;
+  return line;
 }
 
 }  // namespace
@@ -124,14 +160,16 @@ int run(const RunOptions& options, const std::vector<Experiment>& known) {
   const auto list = chosen(options, known);
   require_writable(options.directory);
   int exit_code = exit_done;
+  nlohmann::ordered_json history;
   for (const auto& experiment : list) {
     if (options.resume && already_complete(options.directory / experiment.name, options)) {
       fmt::print("{}: complete already, skipped\n", experiment.name);
       continue;
     }
-    exit_code = std::max(exit_code, run_one(experiment, options));
-    if (exit_code == exit_interrupted) return exit_interrupted;
+    exit_code = std::max(exit_code, run_one(experiment, options, history));
+    if (exit_code == exit_interrupted) break;
   }
+  if (!history.empty()) append_history(options.directory / "history.jsonl", history_line(options, history));
   return exit_code;
 }
 

@@ -59,7 +59,7 @@ class Output {
     require_writable(options.directory);
     if (!file.probes.empty()) {
       for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
-      probes_.emplace(options.directory / "probes.csv", columns_, &rows_);
+      probes_.emplace(options.directory / "probes.csv", columns_, &totals_);
     }
     if (options.export_format != "vtk") return;
     frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
@@ -90,11 +90,11 @@ class Output {
     if (body_frames_) body_frames_->close();
   }
 
-  const RowCounts& rows() const { return rows_; }
+  const TableTotals& totals() const { return totals_; }
 
  private:
   const SceneFile& file_;
-  RowCounts rows_;
+  TableTotals totals_;
   std::vector<std::string> columns_{"step", "time_s"};
   std::optional<Table> probes_;
   std::optional<VtkSeries> frames_, body_frames_;
@@ -147,8 +147,8 @@ nlohmann::ordered_json checks_json(const StepChecks& checks) {
           {"left_out", checks.left_out()}};
 }
 
-void write_checks(const std::filesystem::path& path, const StepChecks& checks, RowCounts& rows) {
-  Table table(path, {"step", "check", "what", "number", "bound"}, &rows);
+void write_checks(const std::filesystem::path& path, const StepChecks& checks, TableTotals& totals) {
+  Table table(path, {"step", "check", "what", "number", "bound"}, &totals);
   for (const auto& [step, finding] : checks.refuted())
     table.row({step, finding.check, finding.what, finding.number, finding.bound});
   table.close();
@@ -211,9 +211,9 @@ int simulate(const SimulateOptions& options) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   output.close();
-  RowCounts rows = output.rows();
+  TableTotals tables = output.totals();
   if (checks) {
-    write_checks(options.directory / "checks.csv", *checks, rows);
+    write_checks(options.directory / "checks.csv", *checks, tables);
     if (outcome == RunOutcome::complete && checks->refuted_steps() > 0) {
       outcome = RunOutcome::refuted;
       reason = checks->text();
@@ -223,7 +223,7 @@ int simulate(const SimulateOptions& options) {
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
-  json["rows"] = rows;
+  json["rows"] = tables.rows;
   json["report"] = report_json(totals, workspace);
   if (checks) json["checks"] = checks_json(*checks);
   record.write(json_text(json));

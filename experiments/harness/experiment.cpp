@@ -33,7 +33,7 @@ struct Context::Data {
   int threads;
   std::optional<ProgressBar> progress;
   std::vector<Verdict> verdicts;
-  RowCounts rows;
+  TableTotals totals;
 };
 
 Context::Context(std::filesystem::path directory, Tier tier, int threads) : data_(std::make_shared<Data>()) {
@@ -51,11 +51,11 @@ int Context::threads() const {
 }
 
 Table Context::table(std::string_view name, std::vector<std::string> columns) {
-  return {data_->directory / (std::string(name) + ".csv"), std::move(columns), &data_->rows};
+  return {data_->directory / (std::string(name) + ".csv"), std::move(columns), &data_->totals};
 }
 
-const RowCounts& Context::rows() const {
-  return data_->rows;
+const TableTotals& Context::totals() const {
+  return data_->totals;
 }
 
 void Context::begin(std::int64_t units) {
@@ -67,9 +67,10 @@ void Context::advance(std::string_view label) {
   throw_if_interrupted();
 }
 
-void Context::verdict(std::string_view id, std::string_view statement, std::string_view quantity,
-                      double measured, double bound) {
-  data_->verdicts.push_back({clean_id(id), std::string(statement), std::string(quantity), measured, bound});
+void Context::verdict(Basis basis, std::string_view id, std::string_view statement, std::string_view quantity,
+                      const Measured& measured, double bound) {
+  data_->verdicts.push_back(
+      {basis, clean_id(id), std::string(statement), std::string(quantity), measured, bound});
 }
 
 const std::vector<Verdict>& Context::verdicts() const {
@@ -78,10 +79,12 @@ const std::vector<Verdict>& Context::verdicts() const {
 
 void Context::write_verdicts() {
   data_->progress.reset();
-  Table verdicts = table("verdicts", {"id", "statement", "quantity", "measured", "bound", "verdict"});
+  Table verdicts = table("verdicts", {"id", "class", "statement", "quantity", "measured", "measured_low",
+                                      "measured_high", "bound", "verdict", "reason"});
   for (const auto& v : data_->verdicts)
-    verdicts.row(
-        {v.id, v.statement, v.quantity, v.measured, v.bound, std::string(v.holds() ? "holds" : "fails")});
+    verdicts.row({v.id, std::string(basis_names[static_cast<std::size_t>(v.basis)]), v.statement, v.quantity,
+                  v.measured.value, v.measured.low, v.measured.high, v.bound,
+                  std::string(ruling_names[static_cast<std::size_t>(v.ruling())]), v.reason()});
   verdicts.close();
 }
 

@@ -13,6 +13,7 @@
 #include "harness/cases.h"
 #include "harness/interrupt.h"
 #include "harness/results.h"
+#include "harness/verdict.h"
 
 namespace pbdcheck {
 
@@ -36,17 +37,17 @@ class Context {
   Table table(std::string_view name, std::vector<std::string> columns);
 
   /// Of the tables that are closed.
-  const RowCounts& rows() const;
+  const TableTotals& totals() const;
 
   /// Announces the number of units of work, then each finished one with a short label; throws Interrupted if
   /// the user pressed Ctrl-C.
   void begin(std::int64_t units);
   void advance(std::string_view label);
 
-  /// Records a verdict in `verdicts.csv`: holds if measured <= bound (NaN never holds). Of `id` lower case
-  /// letters, digits and dots are kept, what is between becomes one _.
-  void verdict(std::string_view id, std::string_view statement, std::string_view quantity, double measured,
-               double bound);
+  /// Records a verdict in `verdicts.csv`. Of `id` lower case letters, digits and dots are kept, what is
+  /// between becomes one _.
+  void verdict(Basis basis, std::string_view id, std::string_view statement, std::string_view quantity,
+               const Measured& measured, double bound);
   const std::vector<Verdict>& verdicts() const;
 
   /// Writes `verdicts.csv`; called once the experiment has ended.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/verdict.h"
 #include "rivals/rival.h"
 #include "scene.h"
 #include "step/step.h"
@@ -37,16 +38,42 @@ inline constexpr int timed_repeats = 3;
 /// holds on nothing.
 class Worst {
  public:
-  void add(double value) {
-    largest_ = any_ && !(value > largest_) && !std::isnan(value) ? largest_ : value;
+  /// `owner`: whose value it is, as a linear solver's.
+  void add(double value, std::string_view owner = {}) {
+    if (spoilt_ || (any_ && value <= largest_)) return;
+    largest_ = value;
+    owner_ = owner;
     any_ = true;
-    spoilt_ = spoilt_ || std::isnan(value);
+    spoilt_ = std::isnan(value);
   }
-  double value() const { return any_ && !spoilt_ ? largest_ : std::nan(""); }
+  double value() const { return any_ ? largest_ : std::nan(""); }
+  /// Whose value it is: of the largest, or the first NaN.
+  const std::string& owner() const { return owner_; }
 
  private:
   double largest_ = 0;
+  std::string owner_;
   bool any_ = false, spoilt_ = false;
+};
+
+/// The same of numbers with a spread.
+class WorstSpread {
+ public:
+  void add(const Measured& size, std::string_view owner) {
+    low_.add(size.low);
+    middle_.add(size.value, owner);
+    high_.add(size.high);
+  }
+  Measured value() const {
+    Measured worst(middle_.value());
+    worst.low = low_.value();
+    worst.high = high_.value();
+    return worst;
+  }
+  const std::string& owner() const { return middle_.owner(); }
+
+ private:
+  Worst low_, middle_, high_;
 };
 
 /// Positions of all nodes, and of points of each body at its radii of gyration along the principal axes (1 m

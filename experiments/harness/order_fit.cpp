@@ -20,6 +20,11 @@ double fitted_order(const std::vector<double>& h, const std::vector<double>& err
   return xx > 0 ? xy / xx : std::nan("");
 }
 
+Measured off_linear(std::vector<double> exponents) {
+  for (double& exponent : exponents) exponent = std::abs(exponent - 1);
+  return Measured(std::move(exponents));
+}
+
 std::string_view behaviour_of(const std::vector<double>& error) {
   const bool numbers = std::all_of(error.begin(), error.end(), [](double e) { return std::isfinite(e); });
   if (error.empty() || !numbers || !(error.back() < error.front())) return "diverging";

@@ -135,7 +135,8 @@ void conclude_order(Context& context, std::string_view experiment, Table& table,
   table.row(row);
   if (!order_is_judged(course)) return;
   const bool solved = worst.status == Status::ok && behaviour_of(error) == "converging";
-  context.verdict(std::string(experiment) + "." + course.motion->name + "." + course.rule.name(),
+  context.verdict(Basis::theory,
+                  std::string(experiment) + "." + course.motion->name + "." + course.rule.name(),
                   "the errors fall at the integrator's order", "|order - " + std::to_string(expected) + "|",
                   solved ? std::abs(order - expected) : std::nan(""), expected == 1 ? 0.05 : 0.1);
 }
@@ -180,7 +181,7 @@ void study_orders(Context& context, std::string_view experiment, std::vector<Mot
   errors.close();
   orders.close();
   context.verdict(
-      std::string(experiment) + ".resolved",
+      Basis::theory, std::string(experiment) + ".resolved",
       "what is left unsolved in the steps and the judge's own error stay two decades below each error fitted",
       "largest share of the error", resolved.value(), 0.01);
 }

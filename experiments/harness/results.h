@@ -1,11 +1,13 @@
-// What an experiment leaves behind: tidy tables, one CSV file each, and verdicts.
+// What an experiment leaves behind: tidy tables, one CSV file each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -15,14 +17,21 @@ namespace pbdcheck {
 /// `-inf`.
 using Cell = std::variant<std::string, double, std::int64_t>;
 
-/// Rows of tables, without the header, by their names.
-using RowCounts = std::map<std::string, std::int64_t>;
+/// Columns of work and time, whose sums tell a run from the next.
+inline constexpr std::array<std::string_view, 4> work_columns{"outer_iterations", "sweeps", "row_updates",
+                                                              "wall_s"};
 
-/// A tidy table, written to `<path>.partial` and renamed when closed; `counts`, if there are any, get its
-/// rows then.
+/// Of the tables that are closed.
+struct TableTotals {
+  std::map<std::string, std::int64_t> rows;  // without the header, by the table's name
+  std::map<std::string, double> work;        // sums of the finite cells of `work_columns` of all tables
+};
+
+/// A tidy table, written to `<path>.partial` and renamed when closed; its rows and work are added to
+/// `totals`, if there are any, then.
 class Table {
  public:
-  Table(std::filesystem::path path, std::vector<std::string> columns, RowCounts* counts = nullptr);
+  Table(std::filesystem::path path, std::vector<std::string> columns, TableTotals* totals = nullptr);
   ~Table();  // without close(): the partial file is removed
   Table(Table&&) noexcept;
   Table& operator=(Table&&) = delete;
@@ -34,15 +43,6 @@ class Table {
  private:
   struct Data;
   std::unique_ptr<Data> data_;
-};
-
-/// A statement of an experiment that was measured against a bound.
-struct Verdict {
-  std::string id, statement, quantity;
-  double measured = 0;
-  double bound = 0;
-
-  bool holds() const { return measured <= bound; }  // NaN never holds
 };
 
 }  // namespace pbdcheck

@@ -35,7 +35,8 @@ def overhead(points, verdicts):
     lost = wins > 0 or sum(firsts.values()) < len(rows)
     return Finding(
         judge(linear and not wins and sum(firsts.values()) > 0, linear, "the time of a sweep, linear in the rows"),
-        f"Over the rows the time of a sweep grows with an exponent of at most {compared(steepest['measured'], steepest['bound'])[0]}. {against}",
+        f"Over the rows the time of a sweep grows with an exponent that is off 1 by {compared(steepest['measured'], steepest['bound'])[0]} at "
+        f"most. {against}",
         *compared(steepest["measured"], steepest["bound"]), against if lost else "")
 
 

@@ -91,10 +91,10 @@ void judges(Context& context) {
     }
     context.advance(each.name);
   }
-  context.verdict("judges.agreement", "primal_newton and ipopt find the same step on every scene",
-                  "largest difference relative to the step's largest displacement", between_judges.value(),
-                  1e-9);
-  context.verdict("judges.solver",
+  context.verdict(
+      Basis::code, "judges.agreement", "primal_newton and ipopt find the same step on every scene",
+      "largest difference relative to the step's largest displacement", between_judges.value(), 1e-9);
+  context.verdict(Basis::code, "judges.solver",
                   fmt::format("the solver finds the judges' step of rigid bodies where it is certified to be "
                               "regular ({} steps)",
                               certified),

@@ -83,18 +83,18 @@ void conclude(Context& context, const Mechanism& mechanism, const std::vector<Le
   const auto error_of = [&](const Values& values, bool trusted) {
     return trusted ? distance(mechanism, values, mechanism.expected) : std::nan("");
   };
-  context.verdict(id + ".solved",
+  context.verdict(Basis::theory, id + ".solved",
                   "what a step of the finest run misses its tolerance by is rounding, eps L/(g h^2)",
                   "largest residual of a missed step",
                   finest.run.status == Status::diverged ? std::nan("") : finest.run.missed_residual,
                   rounding_of(mechanism, finest.h));
   const bool exact = mechanism.values == slider_place;  // a motor's place does not depend on the step
   if (context.full() || exact)
-    context.verdict(id, "generalised_alpha reaches the known answer by refining the step",
+    context.verdict(Basis::code, id, "generalised_alpha reaches the known answer by refining the step",
                     "relative error at the finest step",
                     error_of(finest.values, all_solved(mechanism, finest)), 1e-6);
   if (!exact)
-    context.verdict(id + ".extrapolated", "the two finest steps extrapolate to the known answer",
+    context.verdict(Basis::code, id + ".extrapolated", "the two finest steps extrapolate to the known answer",
                     "relative error",
                     error_of(extrapolated(coarse, finest),
                              all_solved(mechanism, coarse) && all_solved(mechanism, finest)),
@@ -152,10 +152,10 @@ void joints(Context& context) {
     context.advance(mechanism.name);
   }
   accuracy.close();
-  context.verdict("joints.error_m", "joints hold in each step", "largest error of a length, m",
+  context.verdict(Basis::theory, "joints.error_m", "joints hold in each step", "largest error of a length, m",
                   error_m.value(), 1e-10);
-  context.verdict("joints.error_rad", "joints hold in each step", "largest error of an angle, rad",
-                  error_rad.value(), 1e-10);
+  context.verdict(Basis::theory, "joints.error_rad", "joints hold in each step",
+                  "largest error of an angle, rad", error_rad.value(), 1e-10);
   joint_lengths(context);
   context.advance("chains of 50 to 3200 bodies");
 }

@@ -104,9 +104,9 @@ void redundant(Context& context) {
     context.advance(relaxation);
   }
   table.close();
-  context.verdict("redundant.motion", "redundant joints change no motion", "largest difference, m",
-                  motion.value(), 1e-9);
-  context.verdict("redundant.force", "redundant joints change no net force",
+  context.verdict(Basis::theory, "redundant.motion", "redundant joints change no motion",
+                  "largest difference, m", motion.value(), 1e-9);
+  context.verdict(Basis::theory, "redundant.force", "redundant joints change no net force",
                   "largest difference over the largest force", force.value(), 1e-9);
 }
 

@@ -91,11 +91,12 @@ void watch(Context& context) {
     }
   }
   table.close();
-  context.verdict("rotation.energy",
+  context.verdict(Basis::theory, "rotation.energy",
                   "implicit Euler loses 1/2 dw . I dw a step, with the explicit torque gains it",
                   "unexplained share of the energy", explained.value(), 1e-10);
-  context.verdict("rotation.midpoint", "midpoint keeps energy and the length of the angular momentum",
-                  "largest relative change", kept.value(), 1e-10);
+  context.verdict(Basis::theory, "rotation.midpoint",
+                  "midpoint keeps energy and the length of the angular momentum", "largest relative change",
+                  kept.value(), 1e-10);
 }
 
 /// Four times the time of the first passage of w_2 through zero, by Hermite's cubic between steps: the body
@@ -156,7 +157,8 @@ void tumble(Context& context) {
     }
   }
   table.close();
-  context.verdict("rotation.tumbling", "the period of tumbling is within the error that two steps let expect",
+  context.verdict(Basis::theory, "rotation.tumbling",
+                  "the period of tumbling is within the error that two steps let expect",
                   "error over 1.25 |T(h) - T(2h)| / 3", share.value(), 1);
 }
 

@@ -84,25 +84,17 @@ void KnownAnswers::add(std::string_view quantity, std::string_view scene, const 
               judged ? asked->bound : std::nan(""), run.sweeps, std::int64_t{run.steps},
               std::int64_t{run.steps - run.steps_ok}, status_cell(run.status), run.reason});
   if (!judged) return;
-  auto found = std::find_if(judged_.begin(), judged_.end(), [&](const Judged& each) {
-    return each.quantity == quantity && each.relaxation == method.relaxation;
-  });
-  if (found == judged_.end()) found = judged_.insert(found, {asked->name, method.relaxation, {}});
-  found->error.add(error);
+  worst_[asked->name].add(error, method.relaxation);
 }
 
 void KnownAnswers::close() {
   table_.close();
   for (const Quantity& quantity : quantities_) {
-    bool met = false;
-    for (const Judged& each : judged_)
-      if (each.quantity == quantity.name) {
-        met = true;
-        context_.verdict(fmt::format("{}.{}.{}", experiment_, quantity.name, each.relaxation),
-                         fmt::format("{} ({})", quantity.statement, each.relaxation),
-                         "largest error, " + quantity.unit, each.error.value(), quantity.bound);
-      }
-    if (!met) throw std::logic_error("nothing measured of " + quantity.name);
+    const auto worst = worst_.find(quantity.name);
+    if (worst == worst_.end()) throw std::logic_error("nothing measured of " + quantity.name);
+    context_.verdict(Basis::theory, experiment_ + "." + quantity.name, quantity.statement,
+                     fmt::format("largest error, {} ({})", quantity.unit, worst->second.owner()),
+                     worst->second.value(), quantity.bound);
   }
 }
 

@@ -63,14 +63,10 @@ class KnownAnswers {
   void close();
 
  private:
-  struct Judged {
-    std::string quantity, relaxation;
-    Worst error;
-  };
   Context& context_;
   std::string experiment_;
   std::vector<Quantity> quantities_;
-  std::vector<Judged> judged_;
+  std::map<std::string, Worst> worst_;  // errors of each quantity, over the linear solvers
   Table table_;
 };
 

@@ -32,8 +32,8 @@ void friction_isotropy(Context& context) {
   Table table = context.table(
       "headings", {"relaxation", "friction", "step_s", "heading_deg", "deceleration_share", "expected_share",
                    "share_error", "heading_change_rad", "heading_error_rad", "status", "reason"});
+  Worst round, straight, square, diagonal;
   for (const auto& relaxation : relaxations) {
-    Worst round, straight, square, diagonal;
     for (const auto law : friction_names) {
       for (int k = 0; k < 36; ++k) {
         const double heading = k * std::numbers::pi / 18 + (law == "box" ? std::numbers::pi / 36 : 0);
@@ -58,26 +58,25 @@ void friction_isotropy(Context& context) {
         table.row({relaxation, std::string(law), contact_h, heading * 180 / std::numbers::pi, slowed(end),
                    slowed(exact), share_error, turned(end), heading_error, status_cell(run.status),
                    run.reason});
-        (law == "box" ? square : round).add(share_error);
-        (law == "box" ? square : straight).add(heading_error);
+        (law == "box" ? square : round).add(share_error, relaxation);
+        (law == "box" ? square : straight).add(heading_error, relaxation);
         if (law == "box" && k % 9 == 4)
-          diagonal.add(usable ? std::abs(slowed(end) - std::numbers::sqrt2) : std::nan(""));
+          diagonal.add(usable ? std::abs(slowed(end) - std::numbers::sqrt2) : std::nan(""), relaxation);
       }
       context.advance(relaxation + " " + std::string(law));
     }
-    context.verdict("friction_isotropy.deceleration." + relaxation,
-                    "coulomb, disc and cone slow a box by mu g at every heading (" + relaxation + ")",
-                    "largest error as part of mu g", round.value(), 1e-6);
-    context.verdict("friction_isotropy.heading." + relaxation,
-                    "coulomb, disc and cone keep every heading (" + relaxation + ")", "largest change, rad",
-                    straight.value(), 1e-6);
-    context.verdict("friction_isotropy.box." + relaxation,
-                    "box slows each axis by mu g, along the heading by |cos| + |sin| (" + relaxation + ")",
-                    "largest error as part of mu g, or rad", square.value(), 1e-6);
-    context.verdict("friction_isotropy.diagonal." + relaxation,
-                    "box slows by sqrt(2) mu g at 45 degrees (" + relaxation + ")",
-                    "largest error as part of mu g", diagonal.value(), 1e-6);
   }
+  const auto verdict = [&](const char* id, const char* statement, const std::string& quantity,
+                           const Worst& worst) {
+    context.verdict(Basis::theory, std::string("friction_isotropy.") + id, statement,
+                    quantity + " (" + worst.owner() + ")", worst.value(), 1e-6);
+  };
+  const std::string share = "largest error as part of mu g";
+  verdict("deceleration", "coulomb, disc and cone slow a box by mu g at every heading", share, round);
+  verdict("heading", "coulomb, disc and cone keep every heading", "largest change, rad", straight);
+  verdict("box", "box slows each axis by mu g, along the heading by |cos| + |sin|", share + ", or rad",
+          square);
+  verdict("diagonal", "box slows by sqrt(2) mu g at 45 degrees", share, diagonal);
   table.close();
 }
 

@@ -185,7 +185,8 @@ void contact_points(Context& context, const Case& each, int max_outer, Table& ta
           tolerance_points({each, std::string(friction)}, method.outer, relaxation, solve, table);
       if (friction != "box" && std::isfinite(last.error)) apart.add(last.error);
     }
-  context.verdict("work_precision." + each.name, "who meets the tightest tolerance finds the judge's motion",
+  context.verdict(Basis::code, "work_precision." + each.name,
+                  "who meets the tightest tolerance finds the judge's motion",
                   "largest relative error of the motion", apart.value(), 1e-6);
 }
 

@@ -81,7 +81,7 @@ void auto_cost(Context& context, const std::vector<const SolvedStep*>& all) {
   }
   table.close();
   context.verdict(
-      "stability.auto_cost",
+      Basis::goal, "stability.auto_cost",
       "where plain contracts (measured rate below 0.9) and solves the step, auto solves it with at "
       "most 1.2 times its row updates, or 1.2 times its time where auto takes quasi_newton",
       "largest ratio", worst.value(), 1.2);

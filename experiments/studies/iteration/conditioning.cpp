@@ -103,7 +103,7 @@ void conditioning(Context& context) {
                               : std::nan(""));
     }
   table.close();
-  context.verdict("conditioning.conjugate_gradients",
+  context.verdict(Basis::theory, "conditioning.conjugate_gradients",
                   "conjugate gradients reach the residual within Chebyshev's bound in every case",
                   "largest sweeps/bound", conjugate.value(), 1);
   context.advance("sweeps");

@@ -109,19 +109,20 @@ void judge_touching(Context& context, const std::vector<TouchingRate>& all) {
   const std::string statement = fmt::format(
       "the solver's map has the radius of the judge's where that is {:g} or more ({} of {} cases), ", least,
       compared, all.size());
-  context.verdict("contact_contraction.sticking", statement + "contacts stick",
+  context.verdict(Basis::theory, "contact_contraction.sticking", statement + "contacts stick",
                   "largest |measured/radius - 1|", sticking.value(), bound);
-  context.verdict("contact_contraction.sliding", statement + "contacts slide",
+  context.verdict(Basis::theory, "contact_contraction.sliding", statement + "contacts slide",
                   "largest |measured/radius - 1|", sliding.value(), bound);
-  context.verdict("contact_contraction.returns",
+  context.verdict(Basis::theory, "contact_contraction.returns",
                   fmt::format("plain returns to the solution where the radius is below {:g}", below),
                   fmt::format("of {} cases, those where it does not", contracting),
                   contracting > 0 ? lost : std::nan(""), 0);
-  context.verdict("contact_contraction.expands",
+  context.verdict(Basis::theory, "contact_contraction.expands",
                   fmt::format("plain does not return where the radius exceeds {:g}", beyond),
                   fmt::format("of {} cases, those where it does", expanding),
                   expanding > 0 ? wrong : std::nan(""), 0);
-  context.verdict("contact_contraction.judged", "the judge's equations have the step as their solution",
+  context.verdict(Basis::code, "contact_contraction.judged",
+                  "the judge's equations have the step as their solution",
                   fmt::format("of {} cases, those where they have not", all.size()),
                   static_cast<double>(std::ssize(all) - judged), 0);
 }

@@ -108,26 +108,26 @@ void verdicts(Context& context, const std::vector<FoundRate>& all) {
     not_falling += std::isnan(measured);
     if (measured == 0) continue;
     const double rate = std::isnan(measured) ? 1 : measured;  // of an error that does not fall 1 at least
-    above.add(rate / bound - 1);
+    above.add(rate / bound);
     if (measured > worth_estimating && measured < measurable)
       (stiffens(dense) ? stiffened : softened).add(std::abs(predicted / measured - 1));
   }
   context.verdict(
-      "contraction.radius",
+      Basis::theory, "contraction.radius",
       fmt::format(
           "the measured rate is the dense spectral radius where that is from {:g} to {:g} ({} of {} cases)",
           comparable, measurable, compared, all.size()),
       "largest |measured/radius - 1|", different.value(), 0.01);
   context.verdict(
-      "contraction.bound",
+      Basis::theory, "contraction.bound",
       fmt::format("no measured rate exceeds the effect's bound ({} of {} cases, below {:g}, are left out; {} "
                   "whose error does not fall count as 1)",
                   still, all.size(), least_rate, not_falling),
-      "largest measured/bound - 1", above.value(), rounding);
+      "largest measured/bound", above.value(), 1 + rounding);
   const std::string statement = "the solver predicts measured rates between 0.7 and 0.95, ";
-  context.verdict("contraction.prediction_stiffening", statement + "stiffening decides",
+  context.verdict(Basis::theory, "contraction.prediction_stiffening", statement + "stiffening decides",
                   "largest |predicted/measured - 1|", stiffened.value(), 0.05);
-  context.verdict("contraction.prediction_softening", statement + "compression decides",
+  context.verdict(Basis::theory, "contraction.prediction_softening", statement + "compression decides",
                   "largest |predicted/measured - 1|", softened.value(), 0.05);
 }
 

@@ -84,7 +84,7 @@ void inexact(Context& context) {
   // In iterations that contract alike, exact solves take the residual down half of the step's eight decades
   // on average and one more; a share of 0.003 is 2.5 decades, half as many. It is tightened where the
   // nonlinear residual does not fall.
-  context.verdict("inexact.gauss_seidel",
+  context.verdict(Basis::goal, "inexact.gauss_seidel",
                   "gauss_seidel solves every step inexactly, with a quarter fewer row updates than exactly",
                   "largest row updates, inexact/exact", share.value(), 0.75);
   context.advance("chain20");

@@ -82,7 +82,7 @@ void pendulum_rates(Context& context, Table& errors, Table& map) {
     map.row({"pendulum", h, 1.0, "plain", predicted, measured, behaviour(found.error), found.error.back(),
              std::string(status_names[static_cast<std::size_t>(found.report.status)]),
              std::string(found.report.reason)});
-    context.verdict("outer.pendulum_rate." + std::to_string(h).substr(0, 4),
+    context.verdict(Basis::theory, "outer.pendulum_rate." + std::to_string(h).substr(0, 4),
                     "the plain iteration contracts a pendulum's error by h^2 T/(m l)",
                     "|measured/predicted - 1|", std::abs(measured / predicted - 1), 0.01);
     context.advance("pendulum");
@@ -123,8 +123,9 @@ void error_curves(Context& context, Table& errors) {
     }
     context.advance(name);
   }
-  context.verdict("outer.proximal", "proximal finds the step in at most 60 iterations in every traced case",
-                  "largest error", proximal.value(), 1e-10);
+  context.verdict(Basis::code, "outer.proximal",
+                  "proximal finds the step in at most 60 iterations in every traced case", "largest error",
+                  proximal.value(), 1e-10);
 }
 
 struct OuterCell {
@@ -160,10 +161,10 @@ void chain_map(Context& context, Table& map) {
     if (!(cell.predicted >= 0.95)) worst.add(std::abs(cell.measured / cell.predicted - 1));
     if (!(cell.predicted <= 1.05)) claimed.add(cell.course.report.status == Status::ok ? 1 : 0);
   }
-  context.verdict("outer.chain_map.rate",
+  context.verdict(Basis::theory, "outer.chain_map.rate",
                   "measured rate equals the predicted spectral radius where that is < 0.95",
                   "largest |measured/predicted - 1|", worst.value(), 0.001);
-  context.verdict("outer.chain_map.no_false_claim",
+  context.verdict(Basis::theory, "outer.chain_map.no_false_claim",
                   "no convergence is claimed where the predicted rate exceeds 1.05", "1 if a cell claims it",
                   claimed.value(), 0);
   context.advance("chain map");

@@ -108,8 +108,8 @@ void write_map(Table& table, const StabilityMap& map, const std::vector<MapCell>
 void auto_verdict(Context& context, const std::vector<const MapCell*>& all) {
   Worst worst;
   for (const MapCell* cell : all) worst.add(solve_by_auto(*cell).error);
-  context.verdict("stability.auto", "auto finds the step in every cell of all maps", "largest error",
-                  worst.value(), 1e-10);
+  context.verdict(Basis::code, "stability.auto", "auto finds the step in every cell of all maps",
+                  "largest error", worst.value(), 1e-10);
 }
 
 /// Solids of two sizes and strains, in the full tier.
@@ -124,7 +124,7 @@ void cantilevers(Context& context) {
   }
   table.close();
   context.verdict(
-      "stability.auto_cantilevers",
+      Basis::code, "stability.auto_cantilevers",
       "auto finds the step of every cantilever, green and corotational, of 192 and 1536 tetrahedra",
       "largest error", worst.value(), 1e-10);
 }

@@ -50,10 +50,10 @@ void prediction_verdicts(Context& context, const std::vector<MapCell>& cells) {
     if (std::abs(found.radius - 1) > undecided) ++decided, wrong += found.agrees() ? 0 : 1;
     if (found.radius > worth_estimating) rate.add(std::abs(found.predicted / found.radius - 1));
   }
-  context.verdict("stability.predicted_convergence",
+  context.verdict(Basis::theory, "stability.predicted_convergence",
                   "predicted and measured convergence of plain agree where the radius is not within 5 % of 1",
                   "share of cells of the chain's map where they do not", wrong / decided, 0.01);
-  context.verdict("stability.predicted_rate",
+  context.verdict(Basis::theory, "stability.predicted_rate",
                   "the solver's prediction equals the dense spectral radius where that exceeds 0.7",
                   "largest |predicted/radius - 1|", rate.value(), 0.05);
   table.close();
@@ -72,7 +72,7 @@ void joint_verdict(Context& context, const std::vector<MapCell>& cells) {
     wrong[k] = !(returns ? predicted < 1 : predicted >= 1);
   });
   context.verdict(
-      "stability.predicted_joints",
+      Basis::theory, "stability.predicted_joints",
       "predicted and measured convergence of plain agree on joints where the prediction is not "
       "within 5 % of 1",
       "share of cells of the rods' map where they do not",

@@ -106,7 +106,7 @@ class Watcher {
     if (!state.x.allFinite() || !state.v.allFinite()) ++not_finite_;
     if (report.status != Status::ok && !(best_ < first_)) ++stuck_;
     const double work = start_load_ - load_energy(each_.scene, state);
-    excess_.add((inner_energy(state) - start_energy_ - work) / scale_);
+    excess_.add(larger(0, (inner_energy(state) - start_energy_ - work) / scale_));
     links_.add(link_error(each_.scene, state));
     if (judged && report.status == Status::ok) claims_.add(claim(before, state));
   }

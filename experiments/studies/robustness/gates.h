@@ -17,7 +17,7 @@ struct Gate {
   double bound;
   std::string skipped{};  // why it was not measured; empty if it was
 
-  bool holds() const { return skipped.empty() && measured <= bound; }  // NaN never holds
+  bool holds() const { return skipped.empty() && measured >= 0 && measured <= bound; }  // NaN never holds
   bool fails() const { return skipped.empty() && !holds(); }
 };
 
@@ -40,7 +40,8 @@ struct Watch {
 
 /// Simulates a case by steps of h seconds and measures its gates:
 ///   finite     number of coordinates at the end, and of steps, that are not finite or diverged
-///   energy     largest excess of kinetic + elastic energy over that of the start and the work of gravity and
+///   energy     largest excess, 0 if there is none, of kinetic + elastic energy over that of the start and
+///   the work of gravity and
 ///              forces, as part of the start's + (m g + |f|) L
 ///   hard_rows  largest error of a hard link, as part of its length
 ///   claims     largest residual found by the judge after a step with status ok, as part of what the status

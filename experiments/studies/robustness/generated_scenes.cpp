@@ -118,10 +118,12 @@ void generated_scenes(Context& context) {
     outcomes.row({key[0], tally.steps, tally.largest_claim, key[1], key[2]});
 
   const auto of = fmt::format(" of {} steps", count * std::ssize(relaxations));
-  context.verdict("generated.finite", "no state ceases to be finite", "states" + of, not_finite, 0);
-  context.verdict("generated.throws", "no step throws", "throws" + of, thrown, 0);
-  context.verdict("generated.claims", "no step says ok where the judge's residual is larger than ok allows",
-                  "false claims" + of, false_claims, 0);
+  context.verdict(Basis::robustness, "generated.finite", "no state ceases to be finite", "states" + of,
+                  not_finite, 0);
+  context.verdict(Basis::robustness, "generated.throws", "no step throws", "throws" + of, thrown, 0);
+  context.verdict(Basis::robustness, "generated.claims",
+                  "no step says ok where the judge's residual is larger than ok allows", "false claims" + of,
+                  false_claims, 0);
   sample.close();
   outcomes.close();
 }

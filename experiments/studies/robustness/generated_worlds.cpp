@@ -137,16 +137,18 @@ void generated_worlds(Context& context) {
     agreement.row({key.first, first_steps, agreement_names[static_cast<std::size_t>(key.second)]});
 
   const auto of = fmt::format(" of {} scenes", count);
-  context.verdict("worlds.refuted", "no step that says ok is refuted by code that shares nothing with it",
-                  "refuted" + of, refutations, 0);
-  context.verdict("worlds.finite", "no state ceases to be finite", "states" + of, not_finite, 0);
-  context.verdict("worlds.throws", "no step throws", "throws" + of, thrown, 0);
-  context.verdict("worlds.refused", "no scene is refused", "refused" + of, refused, 0);
-  context.verdict("worlds.agree",
+  context.verdict(Basis::code, "worlds.refuted",
+                  "no step that says ok is refuted by code that shares nothing with it", "refuted" + of,
+                  refutations, 0);
+  context.verdict(Basis::robustness, "worlds.finite", "no state ceases to be finite", "states" + of,
+                  not_finite, 0);
+  context.verdict(Basis::robustness, "worlds.throws", "no step throws", "throws" + of, thrown, 0);
+  context.verdict(Basis::robustness, "worlds.refused", "no scene is refused", "refused" + of, refused, 0);
+  context.verdict(Basis::robustness, "worlds.agree",
                   "where no body turns by half a radian, the same scene in other words or by another method "
                   "ends alike wherever both say ok",
                   "first steps that end apart and no tighter tolerance brings together", unexplained, 0);
-  context.verdict("worlds.slowest", "no step takes longer than a minute",
+  context.verdict(Basis::goal, "worlds.slowest", "no step takes longer than a minute",
                   fmt::format("s of the processor, the slowest step (of world {})", slowest.second),
                   slowest.first, 60);
   for (Table* table : {&refuted, &broken, &ends, &apart, &agreement}) table->close();

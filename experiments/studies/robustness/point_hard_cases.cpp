@@ -75,7 +75,7 @@ void give_verdicts(Context& context, const std::vector<PointOutcome>& outcomes) 
           bound = gate.bound;
           any = true;
         }
-    if (any) context.verdict("hard." + name, statement, quantity, worst.value(), bound);
+    if (any) context.verdict(Basis::robustness, "hard." + name, statement, quantity, worst.value(), bound);
   }
 }
 

@@ -98,13 +98,14 @@ void damped_rotation(Context& context) {
     for (const auto& each : {damped, steady, free}) centre.add(each.drift_change / (drift * drift));
   }
   table.close();
-  context.verdict("damping.rotation", "damping ends a vibration and leaves the energy of the rotation",
+  context.verdict(Basis::theory, "damping.rotation",
+                  "damping ends a vibration and leaves the energy of the rotation",
                   "largest energy beside that of the rotation, of it", kept.value(), turn * turn);
   context.verdict(
-      "damping.steady",
+      Basis::theory, "damping.steady",
       "a steady rotation keeps with damping the energies of rotation and vibration that it keeps without",
       "largest difference of either energy, of the rotation's", same.value(), turn * turn);
-  context.verdict("damping.translation", "damping takes nothing of a translation",
+  context.verdict(Basis::theory, "damping.translation", "damping takes nothing of a translation",
                   "largest relative change of its energy", centre.value(), 1e-12);
 }
 

@@ -110,7 +110,7 @@ void decrements(Context& context, const std::vector<Oscillator>& oscillators) {
     for (const auto& run : all)
       if (run.oscillator == &oscillator) error.add(run.error());
     context.verdict(
-        "damping." + oscillator.name.substr(oscillator.name.find(' ') + 1),
+        Basis::theory, "damping." + oscillator.name.substr(oscillator.name.find(' ') + 1),
         "with 10 sweeps as with 1000 the decrement is that of the integrator's matrix: " + oscillator.name,
         "largest |measured/predicted - 1|", error.value(), 1e-8);
   }
@@ -126,12 +126,12 @@ void decrements(Context& context, const std::vector<Oscillator>& oscillators) {
     const DampedRun &fine = *finest.back(), &coarse = *finest[finest.size() - 2];
     // Of bdf2 the term of the next order is the larger one at long steps.
     const double order = std::log2(difference(coarse) / difference(fine));
-    context.verdict("damping.order." + id_of(rule),
-                    "the decay rate approaches c/(2 m) at least with the order of " + label(rule),
-                    "order - measured order", rule.order - order, 0.1);
+    context.verdict(Basis::theory, "damping.order." + id_of(rule),
+                    "the decay rate approaches c/(2 m) with the order of " + label(rule),
+                    "|measured order - order|", std::abs(order - rule.order), 0.1);
     // Rules add to decrement and phase what is of the size of (w h)^order; half a turn has pi.
     context.verdict(
-        "damping.limit." + id_of(rule),
+        Basis::theory, "damping.limit." + id_of(rule),
         fmt::format("the decrement by {} approaches that of k = 100 N/m, c = 1 N s/m, m = 1 kg", label(rule)),
         fmt::format("|decrement - {:.9f}| at h = {} s", limit.decrement, fine.h),
         std::abs(fine.decrement - limit.decrement),
@@ -163,7 +163,7 @@ void off(Context& context) {
     std::get<Distance>(zero.effects[0]).damping = {0, 0};
     count += static_cast<double>(differing(rule, none, zero));
   }
-  context.verdict("damping.off", "damping that is absent and damping of zero give the same bits",
+  context.verdict(Basis::code, "damping.off", "damping that is absent and damping of zero give the same bits",
                   "numbers that differ", count, 0);
 }
 

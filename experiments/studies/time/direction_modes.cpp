@@ -41,7 +41,7 @@ void direction_modes(Context& context) {
   table.close();
   // N links that turn by `slope` shorten by N d slope^2/2; that pulls N masses within h = sqrt(m d/T)/2 or
   // more, and so changes the tension by 2 N^2 slope^2 of it.
-  context.verdict("direction.mode",
+  context.verdict(Basis::theory, "direction.mode",
                   "a step leaves 1/(1 + b h^2 w^2) of a mode's energy, all of it where b = 0",
                   "largest |measured/predicted - 1|", worst.value(),
                   2 * TautChain::links * TautChain::links * slope * slope);

@@ -107,7 +107,7 @@ void direction_largest_steps(Context& context) {
             limit.at_largest);
   }
   table.close();
-  context.verdict("direction.largest_step",
+  context.verdict(Basis::theory, "direction.largest_step",
                   "a taut chain is stable up to 2/(w sqrt(1 - 2 b)), from b = 1/2 on up to ten times the "
                   "explicit limit, if proximal "
                   "solves its steps",

@@ -78,7 +78,7 @@ void direction_equal_work(Context& context) {
         if (other.family == "velocity") ratio.add(each.run.violation_largest / next_dearer(all, each, other));
   // One linearisation leaves the pendulum's link by (h v)^2/2 l. The next begins at a velocity that is off by
   // h^2 times an acceleration, and leaves by the square of that: less, as h a < v.
-  context.verdict("direction.equal_work",
+  context.verdict(Basis::paper, "direction.equal_work",
                   "on the pendulum, linearisations of one step violate the link less than as many row "
                   "updates of shorter steps",
                   "largest violation, position/velocity", ratio.value(), 1);

@@ -67,7 +67,7 @@ void conclude_drift(Context& context, Table& table, const DriftCourse& course) {
     coarser = drift;
   }
   context.verdict(
-      "energy.drift." + course.motion->name + "." + course.rule.method.integrator,
+      Basis::theory, "energy.drift." + course.motion->name + "." + course.rule.method.integrator,
       "halving the step divides the largest error of the energy over 10 s by 4, up to the next order",
       "|4 / ratio of the finer pair - 1|", ok ? std::abs(4 / ratio[2] - 1) : std::nan(""),
       std::abs(4 / ratio[1] - 1) / 2);

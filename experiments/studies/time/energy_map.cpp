@@ -82,7 +82,7 @@ void write_circle_map(Context& context, const std::vector<CircleCell>& cells) {
     if (cell.decays()) wrong.add(cell.safe() ? 0 : 1);
   }
   table.close();
-  context.verdict("energy.map",
+  context.verdict(Basis::theory, "energy.map",
                   "newmark blows up where a disturbance of the size of rounding is predicted to outgrow the "
                   "motion in 10 s, "
                   "and nowhere where disturbances are predicted to decay",

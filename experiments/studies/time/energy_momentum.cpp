@@ -188,14 +188,14 @@ void energy_momentum(Context& context) {
     if (course.expressed) explained.add(ok ? course.unexplained : std::nan(""));
   }
   table.close();
-  context.verdict("energy.linear_momentum",
+  context.verdict(Basis::theory, "energy.linear_momentum",
                   "linear momentum of free bodies is kept over 1000 steps by every integrator and "
                   "relaxation, solved or not",
                   "largest change over the largest sum of m |v|", linear.value(), 1e-12);
-  context.verdict("energy.angular_momentum",
+  context.verdict(Basis::theory, "energy.angular_momentum",
                   "midpoint and symplectic Euler keep the angular momentum over 1000 solved steps",
                   "largest change, relative", kept.value(), 1e-10);
-  context.verdict("energy.angular_momentum.loss",
+  context.verdict(Basis::theory, "energy.angular_momentum.loss",
                   "implicit Euler, newmark and bdf2 change the angular momentum by the derived amounts over "
                   "1000 solved steps",
                   "largest difference, relative", explained.value(), 1e-10);

@@ -94,14 +94,14 @@ void write_series(Table& table, const Series& series) {
 void linear_verdicts(Context& context, const Series& series) {
   const bool ok = series.run.status == Status::ok;
   if (series.rule.name() == "newmark 0.5")
-    context.verdict("energy.spring.newmark",
+    context.verdict(Basis::theory, "energy.spring.newmark",
                     "newmark with alpha 1/2 keeps a linear spring's energy over 10 s", "largest |E - E0|/E0",
                     ok ? series.largest_change : std::nan(""), 1e-10);
   if (series.rule.name() != "implicit_euler") return;
   const double wh = oscillation * series.h;
   const double left = std::pow(1 + wh * wh, -series.run.steps);
   const double found = series.samples.back().energy / series.samples.front().energy;
-  context.verdict("energy.spring.implicit_euler",
+  context.verdict(Basis::theory, "energy.spring.implicit_euler",
                   "implicit Euler leaves (1 + (w h)^2)^-N of a linear spring's energy after N steps",
                   "|measured/formula - 1|", ok ? std::abs(found / left - 1) : std::nan(""), 1e-8);
 }

@@ -32,3 +32,16 @@ TEST_CASE("errors are classified by whether they fall") {
   CHECK(behaviour_of({}) == "diverging");
   CHECK(behaviour_of({4, std::nan(""), 1}) == "diverging");
 }
+
+TEST_CASE("a cost that grows with another power than the first is off linear, in either direction") {
+  const auto ruling = [](double power) {
+    const std::vector<double> size{1e3, 1e4, 1e5};
+    std::vector<double> time;
+    for (const double n : size) time.push_back(1e-9 * std::pow(n, power));
+    const std::vector<double> repeats(3, fitted_order(size, time));
+    return Verdict{.id = "x", .measured = off_linear(repeats), .bound = off_linear_bound}.ruling();
+  };
+  CHECK(ruling(1) == Ruling::holds);
+  CHECK(ruling(1.1) == Ruling::holds);
+  for (const double power : {4.0 / 3, 2.0, 0.5, 0.0, -1.0}) CHECK(ruling(power) == Ruling::fails);
+}

@@ -31,16 +31,30 @@ int times_counted = 0;
 const std::vector<Experiment> samples{
     {"counted", "How often does it run?", [](Context&) { ++times_counted; }},
     {"good", "Does a verdict at its bound hold?",
-     [](Context& context) { context.verdict("g1", "holds, \"just\"", "error", 1, 1); }},
+     [](Context& context) { context.verdict(Basis::code, "g1", "holds, \"just\"", "error", 1, 1); }},
     {"bad", "Does one above it fail?",
-     [](Context& context) { context.verdict("b1", "fails", "error", 2, 1); }},
+     [](Context& context) { context.verdict(Basis::code, "b1", "fails", "error", 2, 1); }},
     {"unknown", "Does NaN fail?",
      [](Context& context) {
-       context.verdict("u1", "nan", "error", std::numeric_limits<double>::quiet_NaN(), 1);
+       context.verdict(Basis::code, "u1", "nan", "error", std::numeric_limits<double>::quiet_NaN(), 1);
      }},
     {"titled", "What becomes of an id made of a title?",
      [](Context& context) {
-       context.verdict("titled.A02 four-bar,  explicit_torque.newmark 0.5", "holds", "error", 0, 1);
+       context.verdict(Basis::code, "titled.A02 four-bar,  explicit_torque.newmark 0.5", "holds", "error", 0,
+                       1);
+     }},
+    {"worked", "What did it cost?",
+     [](Context& context) {
+       auto table = context.table("costs", {"sweeps", "wall_s", "error"});
+       table.row({std::int64_t{3}, 0.5, 7.0});
+       table.row({std::int64_t{4}, std::numeric_limits<double>::quiet_NaN(), 7.0});
+       table.close();
+       context.verdict(Basis::theory, "w1", "holds", "error", 0.5, 2);
+     }},
+    {"open", "What of a goal that is missed and a time that is not decided?",
+     [](Context& context) {
+       context.verdict(Basis::goal, "o1", "missed", "time", 2, 1);
+       context.verdict(Basis::theory, "o2", "not decided", "time", Measured({0.5, 2}), 1);
      }},
     {"thrown", "What if it throws?",
      [](Context& context) {
@@ -129,7 +143,8 @@ TEST_CASE("a run writes its verdicts and record, and its exit code says whether 
   CHECK(run(options, samples) == exit_done);
   CHECK(files_in(folder.path / "good") == std::vector<std::string>{"run.json", "verdicts.csv"});
   CHECK(read_text(folder.path / "good" / "verdicts.csv") ==
-        "id,statement,quantity,measured,bound,verdict\ng1,\"holds, \"\"just\"\"\",error,1,1,holds\n");
+        "id,class,statement,quantity,measured,measured_low,measured_high,bound,verdict,reason\n"
+        "g1,code,\"holds, \"\"just\"\"\",error,1,1,1,1,holds,\n");
   const auto record = run_record(folder.path / "good");
   CHECK(record["status"] == "complete");
   CHECK(record["tier"] == "quick");
@@ -152,11 +167,53 @@ TEST_CASE("a run writes its verdicts and record, and its exit code says whether 
   }
 }
 
+TEST_CASE("a goal that is missed and a time that is not decided are counted, and are no failure") {
+  const TemporaryFolder folder;
+  CHECK(run({.experiments = {"open"}, .directory = folder.path}, samples) == exit_done);
+  CHECK(run_record(folder.path / "open")["verdicts"].dump() ==
+        R"({"holds":0,"fails":0,"missed":1,"not_decided":1})");
+  CHECK_THAT(read_text(folder.path / "open" / "verdicts.csv"),
+             Catch::Contains("o1,goal,missed,time,2,2,2,1,missed,2 > 1\n") &&
+                 Catch::Contains("1.25,0.5,2,1,not_decided,\"spread: repeats from 0.5 to 2, bound 1\"\n"));
+  CHECK(run({.experiments = {"open", "bad"}, .directory = folder.path}, samples) == exit_failed);
+}
+
+TEST_CASE("each run adds a whole line to the history, below what an earlier one left") {
+  const TemporaryFolder folder;
+  const RunOptions options{.experiments = {"worked", "unknown"}, .directory = folder.path};
+  run(options, samples);
+  const std::string first = read_text(folder.path / "history.jsonl");
+  CHECK(std::count(first.begin(), first.end(), '\n') == 1);
+  const auto line = nlohmann::json::parse(first);
+  for (const auto* key : {"date", "commit", "dirty", "changes", "tier", "processor", "threads"})
+    CHECK(line.contains(key));
+  const auto& worked = line["experiments"]["worked"];
+  CHECK(worked["status"] == "complete");
+  CHECK(worked["work"].dump() == R"({"sweeps":7.0,"wall_s":0.5})");
+  CHECK(worked["verdicts"].dump() ==
+        R"([{"bound":2.0,"class":"theory","id":"w1","measured":0.5,"verdict":"holds"}])");
+  CHECK(line["experiments"]["unknown"]["verdicts"][0]["measured"].is_null());
+
+  folder.write("history.jsonl", first + R"({"half)");
+  run({.experiments = {"stopped"}, .directory = folder.path}, samples);
+  const std::string all = read_text(folder.path / "history.jsonl");
+  REQUIRE(all.starts_with(first + "{\"half\n"));
+  CHECK(nlohmann::json::parse(all.substr(first.size() + 7))["experiments"]["stopped"]["status"] ==
+        "interrupted");
+}
+
+TEST_CASE("a history that cannot be written is one clear error") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path / "history.jsonl");
+  CHECK_THROWS_WITH(run({.experiments = {"good"}, .directory = folder.path}, samples),
+                    Catch::Contains("history.jsonl"));
+}
+
 TEST_CASE("ids of verdicts are lower case letters, digits, dots and single _") {
   const TemporaryFolder folder;
   CHECK(run({.experiments = {"titled"}, .directory = folder.path}, samples) == exit_done);
   CHECK_THAT(read_text(folder.path / "titled" / "verdicts.csv"),
-             Catch::Contains("\ntitled.a02_four_bar_explicit_torque.newmark_0.5,holds,"));
+             Catch::Contains("\ntitled.a02_four_bar_explicit_torque.newmark_0.5,code,holds,"));
 }
 
 TEST_CASE("the record counts the rows of each table that is complete") {

@@ -34,7 +34,8 @@ Lengths time_lengths(std::string_view relaxation, const std::vector<int>& counts
   method.tolerance = 0;
   method.max_outer = 4;
   method.max_sweeps = 1;
-  Lengths found{.size = {counts.begin(), counts.end()}};
+  Lengths found;
+  found.size.assign(counts.begin(), counts.end());
   found.step.assign(repeats, std::vector<double>(counts.size(), infinity));
   found.sweep = found.step;
   for (std::size_t k = 0; k < counts.size(); ++k) {

@@ -36,7 +36,7 @@ struct Measured {
 
 struct Verdict {
   Basis basis = Basis::code;
-  std::string id, statement, quantity;
+  std::string id{}, statement{}, quantity{};
   Measured measured = 0;
   double bound = 0;
 

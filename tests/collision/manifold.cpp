@@ -148,8 +148,8 @@ TEST_CASE("gaps of a plank that tilts over an edge are continuous") {
 }
 
 TEST_CASE("a sphere touches a capsule or an edge once, in either order of the shapes") {
-  const Shape sphere = Sphere{0.1},
-              other = GENERATE(as<Shape>(), Capsule{0.1, 0.5}, Box{Vec3(0.14, 0.14, 0.5)});
+  const Shape sphere = Sphere{0.1}, capsule = Capsule{0.1, 0.5}, box = Box{Vec3(0.14, 0.14, 0.5)},
+              other = GENERATE(true, false) ? capsule : box;
   // Within the margin the sphere is near the other's ends, too.
   const Frame at_sphere = turned(0, Vec3::UnitX(), {0.21, 0, 0.05}),
               at_other = turned(pi / 4, Vec3::UnitZ(), {});

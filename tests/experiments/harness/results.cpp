@@ -171,7 +171,7 @@ TEST_CASE("a goal that is missed and a time that is not decided are counted, and
   const TemporaryFolder folder;
   CHECK(run({.experiments = {"open"}, .directory = folder.path}, samples) == exit_done);
   CHECK(run_record(folder.path / "open")["verdicts"].dump() ==
-        R"({"holds":0,"fails":0,"missed":1,"not_decided":1})");
+        R"({"fails":0,"holds":0,"missed":1,"not_decided":1})");
   CHECK_THAT(read_text(folder.path / "open" / "verdicts.csv"),
              Catch::Contains("o1,goal,missed,time,2,2,2,1,missed,2 > 1\n") &&
                  Catch::Contains("1.25,0.5,2,1,not_decided,\"spread: repeats from 0.5 to 2, bound 1\"\n"));

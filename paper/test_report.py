@@ -195,8 +195,10 @@ class Report(unittest.TestCase):
         self.assertEqual(failures(Results(self.directory), ["a"]), [["`a`, [#a]", "`skipped`", "too large", "1 of 2", ["`plain` 1 of 2"]]])
 
     def test_a_verdict_on_nan_fails(self):
-        sample.write(self.directory, "a", "verdicts", "id statement quantity measured bound verdict",
-                     [("a.b", "It works", "share", float("nan"), 2.0, "fails"), ("a.c", "It works", "share", 1.0, 2.0, "holds")])
+        nan = float("nan")
+        sample.write(self.directory, "a", "verdicts", VERDICTS,
+                     [("a.b", "code", "It works", "share", nan, nan, nan, 2.0, "fails", ""),
+                      ("a.c", "code", "It works", "share", 1.0, 1.0, 1.0, 2.0, "holds", "")])
         sample.write_run(self.directory, "a", holds=1, fails=1)
         section = failed_section(Results(self.directory), ["a"])
         self.assertIn("1 of 2 verdicts hold. These do not:", section.paragraphs)

@@ -48,6 +48,23 @@ def told(frame, quantities):
             "" if beaten or near else f"None of {counted(len(frame), 'run')} ended well")
 
 
+@figure("mesh_refinement", "locking", table="locking")
+def locking(frame):
+    """The deflection over that of beam theory, over the distance of Poisson's ratio from 1/2, one line a mesh."""
+    fig, (ax,) = panels(1, height=2.6)
+    frame = frame.assign(left=1 - 2 * frame["poisson"], share=frame["value"] / frame["reference_beam"])
+    for (n, rows), (color, marker, line) in zip(frame.groupby("n"), FALLBACK):
+        curve_points(ax, rows, "left", "share", f"n = {n:.0f}", {"color": color, "marker": marker, "linestyle": line})
+    ax.axhline(1, color=BLACK, linewidth=0.5)
+    ax.set(xscale="log", ylim=(0, 1.1), xlabel="1 - 2 nu", ylabel="deflection over beam theory")
+    shared_legend(fig, [ax])
+    done = good(frame, "share")
+    finding(fig, *[f"nu = {nu:g}: at best {number(rows['share'].max())} of beam theory's deflection, with n = "
+                   f"{rows.loc[rows['share'].idxmax(), 'n']:.0f}" for nu, rows in done.groupby("poisson") if nu == done["poisson"].max()])
+    footnote(fig, reasons_note(failed(frame, "share")))
+    return fig
+
+
 @figure("mesh_refinement", "mms", table="mms")
 def manufactured(frame):
     """Errors of a manufactured solution with triangles of the expected slopes."""

@@ -201,8 +201,8 @@ class Report(unittest.TestCase):
                       ("a.c", "code", "It works", "share", 1.0, 1.0, 1.0, 2.0, "holds", "")])
         sample.write_run(self.directory, "a", holds=1, fails=1)
         section = failed_section(Results(self.directory), ["a"])
-        self.assertIn("1 of 2 verdicts hold. These do not:", section.paragraphs)
-        self.assertEqual([row[0] for row in section.tables[0].rows], ["`a.b`"])
+        self.assertIn("1 of 2 verdicts hold. Some do not, see the tables.", section.paragraphs)
+        self.assertEqual([row[0] for row in section.tables[1].rows], ["`a.b`"])
 
     def test_names_with_digits_stay(self):
         self.assertEqual(stripped("node 4 of chain20 fell 1e-3 m in 20 steps"), "node # of chain20 fell # m in # steps")

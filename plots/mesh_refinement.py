@@ -60,7 +60,8 @@ def locking(frame):
     shared_legend(fig, [ax])
     done = good(frame, "share")
     finding(fig, *[f"nu = {nu:g}: at best {number(rows['share'].max())} of beam theory's deflection, with n = "
-                   f"{rows.loc[rows['share'].idxmax(), 'n']:.0f}" for nu, rows in done.groupby("poisson") if nu == done["poisson"].max()])
+                   f"{rows.loc[rows['share'].idxmax(), 'n']:.0f}" for nu, rows in done.groupby("poisson") if nu == done["poisson"].max()],
+            "" if len(done) else f"None of {counted(len(frame), 'run')} ended well")
     footnote(fig, reasons_note(failed(frame, "share")))
     return fig
 

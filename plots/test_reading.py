@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 import common
-import judges
 import reading
 import selecting
 import sample
@@ -188,15 +187,6 @@ class Failures(unittest.TestCase):
         for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
                             ("chain20 tip x100", "chain20 tip x100")):
             self.assertEqual(selecting.scene_text(scene), text)
-
-    def test_families_of_scenes(self):
-        for scene, family in (("contraction: triangle_strain  1e+06 Pa, -2 N", "contraction: triangle_strain"),
-                              ("contraction: bending  100 N m/rad, -50 N", "contraction: bending"),
-                              ("contraction: point_joint  inf N/m, 50 N", "contraction: point_joint"),
-                              ("stability_map: cantilever8 corotational E=10000 Pa", "stability_map: cantilever corotational"),
-                              ("inner_convergence: chain20 hanging, tip x100", "inner_convergence: chain hanging"),
-                              ("joints: A01 pendulum", "joints: A01 pendulum")):
-            self.assertEqual(judges.family(scene), family)
 
     def test_steps_read_as_fractions(self):
         self.assertEqual([selecting.step_text(h) for h in (1 / 60, 0.2, 0.013)], ["1/60 s", "0.2 s", "0.013 s"])

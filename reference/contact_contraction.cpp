@@ -125,7 +125,7 @@ class LinearisedStep {
   std::vector<Vec3> told_;  // N, forces on a
 };
 
-/// Central differences of f, one column for each of `count` components of `at`.
+/// Central differences of f, one column for each component of `at`.
 Eigen::MatrixXd differences(const std::function<Vector(const Vector&)>& f, const Vector& at) {
   constexpr double share = 1e-5;  // rounding and the third derivative then leave about 1e-10
   Eigen::MatrixXd columns;

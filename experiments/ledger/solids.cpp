@@ -19,16 +19,6 @@ Scene unit_cube(int cells, const Material& material, Strain strain) {
   return scene;
 }
 
-ExternalForce nodal_force(const Points& loads) {
-  ExternalForce force;
-  for (int node = 0; node < loads.cols(); ++node)
-    if (!loads.col(node).isZero(0)) {
-      force.node.push_back(node);
-      force.force.emplace_back(loads.col(node));
-    }
-  return force;
-}
-
 Vec3 held_force(const Method& method, const Material& material, const Eigen::Matrix3d& f,
                 const std::function<bool(const Vec3&)>& chosen) {
   Scene scene = unit_cube(1, material, Strain::green);

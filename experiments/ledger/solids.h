@@ -3,14 +3,12 @@
 
 #include "ledger/motion.h"
 #include "mesh.h"
+#include "scenes/standard.h"
 
 namespace pbdcheck::ledger {
 
 /// A unit cube of `cells`^3 bricks of six tetrahedra, 1000 kg/m^3.
 pbd::Scene unit_cube(int cells, const pbd::Material& material, pbd::Strain strain);
-
-/// Nodal forces (N, 3 x N); nodes of none are left out.
-pbd::ExternalForce nodal_force(const pbd::Points& loads);
 
 /// Sum of the forces (N) along x and y by which hard anchors at the affine map F x hold the nodes of
 /// unit_cube(1, ...) that `chosen` picks by their rest place: on a face of it, the nominal stress (Pa).

@@ -55,6 +55,16 @@ Scene cantilever(int cells, const Material& material, Strain strain) {
   return clamped_solid(kuhn_grid({cells, cells / 4, cells / 4}, Vec3(1, 0.25, 0.25)), material, strain);
 }
 
+ExternalForce nodal_force(const Points& loads) {
+  ExternalForce force;
+  for (int node = 0; node < loads.cols(); ++node)
+    if (!loads.col(node).isZero(0)) {
+      force.node.push_back(node);
+      force.force.emplace_back(loads.col(node));
+    }
+  return force;
+}
+
 void clamp_smallest_x(Scene& scene) {
   const double smallest = scene.initial.x.row(0).minCoeff();
   const double extent = scene.initial.x.row(0).maxCoeff() - smallest;

@@ -42,12 +42,14 @@ def contracts(outer, effects, rates, contacts, touching):
     order = slope[0] if len(slope) else float("nan")
     powers = [power for *_, power in contact_orders(some(touching, "contact"))]
     falls = len(powers) > 0 and min(powers) > 0
+    against = "" if all(abs(power - 2) <= 0.1 for power in powers) else (
+        f"In contact the rate of `plain` falls as h to the power {span(powers)}, not 2.")
     return Finding(
         judge(False, holds and falls and abs(order - 2) <= 0.1, "a spectral radius below 1"),
         f"The measured rate of `plain` differs from the dense spectral radius, where that is from 0.01 to 0.95, by at most "
         f"{number(apart['measured'])}; on the pendulum it falls as h to the power {number(order)}. In contact that sticks or slides the radius "
         f"of its map is a judge's, too, and falls as h to the power {span(powers)}. Where the radius is 1 or more "
-        "there is no contraction. The proof itself was not available.", number(apart["measured"]), number(apart["bound"]))
+        "there is no contraction. The proof itself was not available.", number(apart["measured"]), number(apart["bound"]), against)
 
 
 def stable(steps):

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from content import Figure, Section, Table, counted, number, span
+from content import Figure, Section, Table, counted, listed, number, span
 from reading import CONTRACTING
 from selecting import cost_ratios, failed, good, stiffens
 
@@ -194,7 +194,10 @@ def contact_rates_text(frame):
     seen = good(frame, "predicted_rate", "measured_rate")
     beyond, seen = seen[seen["predicted_rate"] >= 1], seen[seen["predicted_rate"] >= 0.01]
     own = [rows["predicted_contraction"] / rows["measured_rate"] for rows in (seen[seen["sliding"] == 0], seen[seen["sliding"] > 0])]
-    return (f"Where the radius is 0.01 or more ({counted(len(seen), 'case')}) the solver's map has {span(seen['measured_rate'] / seen['predicted_rate'])} "
+    kinks = frame["reason"].str.contains("kink", na=False)
+    left = (f"In {counted(kinks.sum(), 'case')} of {len(frame)}, all of {listed(frame.loc[kinks, 'scene'].unique())}, the map has a kink at the "
+            "solution: nothing is predicted there. " if kinks.any() else "")
+    return (f"{left}Where the radius is 0.01 or more ({counted(len(seen), 'case')}) the solver's map has {span(seen['measured_rate'] / seen['predicted_rate'])} "
             f"times the judge's. It is 1 or more in {counted(len(beyond), 'case')}; `plain` returns in {int(beyond['returns'].sum())} of them, "
             f"and in {int(frame.loc[frame['predicted_rate'] < 1, 'returns'].sum())} of {counted((frame['predicted_rate'] < 1).sum(), 'other')}. "
             f"The solver's own prediction, an upper bound below 0.7, is {span(own[0])} times the measured radius where all contacts stick, "

@@ -13,14 +13,6 @@ namespace {
 
 constexpr double difference_step = 1e-6;
 
-template <class E>
-typename Constraint<E>::Value value_at(const E& effect, const typename Constraint<E>::Positions& x) {
-  typename Constraint<E>::Value value;
-  typename Constraint<E>::Jacobian jacobian;
-  Constraint<E>::evaluate(effect, 0, x, value, jacobian);
-  return value;
-}
-
 /// Central differences of a vector function of the constraint's positions.
 template <class C, class F>
 auto differences(typename C::Positions x, F&& f) {

@@ -8,18 +8,6 @@
 using namespace pbd;
 using namespace pbd::test;
 
-namespace {
-
-template <class E>
-typename Constraint<E>::Value value_of(const E& effect, const typename Constraint<E>::Positions& x) {
-  typename Constraint<E>::Value value;
-  typename Constraint<E>::Jacobian jacobian;
-  Constraint<E>::evaluate(effect, 0, x, value, jacobian);
-  return value;
-}
-
-}  // namespace
-
 TEST_CASE("an inverted tetrahedron is mirrored along its shortest axis") {
   // The rotation nearest to F, det F < 0, mirrors the principal axis of the least stretch: R^T F has it
   // negative.
@@ -32,7 +20,7 @@ TEST_CASE("an inverted tetrahedron is mirrored along its shortest axis") {
     Eigen::Matrix<double, 6, 1> expected;
     expected << stretch - Vec3::Ones(), Vec3::Zero();
     const Eigen::Matrix<double, 3, 4> x = turn * stretch.asDiagonal() * effect.rest[0];
-    CHECK((value_of(effect, x) - expected).norm() < 1e-13);
+    CHECK((value_at(effect, x) - expected).norm() < 1e-13);
   }
 }
 

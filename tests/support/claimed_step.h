@@ -47,6 +47,24 @@ struct Step {
   }
 };
 
+constexpr double weight_per_kg = 9.81;  // N/kg, of Gravity{}
+
+/// A mass on a hard link of 1 m that its step leaves longer by `missed` (m): the free step, back to the
+/// circle.
+inline Step swinging_link(double missed = 0) {
+  Scene scene;
+  add_node(scene, Vec3::Zero(), infinity);
+  add_node(scene, Vec3(1, 0, 0), 2, Vec3(0, 0, -1));
+  scene.effects.emplace_back(Gravity{});
+  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
+  Step step(scene);
+  const Vec3 free(1, 0, -Step::h * (1 + Step::h * weight_per_kg));
+  step.end.v.col(1) = ((1 + missed) * free.normalized() - Vec3(1, 0, 0)) / Step::h;
+  step.move();
+  step.forces[1] = {-2 * (free.norm() - 1) / (Step::h * Step::h)};  // M (x1 - free)/h^2 = J^T gamma
+  return step;
+}
+
 using Names = std::set<std::string>;
 
 /// Of the checks that refute it.

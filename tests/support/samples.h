@@ -10,6 +10,15 @@ namespace pbd::test {
 template <class E>
 E sample();
 
+/// The constraint of an effect's first entry, c(x).
+template <class E>
+typename Constraint<E>::Value value_at(const E& effect, const typename Constraint<E>::Positions& x) {
+  typename Constraint<E>::Value value;
+  typename Constraint<E>::Jacobian jacobian;
+  Constraint<E>::evaluate(effect, 0, x, value, jacobian);
+  return value;
+}
+
 template <>
 inline Anchor sample<Anchor>() {
   return {.node = {0}, .target = {Vec3(0.1, -0.2, 0.3)}, .compliance = {1e-3}};

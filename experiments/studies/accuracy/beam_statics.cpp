@@ -15,16 +15,6 @@ bool on_end(const Vec3& x) {
   return x.x() > beam_size.x() * (1 - 1e-9);
 }
 
-ExternalForce force_of(const Points& loads) {
-  ExternalForce effect;
-  for (int node = 0; node < loads.cols(); ++node)
-    if (loads.col(node).norm() > 0) {
-      effect.node.push_back(node);
-      effect.force.emplace_back(loads.col(node));
-    }
-  return effect;
-}
-
 /// M u, that of fixed nodes 0.
 Points inertia_of(const Scene& scene, const Points& u) {
   Points all = Points::Zero(3, u.cols());
@@ -88,7 +78,7 @@ Scene spring_beam(const TetMesh& mesh, double kappa) {
 Statics static_equilibrium(Scene scene, const Points& loads) {
   constexpr double h = 1;
   constexpr int steps = 8;
-  scene.effects.emplace_back(force_of(loads));
+  scene.effects.emplace_back(nodal_force(loads));
   Method method;
   method.relaxation = "direct";
   method.tolerance = 1e-12;  // of the step's scale, h f/m, which is far larger than what is left to move

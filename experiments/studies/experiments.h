@@ -15,6 +15,7 @@ void contraction(Context& context);
 void direction(Context& context);
 void damping(Context& context);
 void inner_convergence(Context& context);
+void contact_convergence(Context& context);
 void conditioning(Context& context);
 void inexact(Context& context);
 void dual_vs_primal(Context& context);

@@ -46,7 +46,7 @@ CONTRARY = {
     24: {"beam": where("model", "springs", error_beam=0.0)},
     25: {"sweeps": lambda frame: frame.assign(status="not_converged")},
     26: {"errors": lambda frame: where("relaxation", "nesterov_jacobi", error=1.0)(where("relaxation", "jacobi", error=0.0)(frame))},
-    28: FAILS, 30: FAILS, 32: FAILS}
+    28: FAILS, 29: {"bounds": where("relaxation", "fista_restarted", rises=1e9)}, 30: FAILS, 32: FAILS}
 
 HOLDS = {"verdicts": lambda frame: frame.assign(measured=0.0, verdict="holds")}
 RIGHT = {"answers": lambda frame: frame.assign(error=0.0, status="ok", measured=0.0)}
@@ -64,7 +64,7 @@ FAVOURABLE = {
     9: HOLDS | {"series": lambda frame: frame.assign(status="ok")},
     10: HOLDS,
     11: HOLDS | {"momentum": lambda frame: frame.assign(angular_error=0.0)},
-    12: RIGHT | {"solves": lambda frame: frame.assign(status="ok", complementarity_share=1.0)},
+    12: RIGHT | {"traces": lambda frame: frame.assign(status="ok", penetration_m=0.0), "solves": lambda frame: frame.assign(status="ok", complementarity_share=1.0)},
     13: RIGHT | STRAIGHT,
     14: HOLDS | {"solves": lambda frame: frame.assign(status="ok", error_m_per_s=0.0)},
     15: {"gaps": lambda frame: frame.assign(error=0.0, gap_m=np.where(frame["friction"] == "cone", 0.01, 0.0))},
@@ -76,7 +76,9 @@ FAVOURABLE = {
     23: HOLDS | {"beam": lambda frame: frame.assign(status="ok", error_beam=1 / frame["n"])},
     24: {"beam": lambda frame: where("model", "tet_p1", error_beam=0.0)(frame.assign(status="ok", error_beam=0.5))},
     25: {"sweeps": lambda frame: frame.assign(status="ok", sweeps=5.0)},
-    26: {"errors": where("relaxation", "nesterov_jacobi", error=0.0)},
+    26: {"errors": where("relaxation", "nesterov_jacobi", error=0.0), "budgets": where("relaxation", "nesterov_jacobi", gap=0.0),
+         "bounds": where("relaxation", "fista", exponent=9.0)},
+    29: {"bounds": where("relaxation", "fista_restarted", rises=0.0), "budgets": where("relaxation", "fista_restarted", gap=0.0)},
     28: HOLDS | {"points": lambda frame: frame[frame["outer"] == "plain"].assign(error=0.0, status="ok")},
     30: HOLDS | {"ends": lambda frame: frame[frame["status"] == "ok"]},
     32: HOLDS}

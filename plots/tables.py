@@ -34,6 +34,10 @@ TABLES = {
                              "row_updates status reason",
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
+    ("contact_convergence", "traces"): "scene law relaxation sweep natural_residual error penetration_m status reason",
+    ("contact_convergence", "gaps"): "scene relaxation sweep gap bound status reason",
+    ("contact_convergence", "bounds"): "scene relaxation lipschitz bound_share exponent rises sweeps status reason",
+    ("contact_convergence", "budgets"): "scene relaxation budget gap natural_residual penetration_m status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
     ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
                            "status reason",
@@ -109,6 +113,8 @@ TABLES = {
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",
     ("inner_convergence", "errors"): "scene relaxation",
+    ("contact_convergence", "traces"): "scene law relaxation",
+    ("contact_convergence", "gaps"): "scene relaxation",
     ("energy", "series"): "scene integrator alpha step_s",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("direction", "energy"): SCHEME,
@@ -119,7 +125,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id statement quantity measured bound verdict"
-OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

@@ -99,7 +99,7 @@ class DualTables {
                                          "penetration_m", "status", "reason"})),
         gaps_(context.table("gaps", {"scene", "relaxation", "sweep", "gap", "bound", "status", "reason"})),
         bounds_(context.table("bounds", {"scene", "relaxation", "lipschitz", "bound_share", "exponent",
-                                         "rises", "iterations", "status", "reason"})),
+                                         "rises", "sweeps", "status", "reason"})),
         budgets_(context.table("budgets", {"scene", "relaxation", "budget", "gap", "natural_residual",
                                            "penetration_m", "status", "reason"})) {}
 

@@ -45,7 +45,7 @@ DualTrace::DualTrace(const DualCase& of)
 double DualTrace::gap(const VectorXd& impulse, const VectorXd& velocity) const {
   if (of_->law != FrictionLaw::cone) return std::nan("");
   const VectorXd away = impulse - of_->impulse;
-  return (away.dot(of_->velocity) + away.dot(velocity - of_->velocity) / 2) / scale_;
+  return std::abs(away.dot(of_->velocity) + away.dot(velocity - of_->velocity) / 2) / scale_;
 }
 
 void DualTrace::add(std::int64_t sweep, const VectorXd& impulse) {

@@ -32,7 +32,7 @@ struct DualSample {
   std::int64_t sweep;
   double residual;     // |natural map| / |q|
   double error;        // |u - u*| / |q|
-  double gap;          // (F(p) - F*) / (F(0) - F*) of the convex law; else NaN
+  double gap;          // |F(p) - F*| / (F(0) - F*) of the convex law; else NaN
   double penetration;  // m, deepest overlap at the step's end
   bool rises;          // F(p) is larger than a sweep before, by more than the rounding of sums so far
 };

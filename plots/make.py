@@ -20,6 +20,7 @@ import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401
 import joints  # noqa: F401
+import late_friction  # noqa: F401
 import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
@@ -28,6 +29,7 @@ import redundant  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
 import simbenchmark  # noqa: F401
+import softness  # noqa: F401
 import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import work_precision  # noqa: F401

@@ -38,6 +38,9 @@ TABLES = {
     ("contact_convergence", "gaps"): "scene relaxation sweep gap bound status reason",
     ("contact_convergence", "bounds"): "scene relaxation lipschitz bound_share exponent rises sweeps status reason",
     ("contact_convergence", "budgets"): "scene relaxation budget gap natural_residual penetration_m status reason",
+    ("softness", "stretches"): "scene variant relaxation step_s sweeps compliance_m_per_n factor stretch_m expected_m physical_m error "
+                               "status reason",
+    ("late_friction", "motions"): "scene variant step_s quantity measured expected unit natural_residual penetration_m status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
     ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
                            "status reason",

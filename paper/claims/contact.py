@@ -132,6 +132,26 @@ def statics(answers, thresholds):
         share(right.sum(), len(right)), f"{len(right)} of {len(right)}")
 
 
+def late(motions):
+    sides = motions.assign(off=abs(motions["measured"] - motions["expected"].where(motions["quantity"] == "threshold", 0)))
+    sides["off"] = sides["off"].where(sides["status"] == "ok")
+    some(sides if {"inside", "end"} <= set(sides["variant"]) else [], "run with friction within the step and at its end")
+    table = sides.set_index(["scene", "step_s", "quantity", "variant"])[["off", "natural_residual"]].unstack("variant")
+    better = table["off"]["inside"] <= table["off"]["end"]
+    obeys = table["natural_residual"]["inside"] < table["natural_residual"]["end"]
+    creep = motions[motions["quantity"] == "creep"].groupby("variant")["measured"]
+    arch = motions[motions["scene"] == "arch"].set_index("variant")["measured"]
+    violated = motions.groupby("variant")["natural_residual"]
+    return Finding(
+        judge((better & obeys).all(), (better & obeys).any(), f"{share((better & obeys).sum(), len(better))} cases"),
+        f"What friction holds creeps by {span(creep.get_group('end'))} m/s where friction comes at the end of the step, by at most "
+        f"{number(creep.get_group('inside').max())} m/s where it is solved within; Coulomb's law is missed by {span(violated.get_group('end'))} "
+        f"of |q| beside {number(violated.get_group('inside').max())}"
+        + (f"; an arch moves by {number(arch['end'])} m beside {number(arch['inside'])} m" if {"inside", "end"} <= set(arch.index) else "")
+        + f". Friction within is as near or nearer in {share(better.sum(), len(better))} cases.",
+        share((better & obeys).sum(), len(better)), f"{len(better)} of {len(better)}")
+
+
 CLAIMS = (
     Claim(12, "Contact is accurate: nothing overlaps once it is solved.", "an accurate contact and Coulomb friction model",
           ("contact_convergence/traces", "stack/answers", "friction_cone/solves"), nothing_overlaps, "contact_convergence_residual"),
@@ -150,5 +170,5 @@ CLAIMS = (
           "stack_thresholds"),
     Claim(19, "Friction within the sweep is better than at the end of the step.",
           "approximate friction at the end of the step",
-          untested="No experiment applies friction at the end of the step, so there is nothing to compare with."),
+          ("late_friction/motions",), late, "late_friction_creep"),
 )

@@ -78,3 +78,69 @@ def budgets_table(frame):
     return Table("Dual gap after so many sweeps.", ["scene", "method", *(f"{budget:.0f}" for budget in budgets)],
                  [[f"`{scene}`", f"`{name}`", *(number(row[budget]) if row[budget] == row[budget] else "" for budget in budgets)] for (scene, name), row in table.iterrows()],
                  detail=True)
+
+
+CHAIN = (
+    "A chain of ten links hangs straight and at rest. Each step begins with the first link opened by h^2 g more, and n sweeps from zero "
+    "impulses leave c = F c~ of what is open, F = I - N (N + Sigma)^-1 (I - E^n) with Gauss-Seidel's E = I - (N + Sigma) B^-1; so the "
+    "chain rests at c = (I - F)^-1 F h^2 g e_1. A relaxation factor k, classic PBD's stiffness [@mueller2007position], divides B's "
+    "diagonal. Of one mass on one link this is a stiffness of (m/h^2) (1 - (1 - k)^n)/(1 - k)^n: it depends on the step and the sweeps. A "
+    "compliance A whose step is solved to the end stretches by the sum of m g A.")
+
+
+def softness(results):
+    section = Section(
+        "How soft do constraints get where the solver is stopped early?",
+        "A chain and a cloth hang at rest. The solver makes n sweeps a step from zero impulses (`incremental`, no warm start), as classic "
+        "PBD does; then it solves each step to the end.",
+        figures=[
+            Figure("softness_sweeps", "Stretch at rest over the sweeps of a step of 1/60 s. Crossed: did not come to rest."),
+            Figure("softness_steps", "Stretch at rest over the step: a relaxation factor, and a compliance. Crossed: did not come to rest.")])
+    return section.tell(results.table("softness", "stretches"), lambda frame: CHAIN, softness_text, softness_table)
+
+
+def softness_text(frame):
+    parts = [f"{variant} {span(rows['error'])}" for variant, rows in frame[frame["scene"] == "chain"].groupby("variant", sort=False)]
+    restless = frame[frame["status"] != "ok"]
+    text = f"Relative differences from the formulas: {'; '.join(parts)}. {share(len(restless), len(frame))} runs did not come to rest"
+    return text + (f", by {listed(restless['relaxation'].unique())}." if len(restless) else ".")
+
+
+def softness_table(frame):
+    return Table("Stretch at rest.", ["scene", "variant", "relaxation", "step", "sweeps", "A (m/N)", "k", "stretch (m)", "formula (m)",
+                                      "equilibrium (m)", "status"],
+                 [[r["scene"], r["variant"], f"`{r['relaxation']}`", number(r["step_s"]), number(r["sweeps"]), number(r["compliance_m_per_n"]),
+                   number(r["factor"]), number(r["stretch_m"]), number(r["expected_m"]) if r["expected_m"] == r["expected_m"] else "",
+                   number(r["physical_m"]), r["status"]] for _, r in frame.iterrows()], detail=True)
+
+
+LATE = (
+    "With friction at the end of the step, normal impulses without friction move the bodies, and then the slip of each contact is braked "
+    "once, one after the other, by at most mu times its normal impulse. Velocities are changed, positions keep what they slid: what "
+    "friction holds creeps at h a, a the acceleration that friction would balance. The contender is ours, made of the solver's rows; a "
+    "box with infinite inertia, which never turns, obeys the formula to rounding.")
+
+
+def late_friction(results):
+    section = Section(
+        "What does friction at the end of the step do?",
+        "A box on an incline of 20 degrees and a pushed stack, held by friction a tenth and two times larger than needed; where they begin "
+        "to slide; an arch a fifth thicker than it has to be. Friction is solved together with the normal impulses, or after them.",
+        figures=[Figure("late_friction_creep", "Creep of what friction holds, over the step.")])
+    return section.tell(results.table("late_friction", "motions"), lambda frame: LATE, late_text, late_table)
+
+
+def late_text(frame):
+    parts = []
+    for (scene, quantity), rows in frame[frame["quantity"] != "creep"].groupby(["scene", "quantity"], sort=False):
+        sides = [f"{number(r['measured'])} ({r['variant']})" for _, r in rows.iterrows()]
+        parts.append(f"{quantity} of the {scene} {' and '.join(sides)} {rows['unit'].iloc[0]}")
+    residuals = "; ".join(f"{variant} {span(rows['natural_residual'])}" for variant, rows in frame.groupby("variant", sort=False))
+    return f"Beside the creep: {'; '.join(parts)}. Natural residual of Coulomb's law, the largest of each run: {residuals}."
+
+
+def late_table(frame):
+    return Table("Friction within the step and at its end.", ["scene", "friction", "step", "quantity", "measured", "expected", "unit",
+                                                              "natural residual", "overlap (m)", "status"],
+                 [[r["scene"], r["variant"], number(r["step_s"]), r["quantity"], number(r["measured"]), number(r["expected"]), r["unit"],
+                   number(r["natural_residual"]), number(r["penetration_m"]), r["status"]] for _, r in frame.iterrows()], detail=True)

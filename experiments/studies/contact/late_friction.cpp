@@ -40,33 +40,37 @@ Scene pushed_stack(double share) {
 struct PlacedRun {
   Worst residual, penetration;
   bool solved = true;
-  double moved = 0, speed = 0;  // m of any body; m/s of body 1
+  double moved = 0, gained = 0;  // m of any body; m/s of body 1, in the second half
 };
 
 PlacedRun run_placed(FrictionPlace place, const Scene& scene, double h, double duration) {
   PlacedRun run;
   State state = scene.initial;
-  for (auto left = std::lround(duration / h); left > 0; --left) {
+  double half = 0;
+  const auto steps = std::lround(duration / h);
+  for (long k = 0; k < steps; ++k) {
+    if (k == steps / 2) half = state.v.col(1).norm();
     const PlacedFriction now = step_with(place, scene, h, state);
     run.residual.add(now.residual);
     run.penetration.add(now.penetration);
     run.solved &= now.solved;
   }
   run.moved = (state.x - scene.initial.x).colwise().norm().maxCoeff<Eigen::PropagateNaN>();
-  run.speed = state.v.col(1).norm();
+  run.gained = state.v.col(1).norm() - half;
   return run;
 }
 
-/// The share of friction (or push) at which the bodies begin to slide, within 1 %: they slide if they reach
-/// half of the speed that a lack of 1 % gives them, `acceleration` being what friction balances.
+/// The share of friction (or push) at which the bodies begin to slide, within 1 %: they slide if in the
+/// second half they gain half of the speed that a lack of 1 % gives them, `acceleration` being what friction
+/// balances. What friction at the end of the step leaves over is no sliding.
 double sliding_threshold(FrictionPlace place, const std::function<Scene(double share)>& held_by, double h,
                          double acceleration, bool grows) {
   constexpr double duration = 0.5, resolved = 0.01;
   double low = 0, high = 4;
   while (high - low > resolved / 2) {
     const double middle = (low + high) / 2;
-    const bool slides =
-        !(run_placed(place, held_by(middle), h, duration).speed <= resolved / 2 * acceleration * duration);
+    const bool slides = !(run_placed(place, held_by(middle), h, duration).gained <=
+                          resolved / 2 * acceleration * duration / 2);
     (slides == grows ? high : low) = middle;
   }
   return (low + high) / 2;

@@ -6,6 +6,7 @@ from functools import partial
 
 import conditioning  # noqa: F401  (each of these registers its figures)
 import cone_problems  # noqa: F401
+import contact_contraction  # noqa: F401
 import contact_convergence  # noqa: F401
 import contraction  # noqa: F401
 import damping  # noqa: F401

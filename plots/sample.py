@@ -12,7 +12,7 @@ from sample_contacts import convex_gap, friction_isotropy, incline, restitution,
 from sample_cost import METHOD_COLUMNS, effects_cost, method_points, rival_newton, work_precision
 from sample_files import write, write_run
 from sample_motion import damping, direction
-from sample_outer import contraction, outer_convergence, stability_map
+from sample_outer import contact_contraction, contraction, outer_convergence, stability_map
 from sample_robustness import generated_scenes, generated_worlds, point_hard_cases
 from sample_solvers import conditioning, contact_convergence, dual_vs_primal, inexact, inner_convergence, mesh_refinement
 from sample_sweeps import late_friction, softness
@@ -30,6 +30,7 @@ def judges(directory):
 
 CLAIMED = {  # ids of verdicts that the report's claims and answers read
     "outer_convergence": ("outer.pendulum_rate.0.20", "outer.chain_map.rate"), "contraction": ("contraction.radius",),
+    "contact_contraction": ("contact_contraction.sticking", "contact_contraction.sliding", "contact_contraction.expanding"),
     "energy": ("energy.spring.newmark", "energy.spring.implicit_euler", "energy.linear_momentum", "energy.angular_momentum.loss"),
     "cone_problems": ("cone_problems.ipopt", "cone_problems.velocity"), "time_order": ("time_order.spring.bdf2",),
     "mesh_refinement": ("mesh.mms.l2", "mesh.n1.solver"), "generated_worlds": ("worlds.refuted",),
@@ -40,7 +41,7 @@ VERDICTS = [("outer_convergence.rate", "The fixed point contracts at the predict
 
 
 def write_all(directory):
-    for experiment in (outer_convergence, stability_map, contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
+    for experiment in (outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
                        mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
                        friction_isotropy, convex_gap, late_friction, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,

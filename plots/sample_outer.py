@@ -92,3 +92,15 @@ def contraction(directory):
                              "not_converged" if bad else "ok", "the error does not fall" if bad else ""))
     write(directory, "contraction", "rates", "effect strain step_s stiffness unit load_n predicted_rate stiffening "
           "predicted_contraction bound measured_rate status reason", rows)
+
+
+def contact_contraction(directory):
+    rows = []
+    for scene, slides, order in (("ball at rest on a ball", False, 2), ("ball rolls on a ball", False, 1), ("ball slides on a ball", True, 2)):
+        for law in ("coulomb", "cone"):
+            for h in (1 / 15, 1 / 30, 1 / 60):
+                rate = 1.5 * (15 * h) ** order
+                rows.append((scene, law, h, int(not slides), int(slides), 0.5, rate, 1.2 * rate, 0.999 * rate, int(rate < 1), "ok", ""))
+    rows.append((scene, law, 1 / 120, 1, 0, 0.0, float("nan"), 1.2, float("nan"), 0, "not_converged", "a contact changes its state"))
+    write(directory, "contact_contraction", "rates", "scene friction step_s sticking sliding margin predicted_rate "
+          "predicted_contraction measured_rate returns status reason", rows)

@@ -93,8 +93,8 @@ def dual_vs_primal(directory):
 def mesh_refinement(directory):
     rows = []
     for model, order, floor in (("tet_p1 reference", 1.8, 0.0), ("tet_p1", 1.8, 0.0), ("springs", 1.8, 0.2)):
-        for quantity, reference in (("compliance_j", 1.3e-3), ("frequency_hz", 4.1), ("axial_j", 1e-5)):
-            if model == "tet_p1" and quantity == "frequency_hz":
+        for quantity, reference in (("compliance_j", 1.3e-3), ("frequency_hz", 4.1), ("axial_j", 1e-5), ("poisson", 0.3)):
+            if model == "tet_p1 reference" and quantity == "poisson":
                 continue
             for n in (1, 2, 4, 8):
                 error = 0.7 * n ** -order + floor
@@ -105,6 +105,11 @@ def mesh_refinement(directory):
                              "diverged" if bad else "ok", "non-finite positions" if bad else ""))
     write(directory, "mesh_refinement", "beam", "model n elements h_m quantity value reference_mesh reference_beam "
           "error_mesh error_beam status reason", rows)
+    write(directory, "mesh_refinement", "locking", " ".join(columns("mesh_refinement", "locking")),
+          [(n, 60 * n ** 3, nu, value, value, 4e-3, 1e-9, abs(value / 4e-3 - 1), *end)
+           for n in (1, 2, 4) for nu in (0.0, 0.3, 0.49, 0.4999)
+           for value in [4e-3 * (1 - 0.7 / n) * (1 - nu) ** 4]
+           for end in [("not_converged", "outer iterations spent") if (n, nu) == (4, 0.4999) else ("ok", "")]])
     write(directory, "mesh_refinement", "mms", "n h_m error_l2 error_h1 order_l2 order_h1",
           [(n, 1 / n, 0.3 / n ** 2, 0.8 / n, float("nan") if n == 2 else 2.0, float("nan") if n == 2 else 1.0)
            for n in (2, 4, 8, 16)])

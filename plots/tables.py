@@ -22,6 +22,8 @@ TABLES = {
                                "wall_s error status reason",
     ("contraction", "rates"): "effect strain step_s stiffness unit load_n predicted_rate stiffening "
                               "predicted_contraction bound measured_rate status reason",
+    ("contact_contraction", "rates"): "scene friction step_s sticking sliding margin predicted_rate predicted_contraction "
+                                      "measured_rate returns status reason",
     ("direction", "largest_steps"): SCHEME + "largest_step_s predicted_step_s error steps missed_steps "
                                     "most_outer_iterations limit status reason",
     ("direction", "modes"): SCHEME + "mode step_s predicted_left measured_left error row_updates status reason",
@@ -50,6 +52,7 @@ TABLES = {
         "scene elements young_pa poisson strain outer relaxation sweeps error wall_s status reason",
     ("mesh_refinement", "beam"): "model n elements h_m quantity value reference_mesh reference_beam error_mesh "
                                  "error_beam status reason",
+    ("mesh_refinement", "locking"): "n elements poisson value reference_mesh reference_beam error_mesh error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
     ("time_order", "errors"): ORDER_ERRORS,
     ("time_order", "orders"): ORDERS,

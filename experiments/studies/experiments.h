@@ -12,6 +12,7 @@ void judges(Context& context);
 void outer_convergence(Context& context);
 void stability_map(Context& context);
 void contraction(Context& context);
+void contact_contraction(Context& context);
 void direction(Context& context);
 void damping(Context& context);
 void inner_convergence(Context& context);

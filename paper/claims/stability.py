@@ -6,11 +6,15 @@ from claims.claim import Claim, Finding, Untested, judge, some, verdict_rows, wo
 from content import counted, listed, number, share, span
 from reading import CONTRACTING
 from sections.motion import equal_work_ratios
+from sections.outer import contact_orders
 from selecting import good, step_text
 
 
-def converges(rates):
+def converges(rates, touching):
     plain = some(rates[rates["outer"] == "plain"], "run of `plain`")
+    contact = some(touching[touching["status"] == "ok"], "contact that is judged")
+    contact = contact.assign(returns=contact["returns"] == 1)
+    held = contact["predicted_rate"] < 1
     done = plain["behaviour"].isin(CONTRACTING)
     below = plain["predicted_rate"] < 1
     text = f"`plain` converges in {share(done.sum(), len(plain))} cases of {listed(plain['scene'].unique())}"
@@ -19,24 +23,30 @@ def converges(rates):
         text += (f", on the 20-link chain only for h <= {step_text(plain.loc[chain & done, 'step_s'].max())}"
                  if done[chain].any() else ", on the 20-link chain in none")
     return Finding(
-        judge(done.all(), below.any() and done[below].all(), "a predicted spectral radius below 1"),
+        judge(done.all() and contact["returns"].all(), below.any() and done[below].all() and contact.loc[held, "returns"].all(),
+              "a predicted spectral radius below 1"),
         f"{text}. Of the {below.sum()} cases with a predicted spectral radius below 1 it converges in {done[below].sum()}, of the "
-        f"{(~below).sum()} others in {done[~below].sum()}.",
+        f"{(~below).sum()} others in {done[~below].sum()}. In contact it returns to the solution in {contact.loc[held, 'returns'].sum()} of "
+        f"{held.sum()} cases with a radius below 1, in {contact.loc[~held, 'returns'].sum()} of {(~held).sum()} others.",
         share(done.sum(), len(plain)), share(len(plain), len(plain)), "" if done.all() else f"{text}.")
 
 
-def contracts(outer, effects, rates):
-    rows = verdict_rows(outer, "outer.pendulum_rate", "outer.chain_map.rate"), verdict_rows(effects, "contraction.radius")
+def contracts(outer, effects, rates, contacts, touching):
+    rows = (verdict_rows(outer, "outer.pendulum_rate", "outer.chain_map.rate"), verdict_rows(effects, "contraction.radius"),
+            verdict_rows(contacts, "contact_contraction."))
     holds = all((frame["verdict"] == "holds").all() for frame in rows)
     apart = max((worst(frame) for frame in rows), key=lambda row: row["measured"])
     pendulum = rates[(rates["outer"] == "plain") & (rates["scene"] == "pendulum")].sort_values("step_s").head(2)
     some(pendulum, "run of `plain` on the pendulum")
     slope = np.diff(np.log(pendulum["measured_rate"])) / np.diff(np.log(pendulum["step_s"]))
     order = slope[0] if len(slope) else float("nan")
+    powers = [power for *_, power in contact_orders(some(touching, "contact"))]
+    falls = len(powers) > 0 and min(powers) > 0
     return Finding(
-        judge(False, holds and abs(order - 2) <= 0.1, "a spectral radius below 1"),
+        judge(False, holds and falls and abs(order - 2) <= 0.1, "a spectral radius below 1"),
         f"The measured rate of `plain` differs from the dense spectral radius, where that is from 0.01 to 0.95, by at most "
-        f"{number(apart['measured'])}; on the pendulum it falls as h to the power {number(order)}. Where the radius is 1 or more "
+        f"{number(apart['measured'])}; on the pendulum it falls as h to the power {number(order)}. In contact that sticks or slides the radius "
+        f"of its map is a judge's, too, and falls as h to the power {span(powers)}. Where the radius is 1 or more "
         "there is no contraction. The proof itself was not available.", number(apart["measured"]), number(apart["bound"]))
 
 
@@ -136,9 +146,10 @@ def stops_soft(stretches):
 
 CLAIMS = (
     Claim(1, "The fixed point iteration converges.", "we introduce a fixed point iteration and prove it converges in Appendix A",
-          ("outer_convergence/map",), converges, "outer_convergence_map"),
+          ("outer_convergence/map", "contact_contraction/rates"), converges, "outer_convergence_map"),
     Claim(2, "It is a contraction for short steps; its rate goes as h².", "prove it converges in Appendix A",
-          ("outer_convergence/verdicts", "contraction/verdicts", "outer_convergence/map"), contracts,
+          ("outer_convergence/verdicts", "contraction/verdicts", "outer_convergence/map", "contact_contraction/verdicts",
+           "contact_contraction/rates"), contracts,
           "outer_convergence_predicted_rate"),
     Claim(3, "Implicit directions are more stable than velocity stepping.",
           "The implicit treatment of the constraint directions gives us improved stability over velocity based methods.",

@@ -1,6 +1,6 @@
 """Do solutions agree with the references, and with the continuum?"""
 
-from content import Figure, Section, Table, counted, listed, number, span
+from content import Figure, Section, Table, counted, number, share, span
 from selecting import failed, good, step_text
 
 
@@ -40,34 +40,42 @@ def dual_vs_primal(results):
                    "`ok`.")])
     frame = results.table("dual_vs_primal", "final")
     if frame is not None:
-        section.paragraphs.append("Final errors, over all materials: " + "; ".join(
-            f"{listed(name)} {span(group['error'])} ({counted(len(failed(group, 'error')), 'case')} of {len(group)} not ok)"
-            for name, group in frame.groupby(["outer", "relaxation"], sort=False)) + ".")
+        section.tables.append(Table("Final errors over all materials.", ["outer", "relaxation", "ok", "error"], [
+            [f"`{outer}`", f"`{relaxation}`", share(len(group) - len(failed(group, "error")), len(group)), span(group["error"])]
+            for (outer, relaxation), group in frame.groupby(["outer", "relaxation"], sort=False)]))
     return section
 
 
 def mesh_refinement(results):
     section = Section(
         "Do the solids approach the continuum?",
-        "A clamped beam is refined, with linear tetrahedra and with a mass-spring network on the same mesh whose one "
-        "stiffness is fitted to both load cases on each mesh, and compared with Timoshenko's beam and with the rod; a manufactured "
+        "A clamped beam is refined. It is made of linear tetrahedra, or of a mass-spring network on the same mesh, whose one "
+        "stiffness is fitted to both load cases on each mesh. Both are compared with Timoshenko's beam and with the rod. A manufactured "
         "solution gives the order of convergence [@roache1994perspective].",
         figures=[
             Figure("mesh_refinement_beam", "Relative error of bending compliance and first frequency against Timoshenko's "
-                   "beam, of axial compliance against the rod."),
+                   "beam, of axial compliance against the rod, of lateral over axial strain against nu."),
+            Figure("mesh_refinement_locking", "Deflection of linear tetrahedra over that of beam theory as nu tends to 1/2 (to the left)."),
             Figure("mesh_refinement_mms", "Manufactured solution, error against the exact displacement; triangles show the "
                    "expected orders.")])
     beam, mms = results.table("mesh_refinement", "beam"), results.table("mesh_refinement", "mms")
     if beam is not None:
-        section.paragraphs.append("On the finest mesh that is ok, the error is " + "; ".join(
-            finest_text(model, quantity, rows) for (model, quantity), rows in beam.groupby(["model", "quantity"], sort=False))
-            + ".")
+        section.tables.append(Table("Errors on the finest mesh that is ok.", ["quantity", "model", "mesh n", "error"], [
+            finest(quantity, model, rows) for (quantity, model), rows in beam.groupby(["quantity", "model"], sort=False)]))
         section.paragraphs.append(nearer_text(beam))
     if mms is not None:
         last = mms.sort_values("n").iloc[-1]
         section.paragraphs.append(f"The manufactured solution converges with order {last['order_l2']:.2f} in the L2 norm and "
                                   f"{last['order_h1']:.2f} in the H1 seminorm at n = {last['n']:.0f}.")
-    return section
+    return section.tell(results.table("mesh_refinement", "locking"), locking_text)
+
+
+def locking_text(frame):
+    """How much of the beam's deflection each mesh keeps."""
+    parts = [f"{span(rows['value'] / rows['reference_beam'])} (n = {n:.0f})" for n, rows in frame.groupby("n")]
+    return (f"From nu = {frame['poisson'].min():g} to {frame['poisson'].max():g} linear tetrahedra bend by these shares of beam theory: "
+            f"{', '.join(parts)}. {len(good(frame, 'error_mesh'))} of {counted(len(frame), 'equilibrium')} are ok; they differ from the mesh's "
+            f"own by {span(frame['error_mesh'])}.".replace("equilibriums", "equilibria"))
 
 
 def nearer_text(beam):
@@ -78,11 +86,11 @@ def nearer_text(beam):
         both = rows[rows["model"] == "springs"].set_index("n")["error_beam"].to_frame("springs").join(tets, how="inner")
         if len(both):
             parts.append(f"in `{quantity}` on {(both['error_beam'] < both['springs']).sum()} of {len(both)}")
-    return ("Meshes on which the tetrahedra are nearer to theory than the fitted network: " + ", ".join(parts) + ".") if parts \
+    return ("The tetrahedra are nearer to theory than the fitted network, on so many meshes: " + ", ".join(parts) + ".") if parts \
         else "Tetrahedra and network have no mesh in common."
 
 
-def finest_text(model, quantity, rows):
+def finest(quantity, model, rows):
     ok = good(rows, "error_beam").sort_values("n")
-    name = f"`{model}` in `{quantity}`"
-    return f"{number(ok['error_beam'].iloc[-1])} for {name} (n = {ok['n'].iloc[-1]:.0f})" if len(ok) else f"unknown for {name}"
+    last = [f"{ok['n'].iloc[-1]:.0f}", number(ok["error_beam"].iloc[-1])] if len(ok) else ["", "unknown"]
+    return [f"`{quantity}`", f"`{model}`", *last]

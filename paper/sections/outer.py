@@ -2,7 +2,9 @@
 
 from functools import partial
 
-from content import Figure, Section, Table, counted, span
+import numpy as np
+
+from content import Figure, Section, Table, counted, number, span
 from reading import CONTRACTING
 from selecting import cost_ratios, failed, good, stiffens
 
@@ -77,9 +79,9 @@ def rescued_text(errors):
 def stability_map(results):
     section = Section(
         "Where does each outer iteration find the step?",
-        "A swinging chain of links and one of rods with ball joints over step and mass ratio, a cantilever released from rest over step and stiffness; every linear "
-        "problem is solved directly, so that the outer iteration alone is seen. Where does it find the step, in how many "
-        "iterations, and does the solver's own prediction tell where `plain` converges?",
+        "A swinging chain of links and one of rods with ball joints are stepped over a grid of step and mass ratio, a cantilever released from "
+        "rest over step and stiffness. Every linear problem is solved directly, so that only the outer iteration matters. In which cells does "
+        "it find the step, in how many iterations, and does the solver predict where `plain` converges?",
         figures=[
             Figure("stability_map_chain", "Outer iterations until the error against Newton is 1e-8, chain of 20 links. Marks "
                    "stand where that is not reached. Dashed: where the solver predicts a contraction of 1 for `plain`."),
@@ -96,21 +98,20 @@ def stability_map(results):
     section.tell(results.table("stability_map", "cantilever"), partial(solved_text, cell=["young_pa", "step_s"]))
     section.tell(results.table("stability_map", "cantilevers"), cantilevers_text)
     section.tell(results.table("stability_map", "predictions"), predictions_text)
-    return section.tell(results.table("stability_map", "cost"), cost_text)
+    return section.tell(results.table("stability_map", "cost"), cost_table)
 
 
 def solved_text(frame, cell):
     """In how many cells each method finds the step, in how many iterations, and where its claim is not true."""
-    parts, claims = [], 0
+    found, claims = [], 0
     for (outer, memory), rows in frame.groupby(["outer", "memory"], sort=False):
         reached = rows["iterations"].notna()
         claims += (rows["status"].eq("ok") & ~reached).sum()
         name = f"`{outer}`" + (" without acceleration" if outer == "proximal" and memory == 0 else "")
-        counts = f" in {span(rows['iterations'])} iterations" if reached.any() else ""
-        parts.append(f"{name} {reached.sum()}{counts}")
-    cells = counted(len(frame[cell].drop_duplicates()), "cell")
-    text = f"Of {cells} of `{frame['scene'].iloc[0]}` these find the step: {'; '.join(parts)}."
-    return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
+        found.append([name, f"{reached.sum()} of {len(frame[cell].drop_duplicates())}", span(rows["iterations"]) if reached.any() else ""])
+    return Table(f"In how many cells of `{frame['scene'].iloc[0]}` each outer iteration finds the step, and in how many iterations."
+                 + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else ""),
+                 ["outer", "cells", "iterations"], found)
 
 
 def cantilevers_text(frame):
@@ -132,25 +133,26 @@ def predictions_text(frame):
             f"{span(difference)} (relative).")
 
 
-def cost_text(frame):
+def cost_table(frame):
     """What auto costs where plain contracts with a rate below 0.9, at the default tolerance."""
     ratios = cost_ratios(frame)
-    parts = []
+    names = list(ratios["relaxation"].unique())
+    rows = []
     for scene, cells in ratios.groupby("scene", sort=False):
-        found = [f"{span(rows['ratio'])} with `{relaxation}`" for relaxation, rows in cells.groupby("relaxation", sort=False)]
-        parts.append(f"{'wall time' if cells['timed'].all() else 'row updates'} of `{scene}`, {', '.join(found)}")
-    return (f"Where the measured rate of `plain` is below 0.9, `auto` costs these multiples of it: {'; '.join(parts)} "
-            f"({counted(len(ratios), 'run')} to the default tolerance).") if parts else "`plain` solves no step of a rate below 0.9."
+        found = {relaxation: span(runs["ratio"]) for relaxation, runs in cells.groupby("relaxation")}
+        rows.append([f"`{scene}`", "wall time" if cells["timed"].all() else "row updates", *(found.get(name, "") for name in names)])
+    return Table(f"Cost of `auto` as a multiple of that of `plain`, where the measured rate of `plain` is below 0.9: {counted(len(ratios), 'run')} "
+                 "to the default tolerance.", ["scene", "cost", *names], rows)
 
 
 def contraction(results):
     section = Section(
         "Is each effect's contraction the predicted one?",
-        "Small bodies of one effect each, loaded so that their geometric stiffness matters; of joints, three rods on balls "
-        "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain`, measured beside the solution, is "
-        "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect, to which "
-        "of rods half the angle that they turn in the step is added. Corotational rows hold their rotation fixed: J is not dc/dx, "
-        "and what the rows leave out is d(J^T p)/dx + J^T A^-1 (J - dc/dx), by which the dense radius is computed.",
+        "Small bodies with one effect each are loaded so that their geometric stiffness matters. For joints these are three rods on balls "
+        "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain` is measured near the solution. It is "
+        "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect; for rods the bound "
+        "includes half the angle that they turn in the step. Corotational rows hold their rotation fixed, so that J is not dc/dx. The "
+        "dense radius is that of what such rows leave out, d(J^T p)/dx + J^T A^-1 (J - dc/dx).",
         figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction.")])
@@ -173,3 +175,43 @@ def effects_table(frame):
     return Table("Rates of at least 0.001: measured over the dense radius, the bound over measured, and, where the bound exceeds "
                  "0.7 and a prediction is computed, predicted over measured.",
                  ["effect", "decided by", "cases", "measured/radius", "bound/measured", "predicted/measured"], rows)
+
+
+def contact_contraction(results):
+    section = Section(
+        "Does the outer iteration contract in contact?",
+        "Spheres and cubes that rest, roll, slide or tumble on what curves, or turn on an edge or a corner. Near a solution where no "
+        "contact is about to open, to slide or to stick, the map of `plain` is differentiable: pressing contacts are equations, sliding "
+        "ones with a force along their slip. A judge states these equations by itself and differentiates them. Its spectral radius is "
+        "compared with that of the solver's own map, which is measured by single iterations of `plain` from either side of the solution.",
+        figures=[Figure("contact_contraction_radii", "Spectral radius of the solver's map over that of the judge's. Filled: `plain` does "
+                        "not return to the solution from 1e-6 of the step beside it. Dashed: a radius of 1.")])
+    return section.tell(results.table("contact_contraction", "rates"), contact_rates_text, contact_orders_table)
+
+
+def contact_rates_text(frame):
+    """How near prediction and measurement are, where there is no contraction, and what the solver's own prediction says."""
+    seen = good(frame, "predicted_rate", "measured_rate")
+    beyond, seen = seen[seen["predicted_rate"] >= 1], seen[seen["predicted_rate"] >= 0.01]
+    own = [rows["predicted_contraction"] / rows["measured_rate"] for rows in (seen[seen["sliding"] == 0], seen[seen["sliding"] > 0])]
+    return (f"Where the radius is 0.01 or more ({counted(len(seen), 'case')}) the solver's map has {span(seen['measured_rate'] / seen['predicted_rate'])} "
+            f"times the judge's. It is 1 or more in {counted(len(beyond), 'case')}; `plain` returns in {int(beyond['returns'].sum())} of them, "
+            f"and in {int(frame.loc[frame['predicted_rate'] < 1, 'returns'].sum())} of {counted((frame['predicted_rate'] < 1).sum(), 'other')}. "
+            f"The solver's own prediction, an upper bound below 0.7, is {span(own[0])} times the measured radius where all contacts stick, "
+            f"{span(own[1])} times where some slide.")
+
+
+def contact_orders(frame):
+    """The power of h by which the rate falls between the two shortest steps, of each scene and law."""
+    rows = good(frame, "measured_rate").sort_values("step_s")
+    for (scene, law), own in rows.groupby(["scene", "friction"], sort=False):
+        if len(own) > 1:
+            first, second = own.iloc[0], own.iloc[1]
+            order = np.log(second["measured_rate"] / first["measured_rate"]) / np.log(second["step_s"] / first["step_s"])
+            yield scene, law, own["measured_rate"], order
+
+
+def contact_orders_table(frame):
+    return Table("Measured rates over all steps, and the power of h by which they fall between the two shortest ones.",
+                 ["scene", "law", "rates", "power of h"],
+                 [[scene, f"`{law}`", span(rates), number(order)] for scene, law, rates, order in contact_orders(frame)])

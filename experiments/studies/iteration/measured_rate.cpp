@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contraction.h"
 #include "step/step.h"
 
 namespace pbdcheck {
@@ -82,10 +83,13 @@ Moved beside(const Scene& scene, const State& start, double h, const reference::
   return moved;
 }
 
-Method plain(int iterations, double tolerance) {
+/// Linear problems are solved to the end: what is left of them would count as error of the iteration.
+Method plain(int iterations, double tolerance, std::string_view friction) {
   Method method;
   method.outer = "plain";
   method.relaxation = "direct";
+  method.friction = friction;
+  method.inner_tolerance = 1e-9;
   method.tolerance = tolerance;
   method.max_outer = iterations;
   return method;
@@ -96,7 +100,7 @@ Method plain(int iterations, double tolerance) {
 double measured_rate(const Scene& scene, const State& start, double h, const reference::Judgement& solved) {
   constexpr double end = 1e-10, settled = 1e-3;
   constexpr int fewest_restarts = 8, most_restarts = 40, most_iterations = 400;
-  const Method method = plain(most_iterations, 1e-15);
+  const Method method = plain(most_iterations, 1e-15, "coulomb");
   const double scale = change_of(scene, start, solved);
   const Points end_velocities = rate_columns(scene, solved.v, solved.spin);
   Points direction = without_symmetry(scene);
@@ -125,9 +129,31 @@ double measured_rate(const Scene& scene, const State& start, double h, const ref
   return std::nan("");
 }
 
+double measured_map_rate(const Scene& scene, const State& start, double h, const reference::Judgement& solved,
+                         std::string_view friction) {
+  const Method method = plain(2, 1e-15, friction);  // the second begins where the first one ends
+  const Points none = Points::Zero(3, scene.nodes() + std::ssize(scene.bodies));
+  const auto size = none.size();
+  const auto ends = [&](Eigen::Index entry, double sign) {
+    Points direction = none, end = none;
+    direction.reshaped()[entry] = sign;
+    Moved moved = beside(scene, start, h, solved, direction);
+    Workspace workspace(moved.scene, method);
+    step(workspace, h, moved.start, [&](const Iterate& iterate) {
+      if (iterate.outer_iteration == 1) end = iterate.v;
+    });
+    return end;
+  };
+  const double apart = 2 * begin * change_of(scene, start, solved);
+  Eigen::MatrixXd map(size, size);
+  for (Eigen::Index entry = 0; entry < size; ++entry)
+    map.col(entry) = (ends(entry, 1) - ends(entry, -1)).reshaped() / apart;
+  return reference::extremes(map).radius();
+}
+
 bool plain_returns(const Scene& scene, const State& start, double h, const reference::Judgement& solved,
-                   int iterations) {
-  const Method method = plain(iterations, 1e-12);
+                   int iterations, std::string_view friction) {
+  const Method method = plain(iterations, 1e-12, friction);
   Moved moved = beside(scene, start, h, solved, without_symmetry(scene));
   Workspace workspace(moved.scene, method);
   return step(workspace, h, moved.start).status == Status::ok;

@@ -4,6 +4,8 @@
 // the step's problem stays the same.
 #pragma once
 
+#include <string_view>
+
 #include "judge.h"
 #include "scene.h"
 
@@ -21,8 +23,14 @@ inline constexpr double least_rate = 1e-3;
 double measured_rate(const pbd::Scene& scene, const pbd::State& start, double h,
                      const pbd::reference::Judgement& solved);
 
+/// Spectral radius of the map that an iteration of `plain` is beside that step, contacts by the law
+/// `friction`: one iteration from either side of the solution along each velocity.
+double measured_map_rate(const pbd::Scene& scene, const pbd::State& start, double h,
+                         const pbd::reference::Judgement& solved, std::string_view friction);
+
 /// Whether `plain` returns to the solution from 1e-6 of the step beside it within `iterations`.
 bool plain_returns(const pbd::Scene& scene, const pbd::State& start, double h,
-                   const pbd::reference::Judgement& solved, int iterations);
+                   const pbd::reference::Judgement& solved, int iterations,
+                   std::string_view friction = "coulomb");
 
 }  // namespace pbdcheck

@@ -7,6 +7,7 @@ from functools import partial
 import conditioning  # noqa: F401  (each of these registers its figures)
 import cone_problems  # noqa: F401
 import contact_contraction  # noqa: F401
+import contact_convergence  # noqa: F401
 import contraction  # noqa: F401
 import damping  # noqa: F401
 import direction  # noqa: F401
@@ -20,6 +21,7 @@ import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401
 import joints  # noqa: F401
+import late_friction  # noqa: F401
 import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
@@ -28,6 +30,7 @@ import redundant  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
 import simbenchmark  # noqa: F401
+import softness  # noqa: F401
 import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import work_precision  # noqa: F401

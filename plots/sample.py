@@ -14,7 +14,8 @@ from sample_files import verdict, write, write_run
 from sample_motion import damping, direction
 from sample_outer import contact_contraction, contraction, outer_convergence, stability_map
 from sample_robustness import generated_scenes, generated_worlds, point_hard_cases
-from sample_solvers import conditioning, dual_vs_primal, inexact, inner_convergence, mesh_refinement
+from sample_solvers import conditioning, contact_convergence, dual_vs_primal, inexact, inner_convergence, mesh_refinement
+from sample_sweeps import late_friction, softness
 from sample_time import energy, time_order
 import tables
 
@@ -41,9 +42,9 @@ VERDICTS = [verdict("outer_convergence.rate", "The fixed point contracts at the 
 
 
 def write_all(directory):
-    for experiment in (outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, conditioning, inexact, dual_vs_primal,
-                       mesh_refinement, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
-                       friction_isotropy, convex_gap, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
+    for experiment in (outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
+                       mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
+                       friction_isotropy, convex_gap, late_friction, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,
                        effects_cost, point_hard_cases, generated_scenes, generated_worlds, judges):
         experiment(directory)

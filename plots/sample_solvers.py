@@ -22,6 +22,26 @@ def inner_convergence(directory):
           "scene relaxation predicted_rate measured_rate theory status reason", rates)
 
 
+def contact_convergence(directory):
+    rates = RATES | {"conjugate_gradients": 0.8, "ista": 0.99, "fista": 0.95, "fista_restarted": 0.9, "power_law": 0.97}
+    traces, gaps, bounds, budgets = [], [], [], []
+    for scene in ("column of 10", "sliding column"):
+        for law in ("cone", "coulomb"):
+            for name in (*RELAXATIONS, "conjugate_gradients"):
+                bad = name == "jacobi"
+                traces += [(scene, law, name, k, rates[name] ** k, rates[name] ** k, 1e-4 * rates[name] ** k,
+                            "not_converged" if bad else "ok", "sweeps spent" if bad else "") for k in range(1, 400, 9)]
+        for name, rate in rates.items():
+            first, second = name in ("ista", "jacobi"), name in ("fista", "nesterov_jacobi")
+            limit = [80 / k if first else 3200 / k ** 2 if second else float("nan") for k in range(1, 400, 9)]
+            gaps += [(scene, name, k, rate ** k, bound, "ok", "") for k, bound in zip(range(1, 400, 9), limit)]
+            bounds.append((scene, name, 6.0, 0.3 if first or second else float("nan"), -20 * np.log(rate),
+                           {"fista": 300, "fista_restarted": 2}.get(name, 0), 400, "ok", ""))
+            budgets += [(scene, name, k, rate ** k, rate ** k, 1e-4 * rate ** k, "ok", "") for k in (10, 100, 400)]
+    for table, rows in (("traces", traces), ("gaps", gaps), ("bounds", bounds), ("budgets", budgets)):
+        write(directory, "contact_convergence", table, " ".join(columns("contact_convergence", table)), rows)
+
+
 def conditioning(directory):
     rows = []
     for scene, parameter, values in (("chain20", "mass_ratio", (1.0, 100.0, 1e4)), ("cantilever", "young_pa", (1e3, 1e6, 1e9)),

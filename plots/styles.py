@@ -16,6 +16,8 @@ STYLES = {
     "direct": (BLACK, "D", ":"),
     "siconos_nsgs": ("#888888", "X", "-"), "siconos_nsn_ac": ("#8c564b", "h", "--"), "siconos_admm": ("#bcbd22", "p", "-."),
     "cone_interior_point": (SKY, "*", "-"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),
+    "ista": (RED, "v", "--"), "fista": (SKY, "*", "-"), "fista_restarted": ("#8c564b", "h", "--"),
+    "mass_splitting": ("#888888", "X", "-"), "power_law": ("#bcbd22", "p", "-."),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
     "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),

@@ -36,6 +36,13 @@ TABLES = {
                              "row_updates status reason",
     ("inner_convergence", "errors"): "scene relaxation sweep wall_s error status reason",
     ("inner_convergence", "rates"): "scene relaxation predicted_rate measured_rate theory status reason",
+    ("contact_convergence", "traces"): "scene law relaxation sweep natural_residual error penetration_m status reason",
+    ("contact_convergence", "gaps"): "scene relaxation sweep gap bound status reason",
+    ("contact_convergence", "bounds"): "scene relaxation lipschitz bound_share exponent rises sweeps status reason",
+    ("contact_convergence", "budgets"): "scene relaxation budget gap natural_residual penetration_m status reason",
+    ("softness", "stretches"): "scene variant relaxation step_s sweeps compliance_m_per_n factor stretch_m expected_m physical_m error "
+                               "status reason",
+    ("late_friction", "motions"): "scene variant step_s quantity measured expected unit natural_residual penetration_m status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
     ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
                            "status reason",
@@ -112,6 +119,8 @@ TABLES = {
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation",
     ("inner_convergence", "errors"): "scene relaxation",
+    ("contact_convergence", "traces"): "scene law relaxation",
+    ("contact_convergence", "gaps"): "scene relaxation",
     ("energy", "series"): "scene integrator alpha step_s",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("direction", "energy"): SCHEME,
@@ -122,7 +131,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

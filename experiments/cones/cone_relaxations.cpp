@@ -42,7 +42,9 @@ void each_contact(const Rows& rows, F&& f) {
   });
 }
 
-Eigen::VectorXd impulses(const Rows& rows) {
+}  // namespace
+
+Eigen::VectorXd contact_impulses(const Rows& rows) {
   Eigen::VectorXd all(row_count(rows));
   Eigen::Index row = 0;
   each_contact(rows, [&](const auto& block, std::size_t i) {
@@ -51,8 +53,6 @@ Eigen::VectorXd impulses(const Rows& rows) {
   });
   return all;
 }
-
-}  // namespace
 
 Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
   const auto count = static_cast<std::size_t>(problem.contacts());
@@ -125,7 +125,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           const auto [own, exhausted] = method.sweep(rows, v_free, nullptr);
           ++found.iterations;
           if (own > worth && !exhausted) continue;
-          const double natural = measure_cone(task.problem, task.law, impulses(rows)).residual();
+          const double natural = measure_cone(task.problem, task.law, contact_impulses(rows)).residual();
           if (exhausted || !(own > 0 && natural > task.tolerance))
             break;  // reached, nothing left to gain, or NaN
           constexpr double least = 0.1, most = 0.7;
@@ -135,7 +135,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           found.iterations += static_cast<int>(method.further_sweeps());
       },
       any);
-  found.impulse = impulses(rows);
+  found.impulse = contact_impulses(rows);
   certify(task.problem, task.law, task.tolerance, found);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return found;

@@ -15,6 +15,9 @@ pbd::Rows local_rows(const pbd::reference::ConeProblem& problem, pbd::reference:
 /// W = J M^-1 J^T, q = b + J v_free.
 pbd::reference::ConeProblem cone_problem(const pbd::Rows& rows, const pbd::Points& v_free);
 
+/// Impulses of contacts with friction, N s, three a contact in the rows' order.
+Eigen::VectorXd contact_impulses(const pbd::Rows& rows);
+
 /// v_free + W J^T impulse of those rows, m/s.
 pbd::Points moved_by(const pbd::Rows& rows, pbd::Points v_free, const Eigen::VectorXd& impulse);
 

@@ -19,7 +19,7 @@ export OPENBLAS_NUM_THREADS := 1
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 export CTEST_PARALLEL_LEVEL := $(JOBS)
 
-.PHONY: help deps configure build test verify test-plots reproduce plots report first-figure asan debug format format-check tidy bench clean
+.PHONY: help deps configure build test verify test-plots test-report reproduce plots report first-figure asan debug format format-check tidy bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 16
@@ -44,6 +44,11 @@ test-plots: ## run the tests of the plots and the report
 	@$(INSTALL) plots
 	$(PYTHON) -m unittest discover --start-directory plots
 	$(PYTHON) -m unittest discover --start-directory paper
+
+# Without a report in RESULTS, one of made-up results is tested. test-plots runs this test, too, where a browser is installed.
+test-report: ## test the report's page in a browser, without a window
+	@$(INSTALL) plots browser
+	$(PYTHON) paper/test_browser.py $(if $(wildcard $(RESULTS)/report.html),$(RESULTS))
 
 # A failed verdict (exit code 1) is a result: it goes into the report, and make fails at the end.
 reproduce: ## run every experiment, draw the figures, write the report

@@ -1,9 +1,26 @@
-"""The first page: what a user asks, each with one sentence, one number and one figure, all from the results."""
+"""The first page: what a user asks, each with one sentence, one number and one figure, all from the results; where to find more."""
 
 from dataclasses import dataclass
 
 from content import Figure, counted, number, share, span
 from sections.cost import LEVELS, quickest, rival_wins
+
+
+GUIDE = {
+    "Which method is the quickest for a given error?": "work_precision",
+    "When is Newton's method quicker?": "rival_newton",
+    "At which steps, masses and stiffnesses does an iteration converge?": "stability_map",
+    "Does it keep energy and momentum?": "energy",
+    "Does friction drift on a slope?": "incline",
+    "Do stacks and arches stand?": "stack",
+    "Which solver for contact with friction?": "cone_problems",
+    "What does an effect cost?": "effects_cost",
+    "Which claims of the paper hold?": "claims",
+    "What failed, and why?": "failed",
+    "What changed since the last run?": "history",
+    "What does a word mean?": "words",
+    "Which machine and program, and how to cite?": "provenance",
+}  # and the section that answers it
 
 
 @dataclass
@@ -21,6 +38,12 @@ def answers(results):
         experiment = answer.figure.name.removesuffix("_answer")
         answer.figure.drawn = results.drawn(experiment, answer.figure.name)
     return found
+
+
+def guide(sections):
+    """Questions and the sections that answer them, of those that there are."""
+    there = {section.name for section in sections}
+    return [(question, name) for question, name in GUIDE.items() if name in there]
 
 
 def answered(question, figure, results, names, tell):
@@ -47,10 +70,10 @@ def accuracy_told(points):
     wins, entered = rival_wins(points)
     if not reached:
         return "none", "", (f"In none of {counted(len(ours), 'scene')} does a method of ours come to an error of {number(LEVELS[-1])}.")
-    return (number(ratio.median()), "times as long",
-            f"An error of {number(LEVELS[-1])} takes our quickest method {number(ratio.median())} times as long as one of {number(LEVELS[0])} "
-            f"in the median of the {share(reached, len(ours))} scenes and steps where both are reached ({span(ratio)} times; "
-            f"{span(1e3 * ours[LEVELS[-1]])} ms a step); Newton's method with CHOLMOD is quicker than every other in "
+    return (number(ratio.median()), "times as long for an error a million times smaller",
+            f"To reach an error of {number(LEVELS[-1])} our quickest method takes {number(ratio.median())} times as long as for "
+            f"{number(LEVELS[0])}. That is the median over {share(reached, len(ours))} pairs of scene and step; the range is {span(ratio)} times, and "
+            f"{span(1e3 * ours[LEVELS[-1]])} ms a step. Newton's method with CHOLMOD is quicker than all our methods in "
             f"{share(wins, entered)} rows that it enters. See [#work_precision].")
 
 
@@ -71,10 +94,10 @@ def stability_told(points, contacts, ends, verdicts):
     steps = ends.groupby("status")["steps"].sum()
     refuted = verdicts.loc[verdicts["id"] == "worlds.refuted", "measured"].max()
     return (share(held, cases), "hard cases pass every gate",
-            f"With no setting for any of them, {share(held, cases)} hard cases pass every gate (ropes, grids and solids by "
-            f"`conjugate_gradients`, contacts by `direct`); of {int(steps.sum())} steps of random scenes {int(steps.get('ok', 0))} are solved, "
-            f"{int(steps.get('not_converged', 0))} miss their tolerance and say so, {int(steps.get('diverged', 0))} diverge and say so, and "
-            f"the judge refutes {number(refuted)} of those that say ok. See [#point_hard_cases], [#contact_hard_cases] and "
+            f"{share(held, cases)} hard cases pass every gate without a setting for any of them (ropes, grids and solids by "
+            f"`conjugate_gradients`, contacts by `direct`). Of {int(steps.sum())} steps of random scenes {int(steps.get('ok', 0))} say they are solved, "
+            f"{int(steps.get('not_converged', 0))} say they miss their tolerance, and {int(steps.get('diverged', 0))} say they diverge. "
+            f"The judge refutes {number(refuted)} of those that say they are solved. See [#point_hard_cases], [#contact_hard_cases] and "
             "[#generated_worlds].")
 
 
@@ -92,8 +115,8 @@ def effects_told(verdicts):
     free = found["verdict"].get("effects.empty.free", "not measured")
     bound = found["bound"].get("effects.empty.free", float("nan"))
     change = number(100 * measured("effects.empty.free"))
-    return (f"{change} %", "is what effects that are present and empty change of the time",
-            f"Effects that are present and empty change {number(measured('effects.empty.bitwise'))} numbers of the result, and the time by "
-            f"{change} % (at most {number(100 * bound)} % is asked for: {free}); contacts without friction take {number(100 * measured('effects.frictionless.cheaper'))} "
-            f"% of the time of those with it, and a solid's strain that is removed takes "
-            f"{number(100 * (1 - measured('effects.removed.cheaper')))} % of its own time with it. See [#effects_cost].")
+    return (f"{change} %", "change of the time by effects that nothing in the scene uses",
+            f"Effects that are switched on and that nothing uses change {number(measured('effects.empty.bitwise'))} numbers of the result. They change "
+            f"the time by {change} %; the bound is {number(100 * bound)} % ({free}). Contacts without friction take "
+            f"{number(100 * measured('effects.frictionless.cheaper'))} % of the time of contacts with it. Removing a solid's strain saves "
+            f"{number(100 * (1 - measured('effects.removed.cheaper')))} % of the time that was measured for the strain itself. See [#effects_cost].")

@@ -6,10 +6,8 @@ the marking there is.
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 import results  # noqa: F401  (makes plots/ importable)
-import selecting
+from wording import counted, joined, number, share, span  # noqa: F401  (sections and claims take them from here)
 
 
 @dataclass
@@ -18,6 +16,8 @@ class Table:
     header: list
     rows: list  # of texts
     detail: bool = False  # folded in HTML, and left out of the PDF
+    first: bool = False  # before the figures
+    number: int = 0  # in the report
 
 
 @dataclass
@@ -38,6 +38,8 @@ class Section:
     tables: list = field(default_factory=list)
     name: str = ""  # what [#name] refers to
     page: bool = False  # begins a page of the PDF
+    appendix: bool = False  # folded in HTML
+    files: list = field(default_factory=list)  # results.File: what it is made from
 
     def tell(self, frame, *parts):
         """Adds the text or Table that each of `parts` makes of a result table, if there is one."""
@@ -47,28 +49,12 @@ class Section:
         return self
 
 
-def places(sections):
+def places(sections, answers=()):
     """What [#name] is written as: the number of each section, and of each figure that is drawn."""
     found = {section.name: f"section {number}" for number, section in enumerate(sections, start=1) if section.name}
-    drawn = [figure.name for section in sections for figure in section.figures if figure.drawn]
+    figures = [answer.figure for answer in answers] + [figure for section in sections for figure in section.figures]
+    drawn = [figure.name for figure in figures if figure.drawn]
     return found | {name: f"figure {number}" for number, name in enumerate(drawn, start=1)}
-
-
-def number(value, digits=3):
-    """A number for a text or a table."""
-    if np.isnan(value):
-        return "not a number"
-    return selecting.text_number(value, digits) if np.isfinite(value) else ("inf" if value > 0 else "-inf")
-
-
-def span(values):
-    """Smallest to largest of the finite values."""
-    values = np.asarray(values, dtype=float)
-    values = values[np.isfinite(values)]
-    if not len(values):
-        return "no finite number"
-    low, high = number(values.min()), number(values.max())
-    return low if low == high else f"{low} to {high}"
 
 
 def listed(words):
@@ -76,21 +62,7 @@ def listed(words):
     return joined([f"`{word}`" for word in words]) or "none"
 
 
-def joined(texts):
-    """a, b and c."""
-    texts = list(texts)
-    return " and ".join([", ".join(texts[:-1]), texts[-1]]) if len(texts) > 1 else "".join(texts)
-
-
 def compared(measured, bound):
     """Two numbers, with as many digits as it takes to tell them apart."""
     digits = next(d for d in range(3, 18) if d == 17 or measured == bound or f"{measured:.{d}g}" != f"{bound:.{d}g}")
     return number(measured, digits), number(bound, digits)
-
-
-def counted(count, noun):
-    return f"{count} {noun}" + ("" if count == 1 else "s")
-
-
-def share(count, total):
-    return f"{count} of {total}"

@@ -63,7 +63,7 @@ def cause(results, verdict):
     """Why a verdict fails, as far as the results tell."""
     times = f"{compared(verdict['measured'] / verdict['bound'], 1)[0]} times its bound" if verdict["bound"] > 0 else "above 0"
     if verdict["id"].startswith(TIMED):
-        return f"A measured time, {times}: other work on the machine shows in it. `make bench` measures with nothing else running."
+        return f"A measured time, {times}. Other work on the machine slows it; `make bench` repeats the measurement with nothing else running."
     bad = [frame[frame["status"] != "ok"] for _, frame in results.all_tables(verdict["experiment"]) if "status" in frame]
     reasons = pd.concat([frame.apply(why, axis=1) for frame in bad if len(frame)]).map(stripped).value_counts() \
         if any(map(len, bad)) else []
@@ -86,8 +86,8 @@ def failed_section(results, experiments):
         return section
     header = ["see", "status", "reason (# a number)", "solves", "of each method"]
     section.tables += [
-        Table("Solves that are not ok, the commonest reasons of each experiment. The failure of a method is a result: it stays in the "
-              "figures as a crossed marker.", header, [[*row[:4], listing(row[4], 2)] for row in first_of_each(rows, 2)]),
+        Table("Solves that are not ok: the two commonest reasons of each experiment. The failure of a method is a result, too; the "
+              "figures show it as a crossed marker.", header, [[*row[:4], listing(row[4], 2)] for row in first_of_each(rows, 2)]),
         Table("Solves that are not ok, all of them.", header, [[*row[:4], listing(row[4], len(row[4]))] for row in rows], detail=True)]
     return section
 
@@ -105,9 +105,9 @@ def listing(texts, most):
 def verdicts_section(results, experiments):
     """Every verdict, of all experiments."""
     verdicts = all_verdicts(results, experiments)
-    return Section("All verdicts", name="verdicts", paragraphs=[
-        "A verdict holds if what is measured is at most its bound. The table stands in `report.html` and beside it as `verdicts.csv` of "
-        "each experiment."], tables=[Table(
+    return Section("All verdicts", name="verdicts", appendix=True, paragraphs=[
+        "A verdict holds if the measured number is at most its bound. The table is in `report.html`; each experiment has its own in "
+        "`verdicts.csv`."], tables=[Table(
             f"{len(verdicts)} verdicts.", ["experiment", "id", "statement", "quantity", "measured", "bound", "verdict"],
             [[f"[#{row['experiment']}]", f"`{row['id']}`", row["statement"], row["quantity"], number(row["measured"]),
               number(row["bound"]), row["verdict"]] for _, row in verdicts.iterrows()], detail=True)])

@@ -39,5 +39,5 @@ WORDS = {
 
 
 def glossary_section():
-    return Section("Words", name="words", page=True, tables=[
+    return Section("Glossary", name="words", page=True, tables=[
         Table("The words of this report.", ["word", "what it means"], [list(entry) for entry in WORDS.items()])])

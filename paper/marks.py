@@ -6,16 +6,16 @@ Text that looks like a citation or a reference and names nothing known is text.
 import html
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 LATEX = {"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
          "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
          "|": r"\textbar{}", '"': r"\textquotedbl{}", "×": r"$\times$", "²": r"\textsuperscript{2}", "³": r"\textsuperscript{3}",
          "µ": r"$\mu$", "ν": r"$\nu$", "μ": r"$\mu$", "°": r"$^\circ$", "±": r"$\pm$",
          "[": "{[}", "*": "{*}",  # after the end of a row they would be its arguments
-         "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "`": ""}
+         "é": r"\'e", "è": r"\`e", "ü": r'\"u', "ö": r'\"o', "ä": r'\"a', "á": r"\'a", "í": r"\'{\i}", "–": "--", "`": ""}
 NEGATIVE_EXPONENT = re.compile(r"[\d.]+e-\d+")
 BIBLIOGRAPHY = (Path(__file__).resolve().parent / "refs.bib").read_text(encoding="utf-8")
-TABLE = re.compile(r"\w+/\w+\.csv")  # a result table beside the report
 MARK = re.compile(r"`([^`]*)`|\[@(" + "|".join(re.findall(r"@\w+\{(\w+),", BIBLIOGRAPHY)) + r")\]|\[#(\w+)\]")
 
 
@@ -44,10 +44,11 @@ def to_latex(text, places=None):
     def refer(name):
         return rf"\hyperref[{name}]{{{places[name].replace(' ', '~')}}}" if name in (places or {}) else ""
 
-    return marked(text, escape, code, lambda key: rf"\citep{{{key}}}", refer)
+    return marked(text, escape, code, lambda key: rf"\cite{{{key}}}", refer)
 
 
-def to_html(text, references, places=None):
+def to_html(text, references, places=None, files=()):
+    """`files` are the result tables that there are."""
     def cite(key):
         return f'[<a href="#{key}">{list(references).index(key) + 1}</a>]'
 
@@ -56,7 +57,7 @@ def to_html(text, references, places=None):
 
     def code(escaped):
         text = f"<code>{escaped}</code>"
-        return f'<a href="{escaped}">{text}</a>' if TABLE.fullmatch(escaped) else text
+        return f'<a href="{escaped}">{text}</a>' if escaped in files else text
 
     return marked(text, html.escape, code, cite, refer)
 
@@ -66,21 +67,26 @@ def plain(text, places):
     return marked(text, str, str, lambda key: f"[{key}]", lambda name: places.get(name, ""))
 
 
+class Reference(NamedTuple):
+    text: str
+    link: str  # '' if there is none
+
+
 def references(text):
-    """The entries of refs.bib as plain text, by key."""
+    """The entries of refs.bib by key, in the order of their numbers: by author."""
     entries = {}
     for key, body in re.findall(r"@\w+\{(\w+),\n(.*?)\n\}", text, re.S):
         fields = {name: plain_bibtex(value) for name, value in re.findall(r"(\w+) = \{(.*)\},?", body)}
         who = (fields.get("author") or fields["editor"]).replace(" and ", "; ")
         where = next((fields[name] for name in ("journal", "booktitle", "school", "publisher") if name in fields), "")
         volume = f" {fields['volume']}" if "volume" in fields else ""
-        doi = f", doi:{fields['doi']}" if "doi" in fields else ""
-        entries[key] = f"{who}: {fields['title']}. {where}{volume}{', ' if where else ''}{fields['year']}{doi}."
-    return entries
+        link = f"https://doi.org/{fields['doi']}" if "doi" in fields else fields.get("url", "")
+        entries[key] = Reference(f"{who}: {fields['title']}. {where}{volume}{', ' if where else ''}{fields['year']}.", link)
+    return dict(sorted(entries.items(), key=lambda entry: entry[1].text.lower()))
 
 
 def plain_bibtex(text):
-    for mark, letter in ((r'{\"u}', "ü"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
+    for mark, letter in ((r'{\"u}', "ü"), (r'\"a', "ä"), (r"{\`e}", "è"), (r"{\'e}", "é"), (r"{\'a}", "á"), (r"{\'i}", "í"), (r"\&", "&"),
                          ("{$O(1/k^2)$}", "O(1/k²)"), ("--", "–")):
         text = text.replace(mark, letter)
     return text.replace("{", "").replace("}", "")

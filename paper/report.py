@@ -1,7 +1,5 @@
 """Writes the report of a result folder, as one self-contained HTML file and as PDF, and prints its answers."""
 
-import base64
-import io
 import os
 import shutil
 import subprocess
@@ -10,23 +8,22 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
-from PIL import Image
 
 import provenance
 import sections
-from answers import answers
+from answers import answers, guide
 from claims import against, claims_section, findings
 from command import command, replacing
 from content import places
 from failed import failed_section, verdicts_section
 from glossary import glossary_section
-from marks import BIBLIOGRAPHY, plain, references, to_html, to_latex
+from marks import BIBLIOGRAPHY, plain, references, to_latex
+from page import page
 from reading import InputError
 from results import Results
 
 HERE = Path(__file__).resolve().parent
-LONGEST = 15  # rows of an experiment's table in the PDF; longer ones are in the HTML alone
-COLOURS = 64  # of a figure in the HTML
+LONGEST = 12  # rows of an experiment's table in the PDF; longer ones are in the HTML alone
 
 
 @dataclass
@@ -34,6 +31,7 @@ class Body:
     notice: str
     answers: list
     limits: str
+    guide: list
     sections: list
 
 
@@ -45,6 +43,8 @@ def compose(results):
     studies = [sections.section_of(results, name) for name in names]
     cited = {claim.figure for claim, _ in found}
     for section in studies:
+        section.files = results.files(section.name)
+        section.tables.sort(key=lambda table: not table.first)
         section.paragraphs += against(found, section.name)
         for number, figure in enumerate(section.figures):
             figure.detail = number > 0 and figure.name not in cited
@@ -52,31 +52,10 @@ def compose(results):
             table.detail = len(table.rows) > LONGEST
     body = [claims_section(found), failed_section(results, names), glossary_section(), *studies,
             verdicts_section(results, names), provenance.provenance_section(results, names)]
-    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), body)
+    for number, table in enumerate((table for section in body for table in section.tables), start=1):
+        table.number = number
+    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), guide(body), body)
 
-
-# ------------------------------------------------------------------------------------------------------------- html
-
-def inlined(path):
-    """A figure as a data URI: few colours, without loss beyond that."""
-    data = io.BytesIO()
-    with Image.open(path.with_suffix(".png")) as image:
-        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).convert("RGB").save(data, "webp", lossless=True)
-    return f"data:image/webp;base64,{base64.b64encode(data.getvalue()).decode()}"
-
-
-def write_html(body, directory):
-    entries = references(BIBLIOGRAPHY)
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    known = places(body.sections)
-    environment.filters["marked"] = lambda text: jinja2.utils.markupsafe.Markup(to_html(text, entries, known))
-    text = environment.get_template("report.html.j2").render(
-        **vars(body), places=known, references=entries, inlined=lambda name: inlined(directory / "figures" / name))
-    write_file(directory / "report.html", text.encode())
-
-
-# -------------------------------------------------------------------------------------------------------------- pdf
 
 def column_widths(table):
     """Column specification of a LaTeX table: long texts share the width that the short ones leave."""
@@ -102,14 +81,14 @@ def write_pdf(body, directory):
         loader=jinja2.FileSystemLoader(HERE), trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined,
         block_start_string="<%", block_end_string="%>", variable_start_string="<<", variable_end_string=">>",
         comment_start_string="<#", comment_end_string="#>")
-    known = places(body.sections)
+    known = places(body.sections, body.answers)
     environment.filters["marked"] = lambda text: to_latex(text, known)
     figures = (directory / "figures").resolve()
-    text = environment.get_template("report.tex.j2").render(**vars(body), places=known, widths=column_widths)
+    text = environment.get_template("report.tex.j2").render(**vars(body), places=known, widths=column_widths,
+                                                                references=references(BIBLIOGRAPHY))
     with tempfile.TemporaryDirectory() as folder:
         build = Path(folder)
         (build / "report.tex").write_text(text, encoding="utf-8")
-        shutil.copy(HERE / "refs.bib", build)
         (build / "figures").symlink_to(figures)
         done = subprocess.run(["latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "report.tex"], cwd=build,
                               capture_output=True, text=True, errors="replace", check=False,
@@ -133,12 +112,12 @@ def main(directory):
     if not results.experiments():
         raise InputError(f"{directory}: got no experiment; allowed: a result folder, as written by `pbdcheck run`")
     body = compose(results)
-    write_html(body, directory)
+    write_file(directory / "report.html", page(body, directory).encode())
     print(directory / "report.html")
     write_pdf(body, directory)
     print(directory / "report.pdf")
     for answer in body.answers:
-        print(f"{answer.question} {plain(answer.sentence, places(body.sections))}")
+        print(f"{answer.question} {plain(answer.sentence, places(body.sections, body.answers))}")
 
 
 if __name__ == "__main__":

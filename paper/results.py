@@ -1,13 +1,23 @@
 """The result folder that a report is about."""
 
+import hashlib
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "plots"))
 import reading  # noqa: E402
 import tables  # noqa: E402
 
-PRODUCERS = ("commit", "dirty", "changes", "version", "compiler", "flags", "processor", "threads", "seed", "tier", "libraries")
+PRODUCERS = ("commit", "dirty", "changes", "version", "compiler", "flags", "march", "system", "processor", "cores", "threads", "seed",
+             "tier", "libraries")
+
+
+class File(NamedTuple):
+    name: str
+    lines: int
+    sha256: str
 
 
 class Results:
@@ -52,6 +62,14 @@ class Results:
         for path in sorted((self.directory / experiment).glob("*.csv")):
             if path.stem not in tables.OWN_TABLES and not self.shortfall(experiment):
                 yield path.stem, reading.read_table(path, tables.columns(experiment, path.stem))
+
+    def files(self, experiment):
+        """The tables and the record of a complete run."""
+        folder = self.directory / experiment
+        if self.shortfall(experiment):
+            return []
+        contents = {path.name: path.read_bytes() for path in [*sorted(folder.glob("*.csv")), folder / "run.json"]}
+        return [File(name, data.count(b"\n"), hashlib.sha256(data).hexdigest()) for name, data in contents.items()]
 
     def drawn(self, experiment, name):
         """Whether a figure was drawn after the run ended."""

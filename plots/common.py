@@ -128,7 +128,6 @@ def panels(count, columns=3, width=6.5, height=2.1, **keywords):
     """A figure with `count` axes in a grid; unused axes are removed."""
     columns = min(columns, max(count, 1))
     rows = -(-max(count, 1) // columns)
-    width = width if columns > 1 else 4.5
     figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows + 0.7), squeeze=False, **keywords)
     for ax in axes.flat[count:]:
         ax.remove()

@@ -2,7 +2,6 @@
 
 from itertools import cycle
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from command import command
@@ -11,22 +10,14 @@ from saving import save
 from styles import FALLBACK
 from reading import InputError, read_table
 from tables import columns
-from work_precision import REFERENCE, draw_methods
+from work_precision import draw_methods
 
 
 def draw(frame):
     """Each method by the text that was given, with a look of its own."""
     looks = {method: dict(zip(("color", "marker", "linestyle"), look))
              for method, look in zip(frame["method"].unique(), cycle(FALLBACK))}
-
-    def legend(fig, rows, references):
-        entries = {f"judge {method}, the reference itself" if method in references else method:
-                   REFERENCE if method in references else look for method, look in looks.items()}
-        handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
-        fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=1)
-
-    return draw_methods(frame, "wall_s", "wall time (s)", by="method", look=lambda row: looks[row["method"]],
-                        legend=legend)
+    return draw_methods(frame, "wall_s", "wall time (s)", frame["method"], lambda row: looks[row["method"]])
 
 
 def main(directory):

@@ -1,8 +1,10 @@
 """Does the plain iteration contract in contact at the predicted rate?"""
 
 from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from finding import finding
 from selecting import drawable, failed, good, reasons_note
 from styles import BLACK, style
+from wording import number, share
 
 LEAST = 1e-3  # smaller rates are not drawn
 
@@ -33,5 +35,10 @@ def radii(frame):
     fig.supxlabel("spectral radius of the judge's map, error per iteration", fontsize=8)
     fig.supylabel("of the solver's map", fontsize=8)
     shared_legend(fig, axes, columns=3)
+    seen = good(drawn, "measured_rate")
+    beyond = seen["predicted_rate"] > 1
+    finding(fig, f"The solver's radius differs from the judge's by at most {number(abs(seen['measured_rate'] / seen['predicted_rate'] - 1).max())}",
+            f"plain returns in {share(int(seen.loc[~beyond, 'returns'].sum()), int((~beyond).sum()))} cases below 1, in "
+            f"{share(int(seen.loc[beyond, 'returns'].sum()), int(beyond.sum()))} above")
     footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
     return fig

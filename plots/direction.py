@@ -2,9 +2,11 @@
 
 import numpy as np
 
-from common import curve_points, draw_failed, figure, footnote, panels, shared_legend
+from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend
+from finding import fewer, finding
 from styles import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 from selecting import failed, good, reasons_note, step_text
+from wording import counted, number, share
 
 GREY = "#777777"
 BLENDS = {0: (RED, "o"), 0.25: (ORANGE, "s"), 0.5: (GREEN, "^"), 0.75: (SKY, "D"), 1: (BLUE, "v")}
@@ -29,35 +31,61 @@ def schemes(frame):
         yield (*look_of(rows.iloc[0]), rows)
 
 
+OUTERS = {"proximal": ("o", "white"), "auto": ("D", "white"), "frozen": ("s", BLACK)}  # marks, and what fills them
+
+
 @figure("direction", "largest_steps", table="largest_steps")
 def largest_steps(frame):
-    """One panel a scene, one line a scheme: the largest stable step, and the predicted one as a bar."""
-    groups = list(frame.groupby("scene", sort=False))
-    fig, axes = panels(len(groups), columns=2, height=2.7, sharey=True, sharex=True)
-    for ax, (_, rows) in zip(axes, groups):
-        names = []
-        for place, (label, look, one) in enumerate(schemes(rows)):
-            names.append(label if one["family"].iloc[0] == "velocity" else f"{label}, {one['outer'].iloc[0]}")
-            one = one.assign(place=float(place))
-            at = good(one, "largest_step_s")
-            ax.plot(at["largest_step_s"], at["place"], **{"markerfacecolor": "white"} | look | {"linestyle": "none"})
-            predicted = one["predicted_step_s"].iloc[0]
-            if 0 < predicted < np.inf:
-                ax.plot([predicted], [place], "|", color=BLACK, markersize=10, label="predicted")
-            draw_failed(ax, failed(one, "largest_step_s"), "largest_step_s", "place", look)
-        ax.set(xscale="log", xlim=(1e-3, 1), title=rows["scene"].iloc[0])
+    """One panel a scene, one line a scheme: the largest stable step by each outer iteration, and the predicted one as a bar. A
+    red cross where steps were not solved."""
+    groups, left = fewer(frame.groupby("scene", sort=False))
+    if not groups:
+        return None
+    names = list(dict.fromkeys(label for label, _, _ in schemes(frame)))
+    fig, axes = panels(len(groups), columns=2, height=0.17 * len(names) + 0.5, sharey=True, sharex=True)
+    for ax, (scene, rows) in zip(axes, groups):
+        for outer, here in rows.groupby("outer", sort=False):
+            marker, fill = OUTERS.get(outer, ("o", "white"))
+            stable = good(here, "largest_step_s")
+            color = BLACK if outer == "frozen" else BLUE
+            ax.plot(stable["largest_step_s"], places(stable, names), marker, color=color, markerfacecolor=fill, markersize=4.5,
+                    label=f"{'velocity' if outer == 'frozen' else 'position'}, {outer}")
+            missed = failed(here, "largest_step_s")
+            ax.plot(missed["largest_step_s"].clip(lower=1e-3), places(missed, names), "x", color=RED,
+                    label="steps not solved" if len(missed) else "_")
+        known = rows[(rows["predicted_step_s"] > 0) & (rows["predicted_step_s"] < np.inf)]
+        ax.plot(known["predicted_step_s"], places(known, names), "|", color=BLACK, markersize=11, label="predicted")
+        ax.set(xscale="log", xlim=(1e-3, 1), title=scene)
         ax.set_yticks(range(len(names)), names)
         ax.set_ylim(len(names) - 0.5, -0.5)
     fig.supxlabel("largest stable step (s)", fontsize=8)
-    shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "largest_step_s")))
+    shared_legend(fig, axes, columns=5)
+    finding(fig, "Velocity stepping is stable up to these shares of the largest step of b = 1: " +
+            steps_compared(frame) if steps_compared(frame) else f"No step is stable and solved in {counted(len(frame), 'run')} of both")
+    footnote(fig, left + reasons_note(failed(frame, "largest_step_s")))
     return fig
+
+
+def places(rows, names):
+    return [names.index(look_of(row)[0]) for _, row in rows.iterrows()]
+
+
+def steps_compared(frame):
+    """Of each scene the largest step of velocity stepping over the largest with a blend of 1."""
+    stable = good(frame, "largest_step_s")
+    said = []
+    for scene, rows in stable.groupby("scene", sort=False):
+        ended = rows[(rows["family"] == "position") & (rows["direction_blend"] == 1)]["largest_step_s"].max()
+        velocity = rows[rows["family"] == "velocity"]["largest_step_s"].max()
+        if np.isfinite(ended) and np.isfinite(velocity):
+            said.append(f"{scene} {number(velocity / ended, 2)}")
+    return ", ".join(said)
 
 
 @figure("direction", "modes", table="modes")
 def modes(frame):
     """What a step leaves of a mode's energy over the blend, measured and predicted."""
-    fig, (ax,) = panels(1, height=2.6)
+    fig, (ax,) = panels(1, height=2.3)
     blends = np.linspace(0, 1, 50)
     ax.plot(blends, 1 / (1 + blends), color=BLACK, linewidth=0.8, label="1/(1 + b), predicted")
     position = frame[frame["family"] == "position"]
@@ -71,46 +99,80 @@ def modes(frame):
     ax.set(xlabel="blend b of directions (0: begin of the step, 1: end)", ylabel="energy left by a step at h w = 1",
            ylim=(0, 1.1))
     shared_legend(fig, [ax])
+    shown = good(position, "measured_left")
+    off = abs(shown["measured_left"] / shown["predicted_left"] - 1)
+    finding(fig, f"A step at h w = 1 leaves 1/(1 + b) of a mode's energy, to {number(off.max())} of it in "
+            f"{share(len(shown), len(position))} runs" if len(shown) else f"None of {counted(len(position), 'run')} ended well")
     footnote(fig, reasons_note(failed(position, "measured_left")))
     return fig
+
+
+DRAWN = {("position", 0), ("position", 0.5), ("position", 1), ("velocity", 0), ("velocity", 0.2), ("velocity", 1)}
+
+
+def drawn(frame):
+    """The schemes that get a line; the blends between them are in the table."""
+    number_of = frame["direction_blend"].where(frame["family"] == "position", frame["stabilisation"])
+    chosen = [pair in DRAWN for pair in zip(frame["family"], number_of)]
+    return frame[chosen & (frame["integrator"] != TWIN)]
 
 
 @figure("direction", "energy", table="energy")
 def energy(frame):
     """The pendulum's energy over time: all schemes, and those that keep it."""
-    fig, axes = panels(2, columns=2, height=2.6)
-    for label, look, rows in schemes(frame):
-        if label == TWIN:
-            continue
+    fig, axes = panels(2, columns=2, height=2.4)
+    lost = {}
+    for label, look, rows in schemes(drawn(frame)):
         rows = rows.sort_values("time_s")
         for ax in axes:
             ax.plot(rows["time_s"], rows["energy_j"], label=label, markevery=max(1, len(rows) // 8),
                     **{"markerfacecolor": "white"} | look)
+        if rows["status"].eq("ok").all():
+            lost[label] = rows["energy_j"].iloc[-1] - rows["energy_j"].iloc[0]
         draw_failed(axes[0], failed(rows, "time_s").tail(1), "time_s", "energy_j",
                     {"color": look["color"], "marker": look["marker"]})
-    axes[0].set(ylabel="energy (J); m g l = 9.81 J")
-    axes[1].set(ylim=(-0.5, 0.5))
+    axes[0].set(ylabel="energy (J); m g l = 9.81 J", title="all")
+    axes[1].set(ylim=(-0.5, 0.5), title="those that keep it")
     fig.supxlabel(f"time (s), steps of {step_text(frame['step_s'].iloc[0])}", fontsize=8)
     shared_legend(fig, axes)
+    finding(fig, "Change of the pendulum's energy at the end (J): " + ", ".join(f"{name} {change:.2g}" for name, change in lost.items())
+            if lost else f"None of {counted(len(list(schemes(frame))), 'scheme')} ended well")
     footnote(fig, reasons_note(failed(frame, "time_s")))
     return fig
 
 
 @figure("direction", "equal_work", table="equal_work")
 def equal_work(frame):
-    """Largest violation over row updates a simulated second, one panel a scene."""
-    groups = list(frame.groupby("scene", sort=False))
-    fig, axes = panels(len(groups), columns=2, height=2.5)
+    """Largest violation over row updates a simulated second, one panel a scene; how many runs were solved is told, what was
+    not is in the table."""
+    groups, left = fewer(frame.groupby("scene", sort=False))
+    if not groups:
+        return None
+    fig, axes = panels(len(groups), columns=2, height=2.0, sharey=True)
     for ax, (scene, rows) in zip(axes, groups):
-        for label, look, points in schemes(rows):
-            if label != TWIN:
-                curve_points(ax, points, "row_updates_per_s", "error", label, look)
-        ax.set(xscale="log", yscale="log", title=scene)
+        for label, look, points in schemes(drawn(rows)):
+            solved = good(points, "row_updates_per_s", "error").sort_values("row_updates_per_s")
+            ax.plot(solved["row_updates_per_s"], on_log(solved["error"]), label=label, **{"markerfacecolor": "white"} | look)
+        ax.set(xscale="log", yscale="log")
+        ax.set_title(f"{scene}; solved: {solved_of(rows, 'position')}, {solved_of(rows, 'velocity')}", fontsize=7)
     fig.supxlabel("row updates a simulated second", fontsize=8)
     fig.supylabel("largest violation, of a link's length", fontsize=8)
-    shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame[frame["integrator"] != TWIN], "row_updates_per_s", "error")))
+    shared_legend(fig, axes, columns=6)
+    worst = min((rows for _, rows in groups), key=lambda rows: solved_share(rows, "position") - solved_share(rows, "velocity"))
+    finding(fig, f"At equal work are solved: {solved_of(frame, 'position')}, {solved_of(frame, 'velocity')} runs; on "
+            f"{worst['scene'].iloc[0]}: {solved_of(worst, 'position')}, {solved_of(worst, 'velocity')}")
+    footnote(fig, "Solved runs alone are drawn. " + left + reasons_note(failed(frame, "row_updates_per_s", "error")))
     return fig
+
+
+def solved_of(frame, family):
+    rows = frame[frame["family"] == family]
+    return f"{family} {share(len(good(rows, 'row_updates_per_s', 'error')), len(rows))}"
+
+
+def solved_share(frame, family):
+    rows = frame[frame["family"] == family]
+    return len(good(rows, "row_updates_per_s", "error")) / max(1, len(rows))
 
 
 CONTENDERS = {("velocity", "frozen"): ("directions of the step's begin", BLACK, "P"), ("position", "plain"): ("refreshed directions", RED, "o"),
@@ -136,8 +198,18 @@ def contenders(frame):
         ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.6)
     fig.supxlabel("step over the explicit limit", fontsize=8)
     shared_legend(fig, [energy, missed], columns=2)
+    finding(fig, "Solved in every step without a gain of energy up to these shares of the explicit limit: " + ", ".join(
+        f"{CONTENDERS[key][0]} {number(steady_step(rows))}" for key, rows in frame.groupby(["family", "outer"], sort=False)))
     footnote(fig, reasons_note(frame[frame["status"] == "diverged"]))
     return fig
+
+
+def steady_step(rows):
+    """The longest step, in units of the explicit limit, up to which every run is solved and gains no energy; what freezes directions
+    does not claim to solve its steps."""
+    rows = rows.sort_values("of_explicit_limit")
+    steady = (rows["status"] == "ok") & (rows["energy_highest"] <= 1.01) & ((rows["missed_steps"] == 0) | (rows["outer"] == "frozen"))
+    return rows.loc[steady.cummin(), "of_explicit_limit"].max() if steady.iloc[0] else 0.0
 
 
 @figure("direction", "contact", table="contact")
@@ -153,5 +225,9 @@ def contact(frame):
     fig.supxlabel("row updates a simulated second", fontsize=8)
     axes[0].set_ylabel("largest violation, relative")
     shared_legend(fig, axes)
+    most = good(frame[frame["linearisations_per_frame"] == frame["linearisations_per_frame"].max()], "error")
+    finding(fig, "At the most work tried the largest violation is " + "; ".join(
+        f"{number(rows['error'].min())} to {number(rows['error'].max())} by {family} steps" for family, rows in most.groupby("family", sort=False))
+        if len(most) else f"No run of {len(frame)} came through at the most work tried")
     footnote(fig, reasons_note(failed(frame, "error")))
     return fig

@@ -4,10 +4,13 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import curve, figure, footnote, on_log, panels, shared_legend
+from finding import fewer, finding
 from styles import PURPLE, SKY, style
 from reading import LARGEST
-from selecting import failed, reasons_note, text_number
+from selecting import failed, good, reasons_note, text_number
+from wording import number, share
 
+REACHED = 1e-8  # an error that counts as the solution
 METHOD = ["outer", "relaxation"]
 MATERIAL = ["scene", "strain", "young_pa", "poisson"]
 
@@ -22,11 +25,13 @@ def look(outer, relaxation):
 
 @figure("dual_vs_primal", "errors", table="errors")
 def errors(frame):
-    """One panel a material, at the first Poisson's ratio and the largest mesh of each scene."""
+    """One panel a mesh and strain, at the middle stiffness of each and the smallest Poisson's ratio."""
     frame = frame[frame["poisson"] == frame["poisson"].min()]
-    frame = frame[frame["elements"] == frame.groupby("scene")["elements"].transform("max")]
-    groups = list(frame.groupby(["scene", "strain", "young_pa"]))
-    fig, axes = panels(len(groups), columns=3, height=1.8)
+    frame = frame[frame["young_pa"] == frame.groupby(["scene", "strain"])["young_pa"].transform(middle)]
+    groups, left = fewer(frame.groupby(["scene", "strain", "young_pa"]))
+    if not groups:
+        return None
+    fig, axes = panels(len(groups), columns=3, height=1.9, sharex=True, sharey=True)
     for ax, ((scene, strain, young), rows) in zip(axes, groups):
         for (outer, relaxation), trace in rows.groupby(METHOD, sort=False):
             curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
@@ -38,9 +43,23 @@ def errors(frame):
     fig.supxlabel("sweeps", fontsize=8)
     fig.supylabel("error against Newton on the energy, relative", fontsize=8)
     shared_legend(fig, axes)
-    ends = frame.sort_values("sweeps").groupby(MATERIAL + METHOD, sort=False).tail(1)
-    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}. " + reasons_note(failed(ends, "error")))
+    ends = frame.sort_values("sweeps").groupby(MATERIAL + ["elements"] + METHOD, sort=False).tail(1)
+    finding(fig, f"Traces that end within {number(REACHED)} of the energy's minimum: " + solved_by(ends))
+    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental stays. {left}" +
+             reasons_note(failed(ends, "error")))
     return fig
+
+
+def middle(values):
+    there = sorted(set(values))
+    return there[len(there) // 2]
+
+
+def solved_by(ends):
+    """In how many cases each outer iteration ends at the solution."""
+    near = good(ends, "error")
+    near = near[near["error"] <= REACHED]
+    return ", ".join(f"{outer} {share(near['outer'].eq(outer).sum(), len(rows))}" for outer, rows in ends.groupby("outer", sort=False))
 
 
 def draw_floor(ax, trace):
@@ -48,7 +67,7 @@ def draw_floor(ax, trace):
     half = trace["error"].iloc[len(trace) // 2:]
     floor = half.min()
     if np.isfinite(floor) and half.iloc[0] < 1.1 * floor:
-        ax.axhline(on_log(floor), color="#888888", linewidth=0.6, label="where incremental stays")
+        ax.axhline(on_log(floor), color="#888888", linewidth=0.6)
 
 
 @figure("dual_vs_primal", "final", table="final")
@@ -56,8 +75,7 @@ def final(frame):
     """Final error of every method and material as a table of colours; the cells with a cross are not ok."""
     frame = frame.assign(row=frame.apply(material, axis=1), column=frame["outer"] + "\n" + frame["relaxation"])
     rows, columns = list(frame["row"].unique()), list(frame["column"].unique())
-    fig, (ax,) = panels(1, height=0.2 * len(rows) + 0.8)
-    fig.set_figwidth(6.5)
+    fig, (ax,) = panels(1, height=0.18 * len(rows) + 0.8)
     values = np.full((len(rows), len(columns)), np.nan)
     for _, cell in frame.iterrows():
         i, j = rows.index(cell["row"]), columns.index(cell["column"])
@@ -72,6 +90,7 @@ def final(frame):
     ax.set_yticks(range(len(rows)), rows, fontsize=6)
     ax.grid(False)
     fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")
+    finding(fig, f"Runs within {number(REACHED)} of the energy's minimum: " + solved_by(frame))
     footnote(fig, "In brackets the number of elements. " + reasons_note(failed(frame, "error")))
     return fig
 

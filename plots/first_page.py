@@ -3,11 +3,15 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import figure, on_log
+from common import figure
+from finding import finding
+from point_hard_cases import gates
 from selecting import good, scene_text
-from styles import BLACK, BLUE, FALLBACK, RED
+from styles import BLACK, BLUE, FALLBACK
+from wording import number, span
 
-SIZE = (3.6, 2.3)
+SIZE = (4.2, 2.6)
+LOW, HIGH = 1e-2, 1e-10  # errors between which the title compares
 LEVELS = 10.0 ** -np.arange(1, 13)
 
 
@@ -28,29 +32,18 @@ def time_over_error(points):
     ax.set(xscale="log", yscale="log", xlabel="error reached", ylabel="wall time of a step (s)")
     ax.invert_xaxis()
     chart.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, fontsize=6)
+    ends = runs.groupby(["scene", "step_s"]).apply(lambda rows: rows.loc[rows["error"] <= HIGH, "wall_s"].min() /
+                                                   rows.loc[rows["error"] <= LOW, "wall_s"].min())
+    finding(chart, f"From an error of {number(LOW)} to {number(HIGH)} the time grows {span(ends)} times"
+            if ends.notna().any() else f"None of {len(ends)} steps is brought to {number(HIGH)}")
     return chart
 
 
 @figure("contact_hard_cases", "answer", table="gates")
-def margins(gates):
+def margins(frame):
     """How far from its bound each gate of each case is."""
-    asked = gates[(gates["status"] != "skipped") & (gates["relaxation"] == "direct")]
-    if asked.empty:
-        return None
-    names = list(asked["gate"].unique())
-    chart, ax = plt.subplots(figsize=SIZE)
-    held = asked["holds"] == 1
-    # A gate with the bound 0 allows nothing: it is met at 0, and missed at its edge else.
-    ratio = (asked["measured"] / asked["bound"]).where(asked["bound"] > 0, np.where(held, 0.0, np.inf))
-    shown = on_log(np.clip(ratio.fillna(np.inf), 0, 1e3))
-    place = asked["gate"].map(names.index)
-    for which, color, marker in ((held, BLUE, "o"), (~held, RED, "x")):
-        ax.plot(shown[which], place[which], marker, color=color, markersize=3, markerfacecolor="none", clip_on=False)
-    ax.axvline(1, color=BLACK, linewidth=0.8)
-    ax.set(xscale="log", xlabel="measured over its bound")
-    ax.set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
-    ax.invert_yaxis()
-    return chart
+    direct = frame[frame["relaxation"] == "direct"]
+    return gates(direct) if len(direct) else None
 
 
 @figure("effects_cost", "answer", table="costs")
@@ -63,4 +56,8 @@ def parts_of_a_step(costs):
     ax.barh([name.replace("_", " ") for name in mixed["effect"]], 1e3 * mixed["wall_s_per_step"], color=BLUE, height=0.6)
     ax.set(xlabel="ms a step")
     ax.invert_yaxis()
+    dearest = mixed.loc[mixed["wall_s_per_step"].idxmax()]
+    part = dearest["wall_s_per_step"] / mixed["wall_s_per_step"].sum()
+    finding(chart, f"The dearest part of a step is {dearest['effect'].replace('_', ' ')}: {100 * part:.0f} % of "
+            f"{1e3 * mixed['wall_s_per_step'].sum():.2g} ms")
     return chart

@@ -1,11 +1,16 @@
 """Do the impulses of a step's contacts obey the law of friction?"""
 
 import numpy as np
+import pandas as pd
 
-from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from common import figure, footnote, panels, shared_legend
+from finding import fewer, finding
+from strips import strips
 from styles import style
-from selecting import failed, good, reasons_note
+from selecting import failed, reasons_note
+from wording import share
 
+SLACK = 1e-6  # of the largest impulse: rounding and tolerance of what stands on the boundary
 ERRORS = {"complementarity_share": "complementarity", "dissipation_share": "dissipation", "velocity_share": "velocity"}
 
 
@@ -14,11 +19,14 @@ def plane(frame):
     """Impulses in the plane of the cone, a panel a law: what sticks is inside, what slides on its boundary."""
     frame = frame.assign(tangent=np.hypot(frame["tangent1_n_s"], frame["tangent2_n_s"]) / frame["coefficient"])
     shown = np.isfinite(frame["tangent"]) & np.isfinite(frame["normal_n_s"])
-    groups = list(frame[shown].groupby("law", sort=False))
+    groups, left = fewer(frame[shown].groupby("law", sort=False))
+    if not groups:
+        return None
     fig, axes = panels(len(groups), columns=2, height=2.8)
     for ax, (law, rows) in zip(axes, groups):
         end = 1.1 * max([1e-3, *rows["normal_n_s"], *rows["tangent"]])
-        ax.plot([0, end], [0, end], color="#888888", linewidth=0.8, label="boundary of the cone")
+        ax.plot([0, end], [0, end], color="#888888", linewidth=0.8)
+        ax.text(0.97 * end, 0.93 * end, "boundary", fontsize=6.5, ha="right", color="#666666")
         for place, (name, found) in enumerate(rows.groupby("relaxation", sort=False)):
             look = style(name) | {"linestyle": "none", "markerfacecolor": "none", "markersize": 3 + place / 2}
             ax.plot(found["tangent"], found["normal_n_s"], label=name, markeredgewidth=0.6, **look)
@@ -26,28 +34,22 @@ def plane(frame):
     fig.supxlabel("tangential impulse over friction coefficient (N s)", fontsize=8)
     fig.supylabel("normal impulse (N s)", fontsize=8)
     shared_legend(fig, axes)
-    footnote(fig, f"Contacts without numbers: {(~shown).sum()}." if not shown.all() else "")
+    inside = frame["tangent"] <= frame["normal_n_s"] + SLACK * frame["normal_n_s"].max()
+    slides = inside & (frame["slip_m_per_s"] > 0) & (frame["tangent"] >= (1 - 1e-3) * frame["normal_n_s"])
+    finding(fig, f"{share(inside.sum(), len(frame))} impulses are in the cone, {slides.sum()} of them on its boundary")
+    footnote(fig, left + f"Contacts without numbers: {(~shown).sum()}." if not shown.all() else left)
     return fig
 
 
 @figure("friction_cone", "errors", table="solves")
 def errors(frame):
-    """Errors as shares of what the tolerance allows, a panel a law."""
-    groups = list(frame.groupby("law", sort=False))
-    fig, axes = panels(len(groups), columns=2, height=2.8, sharey=True)
-    for ax, (law, rows) in zip(axes, groups):
-        rows = rows.assign(place=np.arange(1.0, len(rows) + 1))
-        ax.axhline(1, color="#888888", linewidth=0.8)
+    """Errors over what the tolerance allows, a row a law and error."""
+    parts = []
+    for law, rows in frame.groupby("law", sort=False):
         for column, name in ERRORS.items():
             if column == "velocity_share" and law != "cone":
                 continue  # Coulomb's law may have several solutions
-            look = style(name) | {"linestyle": "none"}
-            fine = good(rows, "place", column)
-            ax.plot(fine["place"], on_log(fine[column]), label=name, markerfacecolor="white", **look)
-            draw_failed(ax, failed(rows, column), "place", column, {"color": look["color"], "marker": look["marker"]})
-        ax.set_xticks(rows["place"], rows["relaxation"], rotation=40, ha="right")
-        ax.set(yscale="log", title=f"law {law}")
-    fig.supylabel("error over what the tolerance allows", fontsize=8)
-    shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "dissipation_share")))
-    return fig
+            parts.append(rows[["status"]].assign(row=f"{name}, {law}", ratio=rows[column], who=rows["relaxation"],
+                                                 holds=rows["status"].eq("ok") & (rows[column] <= 1)))
+    checks = pd.concat(parts, ignore_index=True).dropna(subset="ratio") if parts else frame[:0]
+    return strips(checks, "error", reasons_note(failed(frame, "dissipation_share")), "error over what the tolerance allows")

@@ -1,8 +1,10 @@
 """How accurately do joints carry mechanisms, and what does a chain of bodies cost?"""
 
 from common import curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, slope_triangle, ticks
+from finding import MOST_PANELS, finding, guide
 from styles import BLACK, style
 from selecting import drawable, failed, good, missed_note, reasons_note, rule_names
+from wording import number, share, span
 
 BOUND = 1e-10  # of the joints' errors, of the verdicts
 
@@ -10,9 +12,12 @@ BOUND = 1e-10  # of the joints' errors, of the verdicts
 @figure("joints", "accuracy", table="accuracy")
 def accuracy(frame):
     """Error at the end over the step, one column a mechanism, and below it the largest error of a joint in any step. The
-    thin line runs through the crossed points, too."""
-    mechanisms = list(frame.groupby("mechanism", sort=False))
-    fig, axes = panels(2 * len(mechanisms), columns=len(mechanisms), width=7.5, height=1.9, sharex="col", sharey="row")
+    thin line runs through the crossed points, too. Those with most failures are drawn."""
+    lost = failed(frame, "error", "joint_error")["mechanism"].value_counts()
+    kept = sorted(frame["mechanism"].unique(), key=lambda name: -lost.get(name, 0))[:MOST_PANELS // 2]
+    mechanisms = list(frame[frame["mechanism"].isin(kept)].groupby("mechanism", sort=False))
+    left = [name for name in frame["mechanism"].unique() if name not in kept]
+    fig, axes = panels(2 * len(mechanisms), columns=len(mechanisms), height=1.8, sharex="col", sharey="row")
     for (mechanism, here), above, below in zip(mechanisms, axes, axes[len(mechanisms):]):
         for name, rows in here.assign(rule=rule_names(here)).groupby("rule", sort=False):
             for ax, column in ((above, "error"), (below, "joint_error")):
@@ -24,12 +29,18 @@ def accuracy(frame):
         above.set_title(mechanism)
         for ax in (above, below):
             ax.set(xscale="log", yscale="log")
-        below.axhline(BOUND, color=BLACK, linewidth=0.8, linestyle="--", label="bound of the joints")
+        guide(below, BOUND, "bound")
     axes[0].set_ylabel("error at the end,\nrelative")
     axes[len(mechanisms)].set_ylabel("largest error of a joint\n(m or rad)")
     fig.supxlabel("step (s)", fontsize=8)
     shared_legend(fig, axes, columns=5)
-    footnote(fig, missed_note(frame) + reasons_note(failed(frame, "error", "joint_error")))
+    tight = (good(frame, "joint_error")["joint_error"] <= BOUND).sum()
+    shown = good(frame, "error")
+    finding(fig, f"Joints are met to {number(BOUND)} in {share(tight, len(frame))} runs" +
+            (f"; the motion is {span(shown[shown['step_s'] == shown.groupby('mechanism')['step_s'].transform('min')]['error'])} off at "
+             "the smallest steps" if len(shown) else ""))
+    footnote(fig, (f"In the table alone: {', '.join(left)}. " if left else "") + missed_note(frame) +
+             reasons_note(failed(frame, "error", "joint_error")))
     return fig
 
 
@@ -42,7 +53,7 @@ def falls(rows):
 @figure("joints", "lengths", table="lengths")
 def lengths(frame):
     """Seconds a step and a sweep over the number of bodies."""
-    fig, axes = panels(2, columns=2, height=2.6)
+    fig, axes = panels(2, columns=2, height=2.4)
     for ax, column, title in zip(axes, ("cpu_s_per_step", "cpu_s_per_sweep"), ("a step of four linearisations", "a sweep")):
         for relaxation, rows in frame.groupby("relaxation", sort=False):
             curve_points(ax, rows, "bodies", column, relaxation, style(relaxation))
@@ -54,5 +65,8 @@ def lengths(frame):
         ticks(ax, frame["bodies"], "{:.0f}".format)
     axes[0].set_ylabel("processor time (s)")
     shared_legend(fig, axes)
+    finding(fig, f"From {frame['bodies'].min():.0f} to {frame['bodies'].max():.0f} bodies the time of a step grows with the powers " +
+            ", ".join(f"{exponent:.2f} ({name})" for name, exponent in frame.groupby("relaxation", sort=False)["exponent_step"].max()
+                      .dropna().items()))
     footnote(fig, reasons_note(failed(frame, "cpu_s_per_step", "cpu_s_per_sweep")))
     return fig

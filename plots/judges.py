@@ -1,45 +1,42 @@
 """Do the references agree on the same step?"""
 
-import re
+import numpy as np
 
-from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from common import figure, footnote, on_log, panels, shared_legend
+from finding import finding, guide
 from styles import BLUE, GREEN, RED
 from selecting import failed, good, reasons_note
+from wording import counted, number, share
 
-SERIES = (("difference", "difference of the two", BLUE, "o"), ("residual_a", "residual of the first", RED, "s"),
-          ("residual_b", "residual of the second", GREEN, "^"))
-
-LEFT_OUT = ("tip", "Pa", "N", "N/m", "m/rad")
-NUMBER = re.compile(r"[-x]?(\d[\d.e+-]*|inf)")
-
-
-def family(scene):
-    """The scene's name without sizes and parameters: `cantilever green` of `cantilever8 green E=1e5 Pa`."""
-    words = [word.rstrip(",") for word in scene.split() if "=" not in word]
-    kept = [re.sub(r"(?<=[a-z])\d+$", "", word) for word in words if word not in LEFT_OUT and not NUMBER.fullmatch(word)]
-    return " ".join(kept) or scene
+ALLOWED = 1e-9  # of the step's largest displacement, as the verdicts ask
+LOOKS = ((BLUE, "o"), (GREEN, "^"))
 
 
 @figure("judges", "agreement", table="agreement")
 def agreement(frame):
-    """Difference and residuals of each pair, one row a family of scenes, the three kinds of marker below each other."""
-    pairs = frame["reference_a"] + " / " + frame["reference_b"]
-    names = frame["scene"].map(family) + (": " + pairs if pairs.nunique() > 1 else "")
-    places = {name: float(i) for i, name in enumerate(names.unique())}
-    frame = frame.assign(place=names.map(places))
-    fig, (ax,) = panels(1, height=0.3 * len(places) + 0.5)
-    fig.set_figwidth(6.5)
-    for shift, (column, label, color, marker) in zip((-0.25, 0, 0.25), SERIES):
-        rows = good(frame, column)
-        ax.plot(on_log(rows[column]), rows["place"] + shift, marker, color=color, label=label, markerfacecolor="none",
-                markersize=4, markeredgewidth=0.8)
-    draw_failed(ax, failed(frame, "difference"), "difference", "place", {"color": BLUE, "marker": "o"})
-    counts = names.value_counts()
-    ax.set_yticks(list(places.values()), [f"{name} ({counts[name]})" for name in places])
-    ax.set_ylim(len(places) - 0.5, -0.5)
-    ax.set(xscale="log", xlabel="relative difference, relative residual", title=" and ".join(pairs.unique()))
-    shared_legend(fig, [ax], columns=3)
-    zeros = int((good(frame, "difference")["difference"] == 0).sum())
-    drawn_at = f" Differences that are exactly 0: {zeros}." if zeros else ""
-    footnote(fig, f"In brackets the number of steps.{drawn_at} " + reasons_note(failed(frame, "difference")))
+    """The difference of each pair on each step, a row the experiment that the step is of, a colour a pair; the residuals are
+    in the table."""
+    frame = frame.assign(pair=frame["reference_a"] + " and " + frame["reference_b"], row=frame["scene"].str.partition(":")[0])
+    rows, pairs = list(frame["row"].unique()), list(frame["pair"].unique())
+    fig, (ax,) = panels(1, height=0.27 * len(rows) + 0.5)
+    shown = good(frame, "difference")
+    apart = shown["difference"] > ALLOWED
+    for k, pair in enumerate(pairs):
+        here = shown[shown["pair"] == pair]
+        color, marker = LOOKS[k % len(LOOKS)]
+        ax.plot(on_log(here["difference"]), here["row"].map(rows.index) + 0.3 * (k - (len(pairs) - 1) / 2), marker, color=color,
+                label=pair, markerfacecolor="none", markersize=3.5, markeredgewidth=0.7)
+    ax.plot(shown["difference"][apart], shown["row"][apart].map(rows.index), "x", color=RED, markersize=6)
+    guide(ax, ALLOWED, "allowed", horizontal=False)
+    for i, name in enumerate(rows):
+        here, missed = shown[shown["row"] == name], (frame["row"] == name).sum() - (shown["row"] == name).sum()
+        ax.text(1.02, i, counted(len(here), "step") + (f", {missed} without" if missed else ""),
+                transform=ax.get_yaxis_transform(), va="center", fontsize=6.5, color=RED if missed else "black")
+    ax.set_yticks(range(len(rows)), [name.replace("_", " ") for name in rows])
+    ax.set(xscale="log", ylim=(len(rows) - 0.5, -0.5), xlabel="difference of the two, of the step's largest displacement")
+    shared_legend(fig, [ax])
+    worst = f"the largest difference is {number(shown['difference'].max())} of the displacement" if len(shown) else ""
+    finding(fig, f"References agree to {number(ALLOWED)} on {share(np.sum(~apart), len(frame))} steps" +
+            (f"; {worst}" if worst else ""))
+    footnote(fig, reasons_note(failed(frame, "difference")))
     return fig

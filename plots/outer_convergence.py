@@ -5,17 +5,24 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from common import curve, draw_failed, figure, footnote, on_log, panels, shared_legend
+from finding import fewer, finding, first_and_last, guide
 from styles import BLACK, BLUE, RED, style
 from reading import CONTRACTING, LARGEST
 from selecting import failed, good, reasons_note, scene_text, step_text, text_number
+from wording import counted, number, share
+
+REACHED = 1e-8  # an error against Newton that counts as the solution
+CASE = ["scene", "step_s", "mass_ratio"]
 
 
 def cases(frame):
-    """(title, rows) per scene, step and, where a scene has several, mass ratio."""
+    """(title, rows) of the first and the last case of each scene: its smallest and its largest step and mass ratio."""
     several = frame.groupby("scene")["mass_ratio"].nunique() > 1
-    for (scene, step, ratio), rows in frame.groupby(["scene", "step_s", "mass_ratio"]):
+    found = []
+    for (scene, step, ratio), rows in frame.groupby(CASE):
         mass = f", mass ratio {text_number(ratio)}" if several[scene] else ""
-        yield f"{scene_text(scene)}\nh = {step_text(step)}{mass}", rows
+        found.append((scene, f"{scene_text(scene)}\nh = {step_text(step)}{mass}", rows))
+    return [case[1:] for case in first_and_last(found, lambda case: case[0])]
 
 
 def last_rows(frame, keys):
@@ -33,8 +40,10 @@ def look(outer, relaxation):
 def error_curves(frame, names):
     """Error against outer iteration for some outer iterations, one panel a case."""
     frame = frame[frame["outer"].isin(names)]
-    chosen = list(cases(frame))
-    fig, axes = panels(len(chosen), columns=3, height=1.8)
+    if frame.empty:
+        return None
+    chosen, left = fewer(cases(frame))
+    fig, axes = panels(len(chosen), columns=3, height=1.8, sharey=True)
     for ax, (title, rows) in zip(axes, chosen):
         for (outer, relaxation), trace in rows.groupby(["outer", "relaxation"], sort=False):
             curve(ax, trace, "iteration", "error", f"{outer}, {relaxation}", look(outer, relaxation))
@@ -43,8 +52,14 @@ def error_curves(frame, names):
     fig.supxlabel("outer iteration", fontsize=8)
     fig.supylabel("error against Newton, relative", fontsize=8)
     shared_legend(fig, axes)
-    ends = last_rows(frame, ["scene", "step_s", "mass_ratio", "outer", "relaxation", "iteration"])
-    footnote(fig, reasons_note(failed(ends, "error")))
+    ends = last_rows(frame, [*CASE, "outer", "relaxation", "iteration"])
+    reached = []
+    for (outer, relaxation), rows in ends.groupby(["outer", "relaxation"], sort=False):
+        name = f"{outer} with {relaxation}" if ends[ends["outer"] == outer]["relaxation"].nunique() > 1 else outer
+        reached.append(f"{name} {share((good(rows, 'error')['error'] <= REACHED).sum(), len(rows))}")
+    finding(fig, f"Cases brought to within {number(REACHED)} of Newton's step: " + ", ".join(reached))
+    footnote(fig, f"Drawn: {len(chosen)} of {counted(len(ends[CASE].drop_duplicates()), 'case')}, each scene's mildest and "
+             f"hardest. {left}" + reasons_note(failed(ends, "error")))
     return fig
 
 
@@ -56,8 +71,16 @@ def errors(frame):
 @figure("outer_convergence", "proximal", table="errors")
 def proximal(frame):
     keeping = ["plain", "proximal", "auto"]
-    compared = frame.groupby(["scene", "step_s", "mass_ratio"])["outer"].transform(lambda names: names.isin(keeping[1:]).any())
+    compared = frame.groupby(CASE)["outer"].transform(lambda names: names.isin(keeping[1:]).any())
     return error_curves(frame[compared], keeping)
+
+
+def contracts(frame):
+    """How many cases contract, and how many of these theory predicts."""
+    falls = frame["behaviour"].isin(CONTRACTING)
+    below = frame["predicted_rate"] < 1
+    return (f"plain converges in {share(falls.sum(), len(frame))} cases: in {share((falls & below).sum(), below.sum())} of a "
+            f"predicted rate below 1, in {share((falls & ~below).sum(), (~below).sum())} of the others")
 
 
 @figure("outer_convergence", "map", table="map")
@@ -65,19 +88,19 @@ def rate_map(frame):
     """Measured rate of the plain iteration over step and mass ratio, with the line where theory predicts 1."""
     frame = frame[(frame["outer"] == "plain") & (frame["mass_ratio"] > 0)]
     sizes = frame.groupby("scene")[["step_s", "mass_ratio"]].nunique().min(axis=1)
-    scenes = sizes.index[sizes > 1]
-    if scenes.empty:
+    scenes, left = fewer(sizes.index[sizes > 1])
+    if not scenes:
         return None
-    fig, axes = panels(len(scenes), columns=2, height=2.6)
+    fig, axes = panels(len(scenes), columns=2, height=2.4)
     for ax, scene in zip(axes, scenes):
         mesh = map_panel(ax, frame[frame["scene"] == scene])
-        ax.set(title=f"{scene}, plain iteration, error against Newton", xlabel="step",
-               ylabel="mass ratio, heaviest to lightest node")
+        ax.set(title=scene, xlabel="step", ylabel="mass ratio, heaviest to lightest node")
     fig.colorbar(mesh, ax=axes, label="measured rate, error per iteration", extend="both")
     handles = [plt.Line2D([], [], color=BLACK, linestyle="--"), plt.Line2D([], [], color=BLACK, marker="x", linestyle="")]
     fig.legend(handles, ["predicted rate = 1", "error does not fall steadily; grey: no rate to measure"],
                loc="upper center", bbox_to_anchor=(0.5, 0), ncol=2)
-    footnote(fig, reasons_note(failed(frame, "measured_rate")))
+    finding(fig, f"On {' and '.join(scenes)} " + contracts(frame[frame["scene"].isin(scenes)]))
+    footnote(fig, left + reasons_note(failed(frame, "measured_rate")))
     return fig
 
 
@@ -113,7 +136,7 @@ def edges(centres):
 def predicted_rate(frame):
     """Measured against predicted rate, every case of the plain iteration."""
     frame = frame[frame["outer"] == "plain"]
-    fig, (ax,) = panels(1, height=2.9)
+    fig, (ax,) = panels(1, height=2.7)
     rows = good(frame, "predicted_rate", "measured_rate")
     for scene, group in rows.groupby("scene"):
         look = style(scene) | {"linestyle": "none"}
@@ -121,12 +144,14 @@ def predicted_rate(frame):
     draw_failed(ax, failed(frame, "predicted_rate", "measured_rate"), "predicted_rate", "measured_rate")
     ends = rows["predicted_rate"].replace(0, np.nan).dropna()
     line = np.array([ends.min() * 0.7, ends.max() * 1.4]) if len(ends) else np.array([0.1, 10])
-    ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.8, label="predicted rate = 1")
-    ax.plot(line, line, color=BLACK, linewidth=0.5, label="measured = predicted")
-    ax.fill_between(line, 0.95 * line, 1.05 * line, color="#cccccc", linewidth=0, label="within 5 %")
-    ax.set(xscale="log", yscale="log", xlabel="predicted rate, spectral radius", ylabel="measured rate",
-           title="Plain iteration, error against Newton")
+    ax.plot(line, line, color=BLACK, linewidth=0.5)
+    ax.fill_between(line, 0.95 * line, 1.05 * line, color="#cccccc", linewidth=0, label="measured = predicted, within 5 %")
+    ax.set(xscale="log", yscale="log", xlabel="predicted rate, spectral radius", ylabel="measured rate")
+    guide(ax, 1, "predicted rate = 1", horizontal=False)
     shared_legend(fig, [ax], columns=3)
+    off = abs(rows["measured_rate"] / rows["predicted_rate"] - 1)[rows["predicted_rate"] > 0]
+    finding(fig, contracts(frame)[0].upper() + contracts(frame)[1:],
+            f"Where a rate is measured it is the predicted one to {100 * off.max():.2g} %" if len(off) else "")
     footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
     return fig
 
@@ -137,7 +162,7 @@ def pendulum(frame):
     frame = frame[(frame["outer"] == "plain") & (frame["scene"] == "pendulum")].sort_values("step_s")
     if frame.empty:
         return None
-    fig, (ax,) = panels(1, height=2.4)
+    fig, (ax,) = panels(1, height=2.2)
     rows = good(frame, "measured_rate")
     ax.plot(frame["step_s"], frame["predicted_rate"], "--", color=BLACK, label="predicted, h² T/(m l)")
     ax.plot(rows["step_s"], on_log(rows["measured_rate"]), "o", color=RED, markersize=6, markerfacecolor="none",
@@ -146,11 +171,13 @@ def pendulum(frame):
         ax.annotate(f"{row['measured_rate']:.4g}", (row["step_s"], row["measured_rate"]), xytext=(6, -8),
                     textcoords="offset points", fontsize=7)
     draw_failed(ax, failed(frame, "measured_rate"), "step_s", "measured_rate")
-    ax.set(xscale="log", yscale="log", xlabel="step (s)", ylabel="rate, error per outer iteration",
-           title="Pendulum, plain iteration, error against Newton")
+    ax.set(xscale="log", yscale="log", xlabel="step (s)", ylabel="rate, error per outer iteration")
     ax.set_xticks(frame["step_s"].unique(), [text_number(step) for step in frame["step_s"].unique()])
     ax.set_xticks([], minor=True)
     ax.margins(0.15)
     shared_legend(fig, [ax])
+    off = abs(rows["measured_rate"] / rows["predicted_rate"] - 1)
+    finding(fig, f"On the pendulum plain contracts as h² T/(m l) says, to {100 * off.max():.2g} % at {counted(len(rows), 'step')}"
+            if len(rows) else f"plain contracts at none of {counted(len(frame), 'step')} of the pendulum")
     footnote(fig, reasons_note(failed(frame, "measured_rate")))
     return fig

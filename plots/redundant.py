@@ -1,8 +1,10 @@
 """Does a mechanism move as before when joints hold what others hold already?"""
 
 from common import crossed, curve_points, figure, footnote, panels, shared_legend
-from styles import BLACK, style
+from finding import finding, guide
+from styles import style
 from selecting import missed_note, reasons_note
+from wording import number, share, span
 
 COLUMNS = {"position_difference_m": "positions: difference (m)", "net_force_difference": "net forces: difference",
            "split": "joints of one place: difference"}
@@ -24,11 +26,15 @@ def motion(frame):
             look = style(row["relaxation"]) | {"linestyle": "none"}
             crossed(ax, row["place"], 0.03, look, ax.get_xaxis_transform())
         if column != "split":
-            ax.axhline(BOUND, color=BLACK, linewidth=0.8, linestyle="--", label="bound")
+            guide(ax, BOUND, "bound")
         counts = sorted(frame["redundant_joints"].unique())
         ax.set_xticks([count + 1 for count in counts], [f"{count:.0f}" for count in counts])
         ax.set(yscale="log", title=title, xlim=(counts[0] + 0.7, counts[-1] + 1.3))
     fig.supxlabel("redundant joints", fontsize=8)
     shared_legend(fig, axes)
+    held = frame[~plain]
+    near = held["status"].eq("ok") & (held["position_difference_m"] <= BOUND) & (held["net_force_difference"] <= BOUND)
+    finding(fig, f"With redundant joints the motion is the same to {number(BOUND)} in {share(near.sum(), len(held))} runs; how joints "
+            f"of one place share the force differs by {span(held['split'])}")
     footnote(fig, missed_note(frame) + reasons_note(frame[frame["status"] != "ok"]))
     return fig

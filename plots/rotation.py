@@ -2,8 +2,11 @@
 those of time_order."""
 
 from common import curve_points, figure, footnote, on_log, order_triangles, panels, shared_legend, ticks, trace
+from finding import MOST_PANELS, fewer, finding
+from reading import LARGEST
 from styles import style
-from selecting import failed, reasons_note, rule_names, text_number
+from selecting import failed, good, reasons_note, rule_names, text_number
+from wording import counted, number
 
 LINEAR_BELOW = 1e-6  # changes of the energy, on an axis with both signs
 
@@ -12,7 +15,7 @@ LINEAR_BELOW = 1e-6  # changes of the energy, on an axis with both signs
 def series(frame):
     """Change of energy and angular momentum over time, one column a form of the torque."""
     named = frame.assign(rule=rule_names(frame))
-    torques = list(named.groupby("torque", sort=False))
+    torques, left = fewer(named.groupby("torque", sort=False), MOST_PANELS // 2)
     fig, axes = panels(2 * len(torques), columns=len(torques), height=2.3, sharex=True, sharey="row")
     for (torque, here), above, below in zip(torques, axes, axes[len(torques):]):
         for name, rows in here.groupby("rule", sort=False):
@@ -27,14 +30,23 @@ def series(frame):
     axes[0].set_ylabel("change of the energy,\nrelative")
     axes[len(torques)].set_ylabel("change of the angular momentum,\nrelative")
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(named.groupby(["torque", "rule"], sort=False).tail(1), "time_s")))
+    finding(fig, "Largest change of the energy: " + "; ".join(f"{torque} torque {energy_changes(here)}" for torque, here in torques))
+    footnote(fig, left + reasons_note(failed(named.groupby(["torque", "rule"], sort=False).tail(1), "time_s")))
     return fig
+
+
+def energy_changes(here):
+    """The least and the most that any integrator changes the energy by, relative."""
+    largest = here.groupby("rule")["energy_change"].agg(lambda values: values.abs().max())
+    largest = largest[largest <= LARGEST]
+    return f"{number(largest.min())} ({largest.idxmin()}) to {number(largest.max())} ({largest.idxmax()})" if len(largest) else \
+        f"in none of {counted(here['rule'].nunique(), 'run')}"
 
 
 @figure("rotation", "tumbling", table="tumbling")
 def tumbling(frame):
     """Error of the period over the step, one panel a disturbance."""
-    disturbances = list(frame.groupby("disturbance_rad_s", sort=False))
+    disturbances, left = fewer(frame.groupby("disturbance_rad_s", sort=False))
     fig, axes = panels(len(disturbances), columns=3, height=2.3, sharey=True)
     steps = sorted(frame["step_s"].unique())
     for ax, (disturbance, here) in zip(axes, disturbances):
@@ -46,5 +58,15 @@ def tumbling(frame):
         ticks(ax, steps)
     axes[0].set_ylabel("error of the period, relative")
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "error")))
+    finding(fig, "Error of the tumbling period at the smallest step: " + period_errors(frame))
+    footnote(fig, left + reasons_note(failed(frame, "error")))
     return fig
+
+
+def period_errors(frame):
+    """The largest error of each integrator at the smallest step."""
+    shown = good(frame[frame["step_s"] == frame["step_s"].min()], "error")
+    if shown.empty:
+        return f"none of {counted(len(frame), 'run')} ended well"
+    largest = shown.assign(rule=rule_names(shown)).groupby("rule", sort=False)["error"].max().sort_values()
+    return ", ".join(f"{name} {number(error, 2)}" for name, error in largest.items())

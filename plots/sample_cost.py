@@ -29,7 +29,7 @@ def method_points(tolerance):
 def contact_points():
     rows = []
     for scene in ("incline", "arch"):
-        for law in ("coulomb", "box"):
+        for law in ("coulomb", "cone", "box"):
             for k, relaxation in enumerate((*RELAXATIONS, "cone_interior_point", "cone_ipopt")):
                 judge = relaxation.startswith("cone_")
                 for t in (0,) if judge else (1e-2, 1e-6, 1e-10):

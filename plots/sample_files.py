@@ -19,7 +19,7 @@ def write(directory, experiment, table, columns, rows):
 def write_run(directory, experiment, holds=0, fails=0):
     """The run.json of a complete run."""
     run = {"commit": "0123456789abcdef", "dirty": True, "version": "0.1.0", "compiler": "g++ 12.2.0",
-           "flags": "-O3 -march=native", "processor": "Made-up CPU", "threads": 2, "seed": 1, "tier": "quick",
+           "flags": "-O3 -march=native", "processor": "Made-up CPU", "date": "2026-01-02T03:04:05Z", "load": 1.5, "threads": 2, "seed": 1, "tier": "quick",
            "settings": {}, "libraries": {"Eigen": "3.4.0", "CHOLMOD": "5.12.0"}, "wall_s": 12.5,
            "verdicts": {"holds": holds, "fails": fails}, "status": "complete"}
     (Path(directory) / experiment / "run.json").write_text(json.dumps(run), encoding="utf-8")

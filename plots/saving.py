@@ -23,11 +23,13 @@ def _place_footnotes(figure):
 
 
 def give_empty_axes_limits(figure):
-    """A logarithmic axis without a single number to draw has no limits of its own."""
+    """A logarithmic axis without a single number to draw, nor one that shares it, has no limits of its own."""
     for ax in figure.axes:
-        if ax.get_xscale() == "log" and not np.isfinite(ax.dataLim.minposx):
+        if ax.get_xscale() == "log" and not any(np.isfinite(other.dataLim.minposx) for other in
+                                                ax.get_shared_x_axes().get_siblings(ax)):
             ax.set_xlim(1e-3, 1)
-        if ax.get_yscale() == "log" and not np.isfinite(ax.dataLim.minposy):
+        if ax.get_yscale() == "log" and not any(np.isfinite(other.dataLim.minposy) for other in
+                                                ax.get_shared_y_axes().get_siblings(ax)):
             ax.set_ylim(1e-16, 1)
 
 

@@ -2,16 +2,21 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 from matplotlib.colors import LogNorm
 
 from common import curve, draw_failed, figure, footnote, on_log, panels, shared_legend
+from finding import MOST_PANELS, fewer, finding, guide
 from styles import BLACK, BLUE, RED, style
 from outer_convergence import edges
 from reading import CONTRACTING, LARGEST
 from selecting import cost_ratios, failed, good, reasons_note, step_text, text_number
+from wording import counted, number, share
 
 MARKS = {"not_converged": "x", "diverged": "^", "skipped": "_", "ok": "o"}  # of a cell that is not solved, by status
 MEANING = {"ok": "ok, but farther than 1e-8"}
+ALLOWED = 1e-10  # error of a solved step, as the verdicts ask
+DEARER = 1.2  # what auto may cost of plain, as the verdicts ask
 STEP_LINES = ("-", "--", ":")
 AXES = {"mass_ratio": "mass ratio, tip to other nodes", "young_pa": "Young's modulus (Pa)"}
 
@@ -37,42 +42,63 @@ def cantilever(frame):
 
 @figure("stability_map", "cantilevers", table="cantilevers")
 def cantilevers(frame):
-    """Errors over stiffness, a panel a solid, a line a method and step."""
-    groups = list(frame.groupby("scene", sort=False))
+    """Errors over stiffness, a panel a solid, a colour a method, a line a step."""
+    groups, left = fewer(frame.groupby("scene", sort=False))
+    if not groups:
+        return None
     fig, axes = panels(len(groups), columns=2, height=2.1, sharex=True, sharey=True)
+    steps = sorted(frame["step_s"].unique())
     for ax, (scene, solid) in zip(axes, groups):
         for (outer, relaxation, step), rows in solid.groupby(["outer", "relaxation", "step_s"], sort=False):
-            look = style(relaxation) | {"linestyle": STEP_LINES[sorted(solid["step_s"].unique()).index(step) % len(STEP_LINES)]}
-            curve(ax, rows, "young_pa", "error_final", f"{outer}, {relaxation}, {step_text(step)}", look)
+            look = style(relaxation) | {"linestyle": STEP_LINES[steps.index(step) % len(STEP_LINES)]}
+            label = f"{outer}, {relaxation}" if step == steps[0] else "_"
+            curve(ax, rows, "young_pa", "error_final", label, look)
             draw_failed(ax, failed(rows, "error_final"), "young_pa", "error_final", look)
-        ax.axhline(1e-10, color=BLACK, linewidth=0.6, linestyle="--")
+        guide(ax, ALLOWED, "1e-10")
         ax.set(xscale="log", yscale="log", title=scene)
     fig.supxlabel(AXES["young_pa"], fontsize=8)
     fig.supylabel("error against Newton", fontsize=8)
     shared_legend(fig, axes, columns=2)
-    footnote(fig, "Crossed: not ok. " + reasons_note(failed(frame, "error_final")))
+    near = good(frame, "error_final")
+    near = near[near["error_final"] <= ALLOWED]
+    finding(fig, "To 1e-10 of Newton's step come " + ", ".join(
+        f"{outer} with {relaxation} {share(near.index.isin(rows.index).sum(), len(rows))}"
+        for (outer, relaxation), rows in frame.groupby(["outer", "relaxation"], sort=False)))
+    lines = ", ".join(f"{name} {step_text(step)}" for name, step in zip(("solid", "dashed", "dotted"), steps))
+    footnote(fig, f"Steps: {lines}. Crossed: not ok. {left}" + reasons_note(failed(frame, "error_final")))
     return fig
 
 
 def maps(frame, value):
-    """A panel for each method; the cells' colour and number are iterations, a mark stands where it does not solve."""
-    chosen = list(frame.groupby(["outer", "memory"], sort=False))
-    fig, axes = panels(len(chosen), columns=4, width=7.5, height=1.95, sharex=True, sharey=True)
+    """A panel for each method that finds a step; the cells' colour and number are iterations, a mark stands where it does
+    not. Methods that find none are named in the title alone."""
+    found = {key: (len(rows) - len(unsolved(rows)), rows) for key, rows in frame.groupby(["outer", "memory"], sort=False)}
+    if not found:
+        return None
+    cells = max(len(rows) for _, rows in found.values())
+    ranked = sorted(found, key=lambda key: -found[key][0])
+    chosen = [key for key in found if key in ranked[:MOST_PANELS] and (found[key][0] or key == ranked[0])]
+    fig, axes = panels(len(chosen), columns=3, height=1.75, sharex=True, sharey=True)
     most = max(10, frame["iterations"].where(frame["iterations"] <= LARGEST).max(skipna=True) or 0)
-    for ax, ((outer, memory), rows) in zip(axes, chosen):
+    for ax, key in zip(axes, chosen):
+        solved, rows = found[key]
         mesh = map_panel(ax, rows, value, most)
-        ax.set_title(method_name(outer, memory))
+        ax.set_title(f"{method_name(*key)}: {share(solved, len(rows))}")
     fig.supxlabel("step (s)", fontsize=8)
     fig.supylabel(AXES[value], fontsize=8)
-    fig.colorbar(mesh, ax=axes, label="outer iterations to an error of 1e-8", extend="max")
-    met = [status for status in MARKS if unsolved(frame)["status"].eq(status).any()]
+    fig.colorbar(mesh, ax=axes, label="outer iterations to 1e-8", extend="max")
+    drawn = pd.concat([found[key][1] for key in chosen])
+    met = [status for status in MARKS if unsolved(drawn)["status"].eq(status).any()]
     handles = [plt.Line2D([], [], color=BLACK, marker=MARKS[status], linestyle="", markerfacecolor="none") for status in met]
     labels = [MEANING.get(status, status) for status in met]
-    if draw_limit(axes[0], frame, value):
+    if chosen[0][0] == "plain" and draw_limit(axes[0], frame, value):
         handles.append(plt.Line2D([], [], color=RED, linestyle="--"))
         labels.append("predicted contraction of plain = 1")
     fig.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=5)
-    footnote(fig, f"{frame['scene'].iloc[0]}, error against Newton. " + reasons_note(failed(frame, "iterations")))
+    counts = [f"{method_name(*key)} {found[key][0]}" for key in ranked]
+    finding(fig, f"Of {counted(cells, 'cell')} of {frame['scene'].iloc[0]} the step is found in: " + ", ".join(counts))
+    hidden = [method_name(*key) for key in found if key not in chosen]
+    footnote(fig, ("Not drawn: " + ", ".join(hidden) + ". " if hidden else "") + reasons_note(failed(frame, "iterations")))
     return fig
 
 
@@ -114,7 +140,7 @@ def draw_limit(ax, frame, value):
 @figure("stability_map", "predictions", table="predictions")
 def predictions(frame):
     """The solver's own prediction against the dense spectral radius, filled where plain converges."""
-    fig, (ax,) = panels(1, height=2.9)
+    fig, (ax,) = panels(1, height=2.7)
     rows = good(frame, "predicted_rate", "predicted_contraction")
     for converges, color, marker, label in ((True, BLUE, "o", "plain converges"), (False, RED, "s", "plain does not converge")):
         group = rows[rows["behaviour"].isin(CONTRACTING) == converges]
@@ -122,10 +148,12 @@ def predictions(frame):
                 markerfacecolor=color if converges else "white")
     line = np.array([0.1, 1000.0])
     ax.plot(line, line, color=BLACK, linewidth=0.5, label="both are equal")
-    ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.8)
-    ax.axhline(1, color=BLACK, linestyle="--", linewidth=0.8)
-    ax.set(xscale="log", yscale="log", xlabel="dense spectral radius", ylabel="solver's predicted contraction",
-           title="Swinging chain, every cell of the map")
+    ax.set(xscale="log", yscale="log", xlabel="dense spectral radius", ylabel="solver's predicted contraction")
+    guide(ax, 1, "radius = 1", horizontal=False)
+    guide(ax, 1)
+    agree = (frame["predicted_contraction"] < 1) == frame["behaviour"].isin(CONTRACTING)
+    finding(fig, f"In {share((agree & frame['predicted_contraction'].notna()).sum(), len(frame))} cells of the chain the solver "
+            "predicts rightly whether plain converges")
     fig.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=3)
     missing = len(frame) - len(rows)
     footnote(fig, f"{missing} cells without a prediction are not drawn." if missing else "")
@@ -136,20 +164,27 @@ def predictions(frame):
 def cost(frame):
     """What auto costs of plain's cost, one panel a map, one mark a step and relaxation."""
     ratios = cost_ratios(frame)
-    groups = list(ratios.groupby("scene", sort=False))
-    fig, axes = panels(len(groups), columns=2, height=2.4)
+    groups, left = fewer(ratios.groupby("scene", sort=False))
+    if not groups:
+        return None
+    fig, axes = panels(len(groups), columns=3, height=2.4, sharey=True)
     for ax, (scene, cells) in zip(axes, groups):
         for relaxation, rows in cells.groupby("relaxation", sort=False):
             look = style(relaxation) | {"linestyle": "none", "markerfacecolor": "none"}
             shown = good(rows, "ratio")
             ax.plot(shown["value"], shown["ratio"], label=relaxation, **look)
             draw_failed(ax, failed(rows, "ratio"), "value", "ratio", look)
-        for level, line in ((1, "-"), (1.2, "--")):
-            ax.axhline(level, color=BLACK, linewidth=0.8, linestyle=line, label=f"{level:g} times plain's")
+        guide(ax, 1, linestyle="-")
+        guide(ax, DEARER, f"{DEARER:g}: allowed")
         parameter = cells["parameter"].iloc[0]
-        ax.set(xscale="log", yscale="log", title=scene, xlabel=AXES.get(parameter, parameter),
-               ylabel=f"{'wall time' if cells['timed'].all() else 'row updates'}, auto over plain")
+        ax.set(xscale="log", yscale="log", title=f"{scene}, {'wall time' if cells['timed'].all() else 'row updates'}",
+               xlabel=AXES.get(parameter, parameter))
+    axes[0].set_ylabel("cost of auto over that of plain")
     shared_legend(fig, axes, columns=5)
+    solved = good(ratios, "ratio")
     unsolved_by_plain = (frame["outer"].eq("plain") & frame["status"].ne("ok")).sum()
-    footnote(fig, f"{unsolved_by_plain} runs that plain does not solve are left out. " + reasons_note(failed(ratios, "ratio")))
+    finding(fig, f"auto costs at most {DEARER:g} times what plain does in {share((solved['ratio'] <= DEARER).sum(), len(ratios))} "
+            "runs that plain solves" + (f", {number(solved['ratio'].min())} to {number(solved['ratio'].max())} times" if len(solved)
+                                        else ""))
+    footnote(fig, f"{unsolved_by_plain} runs that plain does not solve are left out. {left}" + reasons_note(failed(ratios, "ratio")))
     return fig

@@ -27,6 +27,7 @@ STYLES = {
     "coulomb": (BLUE, "o", "-"), "cone": (RED, "s", "--"), "box": (ORANGE, "D", "-."), "disc": (GREEN, "^", ":"),
     "tet_p1": (BLUE, "o", "-"), "tet_p1 reference": (BLACK, "^", ":"), "springs": (RED, "s", "--"),
 }
+RELAXATIONS = ("gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients", "direct")  # the solver's own
 FALLBACK = [(BLUE, "o", "-"), (RED, "s", "--"), (GREEN, "^", "-."), (PURPLE, "v", ":"), (ORANGE, "D", "-"),
             (SKY, "P", "--"), (BLACK, "X", "-.")]
 
@@ -36,7 +37,7 @@ plt.rcParams.update({
     "legend.handlelength": 2.6, "figure.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True,
     "lines.linewidth": 1.2, "lines.markersize": 3.5,
-    "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "path", "pdf.fonttype": 42,
+    "figure.constrained_layout.use": True, "svg.hashsalt": "pbdcheck", "svg.fonttype": "none", "pdf.fonttype": 42,
     "savefig.dpi": 200,
 })
 

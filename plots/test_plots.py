@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 import common
-import saving
+import finding
 import saving
 import compare
 import make
@@ -23,6 +23,27 @@ import sample
 import tables
 
 HERE = Path(__file__).parent
+
+
+def title_of(figure):
+    return figure._suptitle.get_text() if figure._suptitle else ""
+
+
+def broken_rules(figure):
+    """What keeps a reader from seeing at once what a figure says."""
+    figure.draw_without_rendering()
+    axes = [ax for ax in figure.axes if ax.get_label() != "<colorbar>"]
+    series = {label for ax in axes for label in ax.get_legend_handles_labels()[1]}
+    legends = [*figure.legends, *(ax.get_legend() for ax in axes if ax.get_legend())]
+    named = {text.get_text() for legend in legends for text in legend.get_texts()}
+    named |= {text.get_text() for ax in axes for text in ax.texts if text.get_gid() == "name"}
+    title = title_of(figure)
+    wide = figure._suptitle.get_window_extent().width > figure.bbox.width if title else False
+    return [broken for broken, is_so in (
+        (f"{len(axes)} panels", len(axes) > finding.MOST_PANELS), (f"{len(series)} series", len(series) > finding.MOST_SERIES),
+        (f"not named: {series - named}", len(series) > 1 and not series <= named),
+        (f"no number in the title: {title}", not re.search(r"\d", title)),
+        ("a title of more than three lines", title.count("\n") > 2), ("a title wider than the figure", wide)) if is_so]
 
 
 class Drawing(unittest.TestCase):
@@ -63,6 +84,52 @@ class Drawing(unittest.TestCase):
                     saving.give_empty_axes_limits(figure)
                     figure.draw_without_rendering()
                     common.plt.close(figure)
+
+    def test_every_figure_can_be_read_in_five_seconds(self):
+        for entry in common.FIGURES:
+            with self.subTest(entry.experiment + "_" + entry.name):
+                figure = entry.draw(self.table(entry))
+                rule_breaks = broken_rules(figure)
+                self.assertEqual(rule_breaks, [])
+                common.plt.close(figure)
+
+    def test_the_rules_find_a_figure_that_breaks_them(self):
+        figure, axes = common.panels(7)
+        for k in range(8):
+            axes[0].plot([1, 2], [k, k], label=f"series {k}")
+        figure.suptitle("Errors of all methods")
+        self.assertEqual(len(broken_rules(figure)), 4)
+        common.plt.close(figure)
+
+    def test_findings_are_made_of_the_data(self):
+        """Where nothing but failures is left no figure says what it said before, and it still says a number."""
+        for entry in common.FIGURES:
+            frame = self.table(entry)
+            if "status" not in frame:
+                continue
+            with self.subTest(entry.experiment + "_" + entry.name):
+                before = entry.draw(frame)
+                numbers = [c for c in frame if c not in reading.TEXT | reading.SETTINGS and c not in (
+                    "alpha", "direction_blend", "stabilisation", "friction", "count", "restitution", "bounce", "value", "parameter")]
+                frame = frame.assign(**{c: np.nan for c in numbers}, status="diverged", reason="not finite")
+                after = entry.draw(frame)
+                if after:
+                    self.assertNotEqual(title_of(before), title_of(after))
+                    self.assertRegex(title_of(after), r"\d")
+                    self.assertNotRegex(title_of(after), r"\bnan\b")
+                    common.plt.close(after)
+                common.plt.close(before)
+
+    def test_lines_are_named_apart_from_each_other(self):
+        figure, (ax,) = common.panels(1)
+        for k in range(6):
+            ax.plot([1, 2], [1, 1 + 1e-3 * k], label=f"line {k}")
+        finding.name_lines(ax)
+        figure.draw_without_rendering()
+        boxes = [text.get_window_extent() for text in ax.texts]
+        self.assertEqual(len(boxes), 6)
+        self.assertFalse(any(one.overlaps(other) for one in boxes for other in boxes if one is not other))
+        common.plt.close(figure)
 
     def test_every_solver_counts_at_its_own_tightest_tolerance(self):
         frame = pd.DataFrame({"relaxation": ["judge", "a", "a", "b", "b"], "tolerance": [1e-10, 1e-4, 1e-8, 1e-4, 1e-8]})

@@ -1,29 +1,20 @@
 """Which method gives which accuracy for which work?"""
 
-import matplotlib.pyplot as plt
-
-from common import draw_failed, figure, footnote, on_log, panels
+from common import figure, footnote, on_log, panels, shared_legend
+from finding import MOST_PANELS, MOST_SERIES, fewer, finding
 from styles import BLACK, style
-from selecting import failed, good, reasons_note, scene_text, step_text
+from selecting import good, reasons_note, failed, scene_text, step_text
+from wording import counted, number
 
-RELAXATION_MARKERS = {"gauss_seidel": "o", "jacobi": "s", "nesterov_jacobi": "^", "conjugate_gradients": "P", "direct": "D"}
 REFERENCE = {"color": BLACK, "marker": "*", "linestyle": "none", "markersize": 7, "markerfacecolor": BLACK}
 LEAST_ERROR = 1e-9  # differences in accuracy below are not worth work
+ASKED = 1e-6  # the error of the title
+STEP = ["scene", "step_s", "integrator", "friction"]
 
 
 def method_name(row):
-    """`outer, relaxation`; judges and rivals by their names, outer iterations that relax nothing alone."""
-    if row["outer"] in ("judge", "rival"):
-        return f"{row['outer']} {row['relaxation']}"
-    if row["relaxation"] == "none":
-        return row["outer"]
-    return f"{row['outer']}, {row['relaxation']}"
-
-
-def method_style(row):
-    """Colour and line tell the outer iteration, the marker the relaxation."""
-    look = style(row["outer"])
-    return look | {"marker": RELAXATION_MARKERS.get(row["relaxation"], look["marker"])}
+    """The outer iteration; judges and rivals by their names."""
+    return f"{row['outer']} {row['relaxation']}" if row["outer"] in ("judge", "rival") else row["outer"]
 
 
 def quickest(frame, x):
@@ -52,102 +43,109 @@ def is_reference(points):
 
 def mark_reference(ax, points, x):
     """The reference has a cost but no error: a star on the lower edge."""
-    for place in points[x][points[x] > 0]:
+    for place in points[x][points[x] > 0].head(1):
         ax.plot([place], [0], clip_on=False, zorder=5, transform=ax.get_xaxis_transform(), **REFERENCE)
 
 
-def front(ax, points, x, look):
-    """Every run as a marker, crossed where it is not ok; a staircase through those that none beats in both work and
-    error."""
+def front(ax, points, x, name, look):
+    """A staircase through the solved runs that none beats in both work and error."""
     rows = good(points, x, "error").sort_values([x, "error"])
-    ax.plot(rows[x], on_log(rows["error"]), **look | {"linestyle": "none", "markerfacecolor": "white"})
     best = rows[rows["error"] == rows["error"].cummin()]
-    ax.plot(best[x], on_log(best["error"]), drawstyle="steps-post", **look | {"marker": "none"})
-    draw_failed(ax, failed(points, x, "error"), x, "error", look)
+    ax.plot(best[x], on_log(best["error"]), drawstyle="steps-post", label=name, **{"markerfacecolor": "white"} | look)
 
 
-def families_legend(fig, frame, references):
-    """Outer iterations by colour and line, then relaxations by marker."""
-    entries = {}
-    for row in frame.drop_duplicates(["outer", "relaxation"]).to_dict("records"):
-        look, name = method_style(row), method_name(row)
-        if name in (f"judge {reference}" for reference in references):
-            entries[f"{name}, the reference itself"] = REFERENCE
-        elif row["outer"] in ("judge", "rival") or row["relaxation"] == "none":
-            entries[name] = look
-        else:
-            entries[row["outer"]] = look | {"marker": "none"}
-    for relaxation, marker in RELAXATION_MARKERS.items():
-        if relaxation in set(frame["relaxation"]):
-            entries[relaxation] = {"color": "#777777", "marker": marker, "linestyle": "none"}
-    handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
-    fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
+def first_to_reach(frame, x):
+    """In how many steps each method is the first to reach the error that is asked for, of those with a solution of their own."""
+    reached = good(frame, x, "error")
+    reached = reached[(reached["error"] <= ASKED) & (reached["outer"] != "judge")]
+    first = reached.loc[reached.groupby(STEP)[x].idxmin()]["name"].value_counts()
+    return ", ".join(f"{name} in {count}" for name, count in first.items())
 
 
-def relaxations_legend(fig, frame, references):
-    """Relaxations and judges by their own looks."""
-    entries = {f"judge {name}, the reference itself" if name in references else name: REFERENCE if name in references else
-               style(name) for name in frame["relaxation"].unique()}
-    handles = [plt.Line2D([], [], **{"markerfacecolor": "white"} | look) for look in entries.values()]
-    fig.legend(handles, entries, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=4)
-
-
-def draw_methods(frame, x, label, by=["outer", "relaxation"], look=method_style, legend=families_legend, columns=2, height=2.4):
-    """Error against work, one panel a scene, step, integrator and friction; a line is the least error for that work.
-    Curves are what the columns `by` tell apart."""
-    judges = frame[frame["outer"] == "judge"]
-    names = [judge for judge, points in judges.groupby("relaxation", sort=False) if is_reference(points)]
+def draw_methods(frame, x, label, names, look):
+    """Error against work, one panel a scene, step, integrator and friction: where there are many, those of the largest step.
+    `names` tells the curves apart. Methods that do not reach the error asked for are named in the panel."""
+    references = [name for name, points in frame[frame["outer"] == "judge"].groupby("relaxation", sort=False)
+                  if is_reference(points)]
+    frame = frame.assign(name=names)
     if x != "wall_s":
         frame = with_work(frame, x)
-    groups = list(frame.groupby(["scene", "step_s", "integrator", "friction"], sort=False))
-    fig, axes = panels(len(groups), columns=columns, height=height)
+    groups = list(frame.groupby(STEP, sort=False))
+    steps = len(groups)
+    if not groups:
+        return None
+    if steps > MOST_PANELS:
+        groups = [(key, rows) for key, rows in groups if key[1] == frame["step_s"].max()]
+    groups, _ = fewer(groups)
+    theirs = frame[~((frame["outer"] == "judge") & (frame["error"] == 0))]
+    reach = (theirs["status"].eq("ok") & (theirs["error"] <= ASKED)).groupby(theirs["name"], sort=False).sum()
+    kept = list(reach.sort_values(ascending=False, kind="stable").index[:MOST_SERIES])
+    fig, axes = panels(len(groups), columns=2 if len(groups) == 4 else 3, height=1.8, sharey=True)
     for ax, ((scene, step, integrator, friction), rows) in zip(axes, groups):
-        for _, points in rows.groupby(by, sort=False):
-            first = points.iloc[0]
+        missing = []
+        for name, points in rows.groupby("name", sort=False):
             if is_reference(points):
                 mark_reference(ax, points, x)
-            else:
-                front(ax, points, x, look(first))
-        title = f"{scene_text(scene)}, {integrator}, h = {step_text(step)}"
-        if frame["friction"].nunique() > 1:
-            title = f"{scene_text(scene)}, {friction}, h = {step_text(step)}"
-        ax.set(xscale="log", yscale="log", title=title)
+            elif name in kept:
+                front(ax, points, x, name, look(points.iloc[0]))
+                if not (good(points, x, "error")["error"] <= ASKED).any():
+                    missing.append(name)
+        if missing:
+            ax.text(0.02, 0.02, "not to " + number(ASKED) + ":\n" + "\n".join(missing), transform=ax.transAxes, fontsize=5.5,
+                    va="bottom", color="#555555")
+        told = "".join(f", {value}" for column, value in (("friction", friction), ("integrator", integrator))
+                       if frame[column].nunique() > 1)
+        ax.set(xscale="log", yscale="log", title=f"{scene_text(scene)}{told}, h = {step_text(step)}")
         ax.title.set_fontsize(7)
     fig.supxlabel(label, fontsize=8)
-    fig.supylabel(f"error against {' and '.join(names) or 'the judge'}, relative", fontsize=8)
-    legend(fig, frame, names)
-    bad = failed(frame, x, "error")
-    beside = "Beside the right edge: methods that were skipped at tighter tolerances, or altogether. " if \
-        bad["status"].eq("skipped").any() else ""
-    footnote(fig, beside + reasons_note(bad))
+    fig.supylabel(f"error against {' and '.join(references) or 'the judge'}, relative", fontsize=8)
+    shared_legend(fig, axes)
+    first = first_to_reach(frame, x)
+    finding(fig, f"First to an error of {number(ASKED)} by {label}: {first}, of {counted(steps, 'step')}" if first else
+            f"No method reaches an error of {number(ASKED)} in {counted(steps, 'step')}")
+    others = [name for name in theirs["name"].unique() if name not in kept]
+    footnote(fig, "Star: the judge that errors are measured against. " +
+             (f"Drawn: {len(groups)} of {steps} steps. " if len(groups) < steps else "") +
+             (f"In the table alone: {', '.join(others)}. " if others else "") +
+             reasons_note(failed(frame, x, "error")).replace("Crossed, not ok", "Not drawn, not ok"))
     return fig
+
+
+def draw_points(frame, x, label):
+    frame = quickest(frame, x)
+    return draw_methods(frame, x, label, frame.apply(method_name, axis=1), lambda row: style(row["outer"]))
 
 
 @figure("work_precision", "seconds", table="points")
 def seconds(frame):
-    return draw_methods(quickest(frame, "wall_s"), "wall_s", "wall time (s)")
+    return draw_points(frame, "wall_s", "wall time (s)")
 
 
 @figure("work_precision", "row_updates", table="points")
 def row_updates(frame):
-    return draw_methods(quickest(frame[frame["relaxation"] != "direct"], "row_updates"), "row_updates", "row updates")
+    return draw_points(frame[frame["relaxation"] != "direct"], "row_updates", "row updates")
 
 
 @figure("work_precision", "outer_iterations", table="points")
 def outer_iterations(frame):
-    return draw_methods(quickest(frame, "outer_iterations"), "outer_iterations", "outer iterations")
+    return draw_points(frame, "outer_iterations", "outer iterations")
 
 
-def draw_contacts(frame, x, label):
-    return draw_methods(frame, x, label, by="relaxation", look=lambda row: style(row["relaxation"]), legend=relaxations_legend,
-                        columns=4, height=1.7)
+def draw_contacts(frame, law, x, label):
+    frame = frame[frame["friction"] == law]
+    return draw_methods(frame, x, label, frame["relaxation"], lambda row: style(row["relaxation"]))
 
 
 @figure("work_precision", "contact_seconds", table="contacts")
 def contact_seconds(frame):
-    return draw_contacts(frame, "wall_s", "wall time (s)")
+    return draw_contacts(frame, "coulomb", "wall_s", "wall time (s)")
+
+
+@figure("work_precision", "contact_cone_seconds", table="contacts")
+def contact_cone_seconds(frame):
+    return draw_contacts(frame, "cone", "wall_s", "wall time (s)")
 
 
 @figure("work_precision", "contact_row_updates", table="contacts")
 def contact_row_updates(frame):
-    return draw_contacts(frame[frame["relaxation"] != "direct"], "row_updates", "row updates")
+    return draw_contacts(frame[frame["relaxation"] != "direct"], "coulomb", "row_updates", "row updates")

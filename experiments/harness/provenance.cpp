@@ -1,12 +1,16 @@
 #include "harness/provenance.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/utsname.h>
 #include <toml++/toml.h>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "build_info.h"
 #include "harness/experiment.h"
@@ -22,6 +26,28 @@ std::string processor() {
   for (std::string line; std::getline(in, line);)
     if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
   return "unknown";
+}
+
+/// "Linux 6.1.0 x86_64, Debian GNU/Linux 12 (bookworm)"
+std::string operating_system() {
+  utsname kernel{};
+  uname(&kernel);
+  std::string text = fmt::format("{} {} {}", kernel.sysname, kernel.release, kernel.machine);
+  constexpr std::string_view name = "PRETTY_NAME=\"";
+  std::ifstream in("/etc/os-release");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(name)) text += ", " + line.substr(name.size(), line.rfind('"') - name.size());
+  return text;
+}
+
+/// Mean number of processes that ran or waited in the last minute, -1 if the system does not say.
+double load() {
+  double mean = -1;
+  return getloadavg(&mean, 1) == 1 ? mean : -1;
+}
+
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 nlohmann::ordered_json libraries() {
@@ -60,7 +86,12 @@ nlohmann::ordered_json run_record(int threads, RunOutcome outcome, const std::st
                                 {"version", build_info::version},
                                 {"compiler", build_info::compiler},
                                 {"flags", build_info::flags},
+                                {"march", build_info::march},
+                                {"date", now()},
+                                {"system", operating_system()},
                                 {"processor", processor()},
+                                {"cores", std::thread::hardware_concurrency()},
+                                {"load", load()},
                                 {"threads", threads},
                                 {"seed", seed},
                                 {"libraries", libraries()},

@@ -21,7 +21,9 @@ bool from_this_build(const nlohmann::ordered_json& record);
 std::string version_text();
 
 /// The fields every run.json has: commit, dirty, changes (a hash of the differences from the commit),
-/// version, compiler, flags, processor, threads, seed, libraries; status, and reason unless that is empty.
+/// version, compiler, flags, march (what the compiler made of -march), date (UTC, now), system, processor,
+/// cores (that run at once), load (of the last minute, this program's own threads included), threads, seed,
+/// libraries; status, and reason unless that is empty.
 nlohmann::ordered_json run_record(int threads, RunOutcome outcome, const std::string& reason);
 
 /// As files keep it: two spaces of indentation.

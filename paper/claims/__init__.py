@@ -11,11 +11,11 @@ CLAIMS = tuple(claim for group in GROUPS.values() for claim in group.CLAIMS)
 METHOD = (
     "The paper's own method [@francu2017position] is here `plain` with `nesterov_jacobi` and the convex law `cone`: whole multipliers "
     "along directions that each iteration refreshes, accelerated Jacobi, and a convex cone; `box` is its variant by a box LCP solver. "
-    "All else is ours or other people's: `proximal`, `quasi_newton` and `auto`, `conjugate_gradients` and `direct`, the laws `coulomb` "
-    "and `disc`. `incremental` is classic PBD, `frozen` velocity time stepping.")
+    "Everything else is ours or from the literature: `proximal`, `quasi_newton` and `auto`, `conjugate_gradients` and `direct`, the laws "
+    "`coulomb` and `disc`. `incremental` is classic PBD, `frozen` velocity time stepping.")
 SOURCE = (
-    "Two pages of the paper were available, its abstract, introduction and equations (1) to (7); the rest was not. What "
-    "stands in quotation marks stands there word for word; how the claim is put is ours. The other claims are inferred from the method. "
+    "Two pages of the paper were available, its abstract, introduction and equations (1) to (7); the rest was not. Text in "
+    "quotation marks is quoted word for word; the wording of each claim is ours. The other claims are inferred from the method. "
     "The tests and their bounds are ours.")
 
 

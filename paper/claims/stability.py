@@ -4,6 +4,7 @@ import numpy as np
 
 from claims.claim import Claim, Finding, Untested, judge, some, verdict_rows, worst
 from content import joined, listed, number, share, span
+from direction import steady_step
 from reading import CONTRACTING
 from sections.motion import equal_work_ratios
 from sections.outer import contact_orders
@@ -105,14 +106,6 @@ def satisfied(work, contact):
         + (f"With contact, solved by Gauss-Seidel as far as the work goes, it overlaps or stretches more by a factor of {'; '.join(overlaps)}. "
            if overlaps else "") + against,
         f"{share(len(nearer), total)} scenes", f"{total} of {total}", against)
-
-
-def steady_step(rows):
-    """The longest step, in units of the explicit limit, up to which every run is solved and gains no energy; what freezes directions
-    does not claim to solve its steps."""
-    rows = rows.sort_values("of_explicit_limit")
-    steady = (rows["status"] == "ok") & (rows["energy_highest"] <= 1.01) & ((rows["missed_steps"] == 0) | (rows["outer"] == "frozen"))
-    return rows.loc[steady.cummin(), "of_explicit_limit"].max() if steady.iloc[0] else 0.0
 
 
 def directions_suffice(contenders, cells):

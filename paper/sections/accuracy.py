@@ -1,6 +1,6 @@
 """Do solutions agree with the references, and with the continuum?"""
 
-from content import Figure, Section, Table, counted, listed, number, span
+from content import Figure, Section, Table, counted, number, share, span
 from selecting import failed, good, step_text
 
 
@@ -40,17 +40,17 @@ def dual_vs_primal(results):
                    "`ok`.")])
     frame = results.table("dual_vs_primal", "final")
     if frame is not None:
-        section.paragraphs.append("Final errors, over all materials: " + "; ".join(
-            f"{listed(name)} {span(group['error'])} ({counted(len(failed(group, 'error')), 'case')} of {len(group)} not ok)"
-            for name, group in frame.groupby(["outer", "relaxation"], sort=False)) + ".")
+        section.tables.append(Table("Final errors over all materials.", ["outer", "relaxation", "ok", "error"], [
+            [f"`{outer}`", f"`{relaxation}`", share(len(group) - len(failed(group, "error")), len(group)), span(group["error"])]
+            for (outer, relaxation), group in frame.groupby(["outer", "relaxation"], sort=False)]))
     return section
 
 
 def mesh_refinement(results):
     section = Section(
         "Do the solids approach the continuum?",
-        "A clamped beam is refined, with linear tetrahedra and with a mass-spring network on the same mesh whose one "
-        "stiffness is fitted to both load cases on each mesh, and compared with Timoshenko's beam and with the rod; a manufactured "
+        "A clamped beam is refined. It is made of linear tetrahedra, or of a mass-spring network on the same mesh, whose one "
+        "stiffness is fitted to both load cases on each mesh. Both are compared with Timoshenko's beam and with the rod. A manufactured "
         "solution gives the order of convergence [@roache1994perspective].",
         figures=[
             Figure("mesh_refinement_beam", "Relative error of bending compliance and first frequency against Timoshenko's "
@@ -60,9 +60,8 @@ def mesh_refinement(results):
                    "expected orders.")])
     beam, mms = results.table("mesh_refinement", "beam"), results.table("mesh_refinement", "mms")
     if beam is not None:
-        section.paragraphs.append("On the finest mesh that is ok, the error is " + "; ".join(
-            finest_text(model, quantity, rows) for (model, quantity), rows in beam.groupby(["model", "quantity"], sort=False))
-            + ".")
+        section.tables.append(Table("Errors on the finest mesh that is ok.", ["quantity", "model", "mesh n", "error"], [
+            finest(quantity, model, rows) for (quantity, model), rows in beam.groupby(["quantity", "model"], sort=False)]))
         section.paragraphs.append(nearer_text(beam))
     if mms is not None:
         last = mms.sort_values("n").iloc[-1]
@@ -87,11 +86,11 @@ def nearer_text(beam):
         both = rows[rows["model"] == "springs"].set_index("n")["error_beam"].to_frame("springs").join(tets, how="inner")
         if len(both):
             parts.append(f"in `{quantity}` on {(both['error_beam'] < both['springs']).sum()} of {len(both)}")
-    return ("Meshes on which the tetrahedra are nearer to theory than the fitted network: " + ", ".join(parts) + ".") if parts \
+    return ("The tetrahedra are nearer to theory than the fitted network, on so many meshes: " + ", ".join(parts) + ".") if parts \
         else "Tetrahedra and network have no mesh in common."
 
 
-def finest_text(model, quantity, rows):
+def finest(quantity, model, rows):
     ok = good(rows, "error_beam").sort_values("n")
-    name = f"`{model}` in `{quantity}`"
-    return f"{number(ok['error_beam'].iloc[-1])} for {name} (n = {ok['n'].iloc[-1]:.0f})" if len(ok) else f"unknown for {name}"
+    last = [f"{ok['n'].iloc[-1]:.0f}", number(ok["error_beam"].iloc[-1])] if len(ok) else ["", "unknown"]
+    return [f"`{quantity}`", f"`{model}`", *last]

@@ -5,25 +5,26 @@ from selecting import step_text
 from sections.robustness import failed_gates, gates_text
 
 ENERGY = (
-    "Why bouncing keeps its energy here. Newton's law of restitution takes the approaching speed where the step begins, u_n' = - e "
+    "Why bouncing keeps its energy here. Newton's law of restitution takes the approaching speed of the step's start, u_n' = - e "
     "u_n. The trapezoidal rule changes a body's energy by p (u_n + u_n')/2 per contact of impulse p, which vanishes for e = 1, and "
-    "keeps the energy of free fall; the body turns round at most a step's way above the ground. Contacts that others' impulses close "
-    "within the step follow the same law.")
+    "keeps the energy of free fall; the body turns round at most one step's motion above the ground. Contacts that close only because of "
+    "other contacts' impulses within the step follow the same law.")
 EXACT = (
-    "Why overlaps vanish. The rows ask for gaps at the step's end, and gaps of balls are exact functions of their centres: what "
-    "overlap is left is what the tolerance leaves. Engines that ask for velocities overlap by O(h^2) a step.")
+    "Why overlaps vanish. The rows constrain the gaps at the step's end, and the gap of two balls is an exact function of their centres. "
+    "Only the tolerance is left as overlap. Engines that constrain velocities overlap by O(h^2) a step.")
 
 
 def simbenchmark(results):
     section = Section(
-        "How accurate and how fast is contact, beside five engines?",
-        "The scenes of SimBenchmark: a pushed box with balls on it, of which a box-shaped friction law makes a standstill, balls "
-        "that bounce without loss, a cube of 216 balls that falls apart without friction, inelastic and elastic. Errors are means over "
-        "all steps of a squared quantity. The engines' numbers are those published in 2018 of their versions then, on another machine.",
+        "How accurate and how fast is contact, compared with five engines?",
+        "The scenes are those of SimBenchmark [@kang2018simbenchmark]: a pushed box with balls on it, which a box-shaped friction law would "
+        "keep at rest; balls that bounce without loss; a cube of 216 balls that falls apart without friction, inelastic and elastic. An "
+        "error is the mean over all steps of a squared quantity. The engines' numbers were published in 2018, for their versions of that "
+        "year and on another machine.",
         figures=[
             Figure("simbenchmark_accuracy", "Error over the step, this solver (solid) and five engines as published. Crossed: a step "
                    "missed its tolerance, or the run diverged."),
-            Figure("simbenchmark_cost", "The same over seconds: wall time here, processor time as published of the engines, on another machine.")])
+            Figure("simbenchmark_cost", "The same over seconds: wall time here; for the engines processor time as published, on another machine.")])
     frame = results.table("simbenchmark", "accuracy")
     section.tell(None if frame is None else frame[frame["solver"] == "pbdcheck"], lambda frame: ENERGY, lambda frame: EXACT,
                  benchmark_text, benchmark_table)
@@ -48,16 +49,16 @@ def contact_hard_cases(results):
     section = Section(
         "Which hard contacts does one method survive?",
         "Heavy bodies on light ones, boxes dropped, cards, arches, redundant contacts, the threshold of sliding, friction from none "
-        "to next to infinite, a wrecking ball on a chain, rolling coins, a turntable. One method, `direct` with every other setting "
-        "as it is by default, none for any case; the verdicts are about it. In the full tier `conjugate_gradients` and "
-        "`gauss_seidel` stand beside it, with at most 1000 sweeps a step.",
+        "to next to infinite, a wrecking ball on a chain, rolling coins, a turntable. `direct` runs all of them with every other setting at its "
+        "default and none for any case; the verdicts are about it. In the full tier `conjugate_gradients` and "
+        "`gauss_seidel` run them, too, with at most 1000 sweeps a step.",
         figures=[
             Figure("contact_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails."),
             Figure("contact_hard_cases_frontier", "Largest step and fewest sweeps an outer iteration at which all gates still hold.")])
     gates, frontier = results.table("contact_hard_cases", "gates"), results.table("contact_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))
-        section.tables.append(failed_gates(gates))
+        section.tables += failed_gates(gates)
     if frontier is not None:
         section.paragraphs.append(
             f"All gates hold up to steps of {span(frontier['largest_step_s'])} s, in "

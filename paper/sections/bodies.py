@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from content import Figure, Section, Table, counted, listed, number, span
+from content import Figure, Section, Table, counted, listed, number, share, span
 from selecting import failed, good, rule_names, step_text
 from sections.time import lost_text, orders_table, resolved_text
 
@@ -11,33 +11,32 @@ GYROSCOPIC = (
     "Implicit Euler with the implicit torque, I dw = - h w' x I w' with w' = w + dw, has w' . I dw = 0: a step loses 1/2 dw . I "
     "dw. With the explicit torque, taken at w, it is w . I dw that vanishes, and a step gains as much. `midpoint` takes the "
     "torque at (w + w')/2, normal to it, so that the energy stays; the torque is normal to I w, too, and so the length of "
-    "the angular momentum stays. The explicit torque is carried over a step from its begin, an error of first order that no "
+    "the angular momentum stays. The explicit torque is that of the step's start, an error of first order that no "
     "integrator removes. On hard joints `newmark` with alpha = 1/2 and `midpoint` are marginal, as the section on energy "
     "derives; their orders on the hard top are shown, not judged.")
 SINGULAR = (
-    "The four-bar chain of N loops moves with one degree of freedom, all legs parallel. Where its legs lie along the "
-    "couplers, the joints' rows depend on each other, and the number of degrees of freedom jumps from 1 to N + 1 for that "
-    "moment: any loop may fold into an antiparallelogram. The constraints alone do not say there which way the chain goes on; "
-    "the velocity it comes with does. Beside that place a step ends where rounding leaves it: places up to L from the origin are "
-    "known to eps L, the rates of constraints to eps L/h, and the step changes velocities by g h, so that eps L/(g h²) of it "
-    "may be left, which exceeds the tolerance of 1e-12 at the shorter steps.")
+    "Why the four-bar chain misses its tolerance at short steps. A chain of N loops has one degree of freedom, with all legs parallel. Where "
+    "its legs lie along the couplers, the joints' rows depend on each other, and for that moment the chain has N + 1 degrees of freedom: any "
+    "loop may fold into an antiparallelogram. The constraints alone do not say how the chain goes on; its velocity does. Near that "
+    "place rounding limits a step: positions up to L from the origin are known to eps L, and the rates of constraints to eps L/h. The step "
+    "changes velocities by g h, so that eps L/(g h²) of that may be left. At the shorter steps this exceeds the tolerance of 1e-12.")
 MULTIPLIERS = (
-    "Rows that depend on each other leave the impulses p open: any with the same J^T p do. Unique are the motion and the net "
-    "force of the joints of one place; the part of p without effect is what a relaxation makes of it. `direct` (whose shift "
-    "of hard rows is refined away), `conjugate_gradients` and `nesterov_jacobi` only ever add D^-1 N q, D the diagonal blocks of N "
-    "(`direct`: the mean of a block's diagonal). Begun at zero, they end at the impulses of least norm sqrt(p . D p). "
-    "`gauss_seidel` adds to one joint after the other, and what each gets depends on their order. A warm start begins at the "
-    "impulses of the last step and keeps their part without effect.")
+    "Where rows depend on each other, the impulses p are not unique: all with the same J^T p are solutions. The motion and the net "
+    "force of the joints of one place are unique. The part of p that has no effect depends on the relaxation. `direct` (whose shift "
+    "of hard rows is refined away), `conjugate_gradients` and `nesterov_jacobi` only ever add D^-1 N q, with D the diagonal blocks of N "
+    "(`direct`: the mean of a block's diagonal). Started from zero, they end at the impulses of least norm sqrt(p . D p). "
+    "`gauss_seidel` adds to one joint after the other, and what each gets depends on their order. A warm start uses the "
+    "impulses of the last step and keeps their part that has no effect.")
 
 
 def rotation(results):
     section = Section(
-        "What do the integrators and the gyroscopic torque make of rotating bodies?",
-        "Orders as for particles, now of bodies: a free one, by the implicit and by the explicit gyroscopic torque, and a heavy "
-        "top that precesses on a compliant or a hard joint, against the judge `ode`. Positions are those of points at the radii of "
-        "gyration. Then a free body turns about its middle axis and tumbles: what becomes of its energy and angular momentum, and "
-        "what is the period at two steps, beside that by elliptic integrals? The bound of its error is what the two let expect by "
-        "the second order, |T(h) - T(2h)|/3, times a safety factor of 1.25 [@roache1994perspective].",
+        "How accurately do bodies rotate?",
+        "At which order do the integrators approach the motion of rigid bodies? There are two: a free body, with the implicit and with the explicit "
+        "gyroscopic torque, and a heavy top that precesses on a compliant or a hard joint. Both are compared with the judge `ode`, at points "
+        "at the radii of gyration. Then a free body turns about its middle axis and tumbles. What happens to its energy and angular "
+        "momentum, and how far is its period from that of elliptic integrals? The bound of that error is the estimate from two steps, "
+        "|T(h) - T(2h)|/3 for an order of two, times a safety factor of 1.25 [@roache1994perspective].",
         figures=[
             Figure("rotation_errors", "Error of the worst point and time over the step, relative to the largest displacement. "
                    "Triangles show the orders 1 and 2. Crossed: the error exceeds the motion, or the simulation failed."),
@@ -174,9 +173,9 @@ def lengths_table(frame):
 
 def redundant(results):
     section = Section(
-        "Does a mechanism move as before when joints hold what others hold already?",
-        "A chain of two four-bars with up to three hinges more, each on the axis of one that is there already. Does it move as "
-        "without them, and is the net force that a leg and a coupler exchange the same, whatever the relaxation makes of the "
+        "Do redundant joints change the motion?",
+        "A chain of two four-bar linkages gets up to three more hinges, each on the axis of a hinge that it has already. Does it still move "
+        "in the same way, and is the net force between a leg and a coupler the same, however the relaxation shares out the "
         "impulses? Steps are solved to 1e-12 of their scale.",
         figures=[Figure("redundant_motion", "Largest difference of positions and of net forces in the plane (of the largest force) "
                         "to the same relaxation without redundant joints, and largest difference of the impulses that joints of "
@@ -187,11 +186,10 @@ def redundant(results):
 
 def redundant_text(frame):
     more = frame[frame["redundant_joints"] > 0]
-    parts = [f"`{name}` {span(rows['position_difference_m'])} m, {span(rows['net_force_difference'])}, {span(rows['split'])}"
-             for name, rows in more.groupby("relaxation", sort=False)]
     bad = failed(more, "position_difference_m", "net_force_difference")
-    return (f"With redundant joints, difference of positions, of net forces relative to the largest, and of the joints of one "
-            f"place: {'; '.join(parts)}. {counted(len(bad), 'run')} of {len(more)} did not end well.")
+    return (f"{share(len(more) - len(bad), len(more))} runs with redundant joints solve every step. Positions then differ by "
+            f"{span(more['position_difference_m'])} m and net forces by {span(more['net_force_difference'])} of the largest; what the "
+            f"joints of one place carry each differs by {span(more['split'])} of their sum.")
 
 
 def redundant_table(frame):

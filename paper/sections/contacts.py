@@ -1,38 +1,53 @@
 """Contact with friction beside known answers."""
 
-from content import Figure, Section, Table, counted, number, span
+from content import Figure, Section, Table, number, share, span
 from selecting import failed, good
 
 ANSWERS = ("Largest errors by relaxation and law of friction (GS `gauss_seidel`, J `jacobi`, NJ `nesterov_jacobi`, CG "
            "`conjugate_gradients`); dashed: the bound. Crossed: some step was not solved, or the run diverged.")
 RECURRENCE = (
-    "A box on a plane tilted by a slides by a constant force, and implicit Euler makes of it v' = v + h g (sin a - mu cos a), "
-    "x' = x + h v', exactly; it sticks where mu >= tan a. By the convex law it hovers at h mu v: while it speeds up, it rises, "
-    "pressed on the harder, and the growth d of its speed in a step obeys d' = h g (sin a - mu cos a) - mu^2 (d' - d).")
+    "The quantities are: `creep`, the speed that a box has left where it should stick, which is how far friction drifts; `threshold`, the speed "
+    "that it gains where mu is just below tan a; `acceleration` where it slides; and `mass`, the same for light and heavy boxes. "
+    "A box on a plane tilted by a sticks where mu >= tan a. Below that a constant force pulls it, and implicit Euler gives exactly "
+    "v' = v + h g (sin a - mu cos a), x' = x + h v'. By the convex law it hovers at h mu v. While it speeds up it rises, so that the plane "
+    "presses harder, and the growth d of its speed in a step obeys d' = h g (sin a - mu cos a) - mu^2 (d' - d).")
 OFFSET = (
     "Slowed by a = mu g from v0 = (n + f) h a, n whole and 0 <= f < 1, implicit Euler stops h v0/2 before the v0^2/(2 a) of "
     "continuous time, up to h^2 a (f - f^2)/2. A body that rolls at v0/(1 + I/(m R^2)) slips by the same recurrence until it "
-    "does. A cube that begins to slide on the ground must not take off; by the convex law, whose gap is h mu v at once, it does.")
+    "does. A cube that starts to slide on the ground must not take off. By the convex law it does, because its gap is h mu v at once.")
 SQUARE = (
     "The box law bounds friction along two axes, each by mu p_n, and so slows by mu g (|cos| + |sin|) along the heading, up to "
     "sqrt(2) mu g at 45 degrees, and turns it towards the nearer axis. The other laws have no axes. The convex law's box "
     "begins where it hovers steadily.")
 HOVER = (
-    "The convex law asks for r_n >= mu |r_t| of the rows' residuals, and a sliding contact closes no further than the gap "
-    "h mu v. On a plane whose tangent is mu nothing speeds a box up or slows it down.")
+    "The convex law asks for r_n >= mu |r_t| of the rows' residuals, so that a sliding contact keeps a gap of h mu v. "
+    "On a plane whose tangent is mu a sliding box neither speeds up nor slows down.")
 BOUNCE = (
     "With the trapezoidal rule (`newmark`, alpha = 1/2) flight keeps z + v^2/(2 g). A step that turns a ball round may begin "
     "v h above the ground and end (1 - e) v h/2 below, so that its next height H' is within (1 - e^2) v h of e^2 H. Impacts one "
-    "after the other, without gravity, are exact whatever the step. Five balls that touch leave open what their impacts' order "
-    "is: shown, not judged.")
+    "after the other, without gravity, are exact whatever the step. When five balls touch, the order of their impacts is not determined; "
+    "their answer is shown, and no verdict judges it.")
 LIMITS = (
     "Bricks of length L stand while the overhang is below L/2 (1 + 1/2 + ... + 1/n). A semicircular arch stands while a line "
     "of thrust fits into its stones; the least thickness for these stones, prisms between radial cuts, is that of the linear "
     "programme over the thrust and its height at the crown.")
 
 
+def errors_table(frame):
+    """The largest error of each quantity, one column a relaxation."""
+    judged = frame[frame["bound"].notna()]
+    names = list(judged["relaxation"].unique())
+    rows = []
+    for quantity, here in judged.groupby("quantity", sort=False):
+        largest = here.groupby("relaxation")["error"].agg(lambda errors: errors.max(skipna=False))
+        rows.append([quantity.replace("_", " "), here["unit"].iloc[0], number(here["bound"].min()),
+                     *(number(largest[name]) if name in largest else "" for name in names)])
+    return Table("Largest error of each quantity, beside its bound (the smallest of its runs).",
+                 ["quantity", "unit", "bound", *names], rows, first=True)
+
+
 def answers_table(frame):
-    """The largest error of each quantity and relaxation."""
+    """The largest error of each quantity and relaxation, and the work."""
     rows = []
     for (quantity, relaxation), here in frame.groupby(["quantity", "relaxation"], sort=False):
         judged = here[here["bound"].notna()]
@@ -47,20 +62,20 @@ def answers_text(frame):
     bad = failed(frame, "error")
     over = good(frame, "error")
     over = over[over["error"] > over["bound"]]
-    text = f"{counted(len(bad), 'run')} of {len(frame)} did not end well, and {len(over)} of the others miss their bound"
+    text = (f"{share(len(frame) - len(bad), len(frame))} runs solve every step; of these {len(over)} have an error above the bound")
     return text + (": " + "; ".join(f"{r['quantity']}, {r['scene']}, `{r['relaxation']}` with `{r['friction']}` "
                                     f"({number(r['error'])} {r['unit']})" for _, r in over.head(8).iterrows()) if len(over) else "") + "."
 
 
 def told(results, experiment, title, question, theory, figures=()):
     section = Section(title, question, figures=[Figure(f"{experiment}_answers", ANSWERS), *figures])
-    return section.tell(results.table(experiment, "answers"), lambda frame: theory, answers_text, answers_table)
+    return section.tell(results.table(experiment, "answers"), lambda frame: theory, answers_text, errors_table, answers_table)
 
 
 def incline(results):
     return told(results, "incline", "Does a box on a plane stick and slide as Coulomb's law says?",
-                "Boxes on planes of several angles, with friction a millionth above and below the tangent, and well below it; of "
-                "masses from 1e-6 to 1e6 kg.", RECURRENCE)
+                "Boxes of 1e-6 to 1e6 kg rest and slide on planes of several angles. Friction is a millionth above the tangent of the angle, a "
+                "millionth below it, and well below it.", RECURRENCE)
 
 
 def stopping(results):
@@ -91,8 +106,8 @@ def convex_gap(results):
 def gaps_text(frame):
     rows = good(frame, "gap_m")
     convex = rows[rows["friction"] == "cone"]
-    return (f"By `cone` the gap is h mu v to {number(convex['error'].max())} of it, at the largest and smallest step "
-            f"{number(convex['gap_m'].max())} m and {number(convex['gap_m'].min())} m. By the other laws it is at most "
+    return (f"By `cone` the gap is h mu v within a share of {number(convex['error'].max())}. At the largest step it is "
+            f"{number(convex['gap_m'].max())} m, at the smallest {number(convex['gap_m'].min())} m. By the other laws it is at most "
             f"{number(rows[rows['friction'] != 'cone']['gap_m'].max())} m.")
 
 

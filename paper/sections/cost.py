@@ -6,14 +6,15 @@ from content import Figure, Section, Table, counted, number, span
 from selecting import failed, good, step_text
 
 LEVELS = (1e-3, 1e-6, 1e-9)  # of the error
+SHOWN = (1e-2, 1e-4, 1e-6, 1e-9)  # in the table to choose a method by
 
 
 def work_precision(results):
     section = Section(
-        "Which accuracy for which work?",
-        "The same step to the same tolerances with every method, timed in one run on one thread. Comparisons follow the "
-        "practice of benchmarking optimisation software [@dolan2002benchmarking]: work is shown beside time, failures stay in "
-        "the picture.",
+        "What does accuracy cost: which method for which error?",
+        "Every method does the same step to the same tolerances, timed on one thread. Comparisons follow the "
+        "practice of benchmarking optimisation software [@dolan2002benchmarking]: work is shown beside time, and failures are "
+        "shown, too.",
         figures=[
             Figure("work_precision_seconds", "Error against the judge over wall time. The judge that errors are measured "
                    "against stands on the lower edge. Of each outer iteration, the relaxation "
@@ -34,9 +35,8 @@ def work_precision(results):
         bad = failed(frame, "error")
         tried = frame[frame["status"] != "skipped"]
         section.paragraphs.append(f"{len(frame) - len(bad)} of {counted(len(tried), 'run')} are ok; {len(frame) - len(tried)} "
-                                  "more were skipped because the method had missed a looser tolerance, or does not do the scene. "
-                                  "The table gives the quickest "
-                                  "method of each scene and step at three levels of error.")
+                                  "more were skipped because the method had missed a looser tolerance, or cannot do the scene. "
+                                  "The first table names the quickest method.")
     section.tell(results.table("work_precision", "contacts"), contacts_table)
     return section
 
@@ -56,12 +56,12 @@ def contacts_table(frame):
                  ["scene", "law", *(number(level) for level in LEVELS), "judge"], rows)
 
 
-def quickest(frame):
+def quickest(frame, levels=LEVELS):
     """The quickest run with at most each level of error, one row a scene, step and level; outer is '' where there is none."""
     rows = []
     for (scene, step), group in frame.groupby(["scene", "step_s"], sort=False):
         runs = good(group, "error", "wall_s")
-        for level in LEVELS:
+        for level in levels:
             reached = runs[runs["error"] <= level].sort_values("wall_s")
             first = reached[["outer", "relaxation", "wall_s"]].iloc[0] if len(reached) else ("", "", float("nan"))
             rows.append((scene, step, level, *first))
@@ -76,10 +76,12 @@ def rival_wins(frame):
 
 
 def fastest_table(frame):
-    rows = [[f"`{r['scene']}`", step_text(r["step_s"]), number(r["level"]),
-             f"`{r['outer']}`, `{r['relaxation']}`" if r["outer"] else "none", number(r["wall_s"]) if r["outer"] else ""]
-            for _, r in quickest(frame).iterrows()]
-    return Table("Quickest run with at most the given error.", ["scene", "step", "error", "method", "wall time (s)"], rows)
+    rows = [[f"`{scene}`", step_text(step), *(f"`{r['outer']}`, `{r['relaxation']}`: {number(1e3 * r['wall_s'])}" if r["outer"] else "none"
+                                              for _, r in group.iterrows())]
+            for (scene, step), group in quickest(frame, SHOWN).groupby(["scene", "step_s"], sort=False)]
+    return Table("Which method to take: the quickest one that reaches an error, and its wall time of a step in ms. `rival` is Newton's "
+                 "method with CHOLMOD, for scenes without hard constraints.",
+                 ["scene", "step", *(f"error {number(level)}" for level in SHOWN)], rows, first=True)
 
 
 def rival_newton(results):
@@ -137,7 +139,7 @@ def rival_table(frame):
 def effects_cost(results):
     section = Section(
         "What does each effect cost?",
-        "Does an effect that a scene does not call for cost nothing, and one that it does in proportion to its rows?",
+        "Does an effect that a scene does not use cost nothing? Does one that it uses cost time in proportion to its rows?",
         figures=[
             Figure("effects_cost_scaling", "Wall time of one sweep over the number of rows."),
             Figure("effects_cost_bytes", "Memory of each effect's rows."),
@@ -151,5 +153,5 @@ def effects_cost(results):
         section.tables.append(Table(
             "Cost of each effect.", ["scene", "effect", "rows", "bytes per row", "wall time (s)"],
             [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
-              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()]))
+              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()], first=True))
     return section

@@ -6,32 +6,31 @@ from content import Figure, Section, Table, counted, listed, number, span
 from selecting import good, rule_names, step_text
 
 MARGINAL = (
-    "Why the trapezoidal rule blows up with hard constraints. With a weight alpha of the step's end, a hard constraint of"
-    " fixed directions J asks for J (alpha v' + (1 - alpha) v) = 0: an error J v comes back as -r J v, r = (1 - "
-    "alpha)/alpha, and so does an error of the multiplier, to which the first is added in every step: a double eigenvalue"
-    " -r. At alpha = 1/2 it is -1, which is marginal. Where directions turn by theta = h w a step, the two mix. For a "
-    "mass that circles on a link, radial and tangential disturbances have constant coefficients in the turning frame, and"
-    " their factors are the roots of a quartic equation; for a hard link and small theta they are -r (1 ± theta). So "
-    "alpha = 1/2 multiplies a disturbance by 1 + h w a step, by exp(w t) in a time t, however small the step; it decays "
-    "where alpha > (1 + theta)/(2 + theta), about 1/2 + h w/4: alpha = 0.55 stands turns of 0.22 rad a step. A link of "
-    "compliance A and frequency w' = 1/sqrt(A m) at rest reflects its stiff mode with a factor of modulus that tends to r"
-    " as h w' grows; there alpha = 1/2 is unstable where h w' tan(h w/2) > 2, about where w' > 4/(h² w). The equation is "
-    "exact for alpha = 1/2; for a larger one the circling itself slows down, and the roots are those of its rate at the "
-    "start. `midpoint` has r = 1 as well: a position that violates a constraint comes back mirrored.")
+    "Why the trapezoidal rule blows up with hard constraints. Let alpha be the weight of the step's end. A hard constraint with fixed "
+    "directions J requires J (alpha v' + (1 - alpha) v) = 0. Each step therefore multiplies an error J v by -r, r = (1 - alpha)/alpha. It "
+    "multiplies an error of the multiplier by -r, too, and adds the first error to it, so that -r is a double eigenvalue. At alpha = 1/2 it "
+    "is -1, which is marginal.",
+    "Where directions turn by theta = h w a step, the two errors mix. For a mass that circles on a link, disturbances along and across the "
+    "link have constant coefficients in the turning frame. Their factors are the roots of a quartic equation; for a hard link and small "
+    "theta they are -r (1 ± theta). With alpha = 1/2 a disturbance grows by 1 + h w a step, or exp(w t) in a time t, however small the "
+    "step. It decays where alpha > (1 + theta)/(2 + theta), which is about 1/2 + h w/4: alpha = 0.55 allows turns of 0.22 rad a step.",
+    "For a link of compliance A and frequency w' = 1/sqrt(A m) at rest, a step multiplies the stiff mode by a factor whose modulus tends to r "
+    "as h w' grows. There alpha = 1/2 is unstable where h w' tan(h w/2) > 2, about where w' > 4/(h² w). The equation is exact for "
+    "alpha = 1/2. For a larger alpha the circling itself slows down, and the roots are those of its rate at the start. `midpoint` has "
+    "r = 1 as well: a position that violates a constraint comes back mirrored.")
 ANGULAR = (
-    "Linear momentum is kept because internal forces cancel, whatever their size. Angular momentum needs them to be those"
-    " of the very positions they act at. `symplectic_euler` (at the step's begin) and `midpoint` then keep it exactly; "
-    "implicit Euler changes it by h sum m v' x v a step; `newmark` with alpha = 1/2 keeps L + h²/4 sum m v x q with the "
-    "accelerations q, so that L only oscillates, and loses more with any other alpha; `bdf2` changes a sum over two steps"
-    " by that of - m d²x x d²v, of third order over a time. The part of the measured change that these expressions leave "
-    "unexplained is shown beside it.")
+    "Linear momentum is kept because internal forces cancel, whatever their size. Angular momentum is kept only if forces act at the "
+    "positions that define their directions. `symplectic_euler` (at the step's start) and `midpoint` do that. Implicit Euler changes it by "
+    "h sum m v' x v a step. `newmark` with alpha = 1/2 keeps L + h²/4 sum m v x q, with q the accelerations, so that L only oscillates; with "
+    "any other alpha it loses more. `bdf2` changes a sum over two steps by that of - m d²x x d²v, an error of third order over a given time. "
+    "The part of the measured change that these expressions leave unexplained is listed beside it.")
 
 
 def energy(results):
     section = Section(
-        "What do the integrators do to energy and momentum?",
-        "Springs, pendulums, cloth and a free beam over 10 s. Which integrator keeps the energy, what is lost of momentum, "
-        "and where does Newmark's rule blow up?",
+        "Do the integrators keep energy and momentum?",
+        "Springs, pendulums, cloth and a free beam move for 10 s. Which integrators keep energy and momentum, and where does Newmark's rule "
+        "blow up?",
         figures=[
             Figure("energy_series", "Change of the total energy relative to its scale: kinetic and elastic energy at "
                    "the start and weight times extent. Crossed: runs that end badly or have a step that is not solved, at the axis' edge where they leave it."),
@@ -47,7 +46,7 @@ def energy(results):
     section.tell(results.table("energy", "series"), change_table)
     section.tell(results.table("energy", "drift"), drift_text)
     section.tell(results.table("energy", "momentum"), lambda frame: ANGULAR, momentum_text, stopped_text)
-    section.tell(results.table("energy", "map"), lambda frame: MARGINAL, map_text)
+    section.tell(results.table("energy", "map"), *(lambda frame, text=text: text for text in MARGINAL), map_text)
     return section.tell(results.table("energy", "frontier"), frontier_text)
 
 
@@ -65,12 +64,12 @@ def change_table(frame):
             cells[scene] = (f"{change:+.2g}" if np.isfinite(change) else "not a number") + ("" if status == "ok" else f", {status}")
         rows.append([f"`{rule}`", *(cells.get(scene, "") for scene in scenes)])
     return Table(f"Change of the energy at the end, relative to its scale, h = {step_text(named['step_s'].iloc[0])}.",
-                 ["integrator", *scenes], rows)
+                 ["integrator", *scenes], rows, first=True)
 
 
 def drift_text(frame):
-    return ("The rules that keep a linear spring's energy do not keep that of nonlinear ones, but its error is of second order: "
-            "halving the step divides the largest one over 10 s by " + "; ".join(
+    return ("The rules that keep the energy of a linear spring do not keep that of nonlinear ones. Their error is of second order: "
+            "halving the step divides the largest error over 10 s by " + "; ".join(
                 f"{span(rows['ratio'])} (`{name}`, {scene.replace('_', ' ')})"
                 for (scene, name), rows in frame.assign(rule=rule_names(frame)).groupby(["scene", "rule"], sort=False))
             + ". This is seen only where the step resolves the phases of the modes that move: h² w³ t/12 is the error of a phase.")

@@ -1,14 +1,14 @@
 """What constraints do to the motion: their directions and their damping."""
 
-from content import Figure, Section, Table, counted, number, span
+from content import Figure, Section, Table, counted, number, share, span
 from selecting import failed, good, step_text
 
 
 def direction(results):
     section = Section(
-        "What do the directions of constraints do?",
-        "Impulses act along directions at a step's end, at its begin (SHAKE), or at a blend b between them; velocity time "
-        "stepping solves one linearisation at the begin, with or without stabilisation. Linear problems are solved directly. How "
+        "How do the directions of constraints affect the motion?",
+        "Impulses act along the directions at a step's end, at its start (SHAKE), or at a blend b of both. Velocity time "
+        "stepping solves one linearisation at the start, with or without stabilisation. Linear problems are solved directly. How "
         "long may a step be, what happens to the energy, and how far are constraints violated at equal work?",
         figures=[
             Figure("direction_largest_steps", "Largest stable step. On the taut chain it is predicted: 2/(w sqrt(1 - 2 b)) with w "
@@ -24,7 +24,7 @@ def direction(results):
                    "time stepping does not claim to be solved.")])
     section.tell(results.table("direction", "largest_steps"), steps_text, steps_table)
     section.tell(results.table("direction", "energy"), energy_table)
-    return section.tell(results.table("direction", "equal_work"), equal_work_text, equal_work_table)
+    return section.tell(results.table("direction", "equal_work"), equal_work_ratios_table, equal_work_table)
 
 
 def scheme_text(row):
@@ -79,12 +79,11 @@ def equal_work_ratios(frame):
                 yield scene, stabilisation, ratios
 
 
-def equal_work_text(frame):
-    parts = [f"{span(ratios)} times on `{scene}`, stabilised {number(stabilisation)}"
-             for scene, stabilisation, ratios in equal_work_ratios(frame)]
-    return ("Where implicit directions solve every step, velocity time stepping with as many row updates, or the next more tried, "
-            f"violates links more by these factors: {'; '.join(parts)}.") if parts else \
-        "No solved run with implicit directions has a stable one by velocity time stepping beside it that works as much."
+def equal_work_ratios_table(frame):
+    return Table("Violation of links by velocity time stepping, as a multiple of that by implicit directions, where these solve every step. "
+                 "Velocity time stepping does as many row updates, or the next larger number that was tried.",
+                 ["scene", "stabilisation", "times as large"],
+                 [[f"`{scene}`", number(stabilisation), span(ratios)] for scene, stabilisation, ratios in equal_work_ratios(frame)])
 
 
 def equal_work_table(frame):
@@ -99,29 +98,29 @@ def equal_work_table(frame):
 
 def damping(results):
     section = Section(
-        "Does damping take what its coefficient says?",
-        "Constraints are damped as Kelvin and Voigt's body, c + T dc/dt + A gamma = 0 [@servin2006interactive]; solids have moduli "
-        "of damping of their own. Is the decrement of oscillators that of the coefficient, whatever the sweeps, and is rigid motion "
-        "left alone?",
+        "Is damping that of its coefficient?",
+        "Constraints are damped as in a Kelvin-Voigt body, c + T dc/dt + A gamma = 0 [@servin2006interactive]; solids have damping "
+        "moduli of their own. Do oscillators decay as the coefficient says, however many sweeps are allowed, and does rigid motion "
+        "stay undamped?",
         figures=[
             Figure("damping_decrements", "The decrement's distance from that of the matrix that an integrator's step makes of the "
                    "oscillator. Dotted: the bound of the verdict."),
             Figure("damping_order", "The decay rate approaches c/(2 m) as the step shrinks; 1 kg, 100 N/m, 1 N s/m."),
             Figure("damping_rotation", "Two masses on a spring, spinning and vibrating: the energy beside that of the steady rotation "
                    "with the same angular momentum.")])
-    section.tell(results.table("damping", "decrements"), decrements_text, decrements_table)
+    section.tell(results.table("damping", "decrements"), decrements_by_sweeps, decrements_table)
     return section.tell(results.table("damping", "rotation"), rotation_text)
 
 
-def decrements_text(frame):
-    parts = []
+def decrements_by_sweeps(frame):
+    found = []
     for scene, rows in frame.groupby("scene", sort=False):
         few, many = (good(rows[rows["max_sweeps"] == count], "error") for count in
                      (rows["max_sweeps"].min(), rows["max_sweeps"].max()))
-        parts.append(f"`{scene}` {span(few['error'])} with at most {number(rows['max_sweeps'].min())} sweeps, "
-                     f"{span(many['error'])} with {number(rows['max_sweeps'].max())}")
-    return (f"Relative distance of the decrement from the predicted one: {'; '.join(parts)}. "
-            f"{counted(len(failed(frame, 'error')), 'run')} of {len(frame)} did not end well.")
+        found.append([f"`{scene}`", span(few["error"]), span(many["error"])])
+    least, most = number(frame["max_sweeps"].min()), number(frame["max_sweeps"].max())
+    return Table(f"Relative error of the decrement. {share(len(frame) - len(failed(frame, 'error')), len(frame))} runs solve every step.",
+                 ["oscillator", f"at most {least} sweeps", f"at most {most} sweeps"], found)
 
 
 def decrements_table(frame):

@@ -88,9 +88,9 @@ def rescued_text(errors):
 def stability_map(results):
     section = Section(
         "Where does each outer iteration find the step?",
-        "A swinging chain of links and one of rods with ball joints over step and mass ratio, a cantilever released from rest over step and stiffness; every linear "
-        "problem is solved directly, so that the outer iteration alone is seen. Where does it find the step, in how many "
-        "iterations, and does the solver's own prediction tell where `plain` converges?",
+        "A swinging chain of links and one of rods with ball joints are stepped over a grid of step and mass ratio, a cantilever released from "
+        "rest over step and stiffness. Every linear problem is solved directly, so that only the outer iteration matters. In which cells does "
+        "it find the step, in how many iterations, and does the solver predict where `plain` converges?",
         figures=[
             Figure("stability_map_chain", "Outer iterations until the error against Newton is 1e-8, chain of 20 links. Marks "
                    "stand where that is not reached. Dashed: where the solver predicts a contraction of 1 for `plain`."),
@@ -107,21 +107,20 @@ def stability_map(results):
     section.tell(results.table("stability_map", "cantilever"), partial(solved_text, cell=["young_pa", "step_s"]))
     section.tell(results.table("stability_map", "cantilevers"), cantilevers_text)
     section.tell(results.table("stability_map", "predictions"), predictions_text)
-    return section.tell(results.table("stability_map", "cost"), cost_text)
+    return section.tell(results.table("stability_map", "cost"), cost_table)
 
 
 def solved_text(frame, cell):
     """In how many cells each method finds the step, in how many iterations, and where its claim is not true."""
-    parts, claims = [], 0
+    found, claims = [], 0
     for (outer, memory), rows in frame.groupby(["outer", "memory"], sort=False):
         reached = rows["iterations"].notna()
         claims += (rows["status"].eq("ok") & ~reached).sum()
         name = f"`{outer}`" + (" without acceleration" if outer == "proximal" and memory == 0 else "")
-        counts = f" in {span(rows['iterations'])} iterations" if reached.any() else ""
-        parts.append(f"{name} {reached.sum()}{counts}")
-    cells = counted(len(frame[cell].drop_duplicates()), "cell")
-    text = f"Of {cells} of `{frame['scene'].iloc[0]}` these find the step: {'; '.join(parts)}."
-    return text + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else "")
+        found.append([name, f"{reached.sum()} of {len(frame[cell].drop_duplicates())}", span(rows["iterations"]) if reached.any() else ""])
+    return Table(f"In how many cells of `{frame['scene'].iloc[0]}` each outer iteration finds the step, and in how many iterations."
+                 + (f" In {counted(claims, 'run')} the step says `ok` and is farther than 1e-8 from Newton's." if claims else ""),
+                 ["outer", "cells", "iterations"], found)
 
 
 def cantilevers_text(frame):
@@ -143,25 +142,26 @@ def predictions_text(frame):
             f"{span(difference)} (relative).")
 
 
-def cost_text(frame):
+def cost_table(frame):
     """What auto costs where plain contracts with a rate below 0.9, at the default tolerance."""
     ratios = cost_ratios(frame)
-    parts = []
+    names = list(ratios["relaxation"].unique())
+    rows = []
     for scene, cells in ratios.groupby("scene", sort=False):
-        found = [f"{span(rows['ratio'])} with `{relaxation}`" for relaxation, rows in cells.groupby("relaxation", sort=False)]
-        parts.append(f"{'wall time' if cells['timed'].all() else 'row updates'} of `{scene}`, {', '.join(found)}")
-    return (f"Where the measured rate of `plain` is below 0.9, `auto` costs these multiples of it: {'; '.join(parts)} "
-            f"({counted(len(ratios), 'run')} to the default tolerance).") if parts else "`plain` solves no step of a rate below 0.9."
+        found = {relaxation: span(runs["ratio"]) for relaxation, runs in cells.groupby("relaxation")}
+        rows.append([f"`{scene}`", "wall time" if cells["timed"].all() else "row updates", *(found.get(name, "") for name in names)])
+    return Table(f"Cost of `auto` as a multiple of that of `plain`, where the measured rate of `plain` is below 0.9: {counted(len(ratios), 'run')} "
+                 "to the default tolerance.", ["scene", "cost", *names], rows)
 
 
 def contraction(results):
     section = Section(
         "Is each effect's contraction the predicted one?",
-        "Small bodies of one effect each, loaded so that their geometric stiffness matters; of joints, three rods on balls "
-        "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain`, measured beside the solution, is "
-        "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect, to which "
-        "of rods half the angle that they turn in the step is added. Corotational rows hold their rotation fixed: J is not dc/dx, "
-        "and what the rows leave out is d(J^T p)/dx + J^T A^-1 (J - dc/dx), by which the dense radius is computed.",
+        "Small bodies with one effect each are loaded so that their geometric stiffness matters. For joints these are three rods on balls "
+        "(`point_joint`) or on hinges with elastic axes (`axis_joint`). The rate of `plain` is measured near the solution. It is "
+        "compared with the dense spectral radius, with the solver's own prediction, and with its bound for the effect; for rods the bound "
+        "includes half the angle that they turn in the step. Corotational rows hold their rotation fixed, so that J is not dc/dx. The "
+        "dense radius is that of what such rows leave out, d(J^T p)/dx + J^T A^-1 (J - dc/dx).",
         figures=[Figure("contraction_effects", "Rates over the dense spectral radius. Filled: the stiffening part of the "
                         "geometric stiffness decides (tension); open: the softening part (compression). "
                         "Where the bound is at most 0.7 it is the solver's prediction.")])

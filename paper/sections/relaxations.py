@@ -9,15 +9,15 @@ from selecting import good
 def inner_convergence(results):
     section = Section(
         "How fast are the relaxations?",
-        "The same linearised problem is solved by each relaxation, the accelerated Jacobi method [@nesterov1983method] with "
-        "adaptive restart [@odonoghue2015adaptive] among them. Which rate per sweep, and is it the predicted one?",
+        "Each relaxation solves the same linearised problem; one of them is the accelerated Jacobi method [@nesterov1983method] with "
+        "adaptive restart [@odonoghue2015adaptive]. At which rate does the error fall per sweep, and does theory predict that rate?",
         figures=[
             Figure("inner_convergence_sweeps", "Error of the velocities over the sweeps, against a dense factorisation of "
                    "the same rows."),
             Figure("inner_convergence_seconds", "The same traces over wall time, set-up included."),
             Figure("inner_convergence_rates", "One minus the rate, measured against predicted; above the line is faster. "
                    "For `nesterov_jacobi` and `conjugate_gradients` the prediction is a bound, not a rate.")])
-    section.tell(results.table("inner_convergence", "errors"), fastest_text)
+    section.tell(results.table("inner_convergence", "errors"), fastest_table)
     return section.tell(results.table("inner_convergence", "rates"), decay_text, rates_table)
 
 
@@ -35,8 +35,8 @@ def decay_text(rates):
         both = good(group, "predicted_rate", "measured_rate")
         ratio = (1 - both["measured_rate"]) / (1 - both["predicted_rate"])
         parts.append(f"`{relaxation}` {span(ratio)} ({len(both)} of {counted(len(group), 'case')})")
-    return ("Decay per sweep, one minus the rate, over the predicted one, where the relaxation reached the solution: "
-            + "; ".join(parts) + ".") if parts else "No relaxation with a rate was run."
+    return ("The decay per sweep is one minus the rate. Where a relaxation reached the solution, the measured decay over the predicted "
+            f"one is: {'; '.join(parts)}.") if parts else "No relaxation with a rate was run."
 
 
 def sweeps_to(errors, target):
@@ -44,20 +44,20 @@ def sweeps_to(errors, target):
     return errors["sweep"].where(errors["error"] <= target).groupby([errors["scene"], errors["relaxation"]], sort=False).min()
 
 
-def fastest_text(errors, target=1e-6):
-    """Sweeps each relaxation needs to a given error, per scene."""
-    parts = []
-    for scene, reached in sweeps_to(errors, target).groupby("scene", sort=False):
-        found = [f"`{relaxation}` " + ("never" if np.isnan(first) else f"{first:.0f}") for (_, relaxation), first in reached.items()]
-        parts.append(f"`{scene}`: {', '.join(found)}")
-    return f"Sweeps until the error first falls to {number(target)}. {'; '.join(parts)}."
+def fastest_table(errors, target=1e-6):
+    """Sweeps each relaxation needs to a given error, one row a scene, one column a relaxation."""
+    reached = sweeps_to(errors, target)
+    names = list(errors["relaxation"].unique())
+    rows = [[f"`{scene}`", *("never" if np.isnan(reached.get((scene, name), np.nan)) else f"{reached[scene, name]:.0f}" for name in names)]
+            for scene in errors["scene"].unique()]
+    return Table(f"Sweeps until the error first falls to {number(target)}.", ["scene", *names], rows, first=True)
 
 
 def conditioning(results):
     section = Section(
         "What makes a relaxation slow?",
-        "One linearised step from smooth velocities: a chain of 20 links with a heavier and heavier tip, a cantilever that gets "
-        "stiffer, then nearly incompressible. In how many sweeps does each relaxation bring the residual to 1e-6 of its start?",
+        "One linearised step from smooth velocities: a chain of 20 links whose tip gets heavier, a cantilever that gets "
+        "stiffer, and one that gets nearly incompressible. In how many sweeps does each relaxation bring the residual to 1e-6 of its start?",
         figures=[Figure("conditioning_sweeps", "Sweeps over mass ratio, Young's modulus and distance from incompressibility. Crossed "
                         "under the upper edge: the residual is not reached in the sweeps allowed.")])
     return section.tell(results.table("conditioning", "sweeps"), conditioned_text, conditioning_table)
@@ -72,7 +72,7 @@ def conditioned_text(frame):
              for name in reached if name not in ("conjugate_gradients", "direct")]
     return (f"The condition of the preconditioned matrix D^-1 N is {span(frame['condition'])}. Of {counted(cases, 'case')} "
             f"`conjugate_gradients` solve {best.count()}, in {span(best)} sweeps; {'; '.join(parts)}. For bilateral rows conjugate "
-            "gradients are the answer: a sweep costs as much as Jacobi's, and nothing is factored.")
+            "gradients need the fewest sweeps; a sweep costs as much as one of Jacobi's, and nothing is factored.")
 
 
 def conditioning_table(frame):
@@ -89,10 +89,10 @@ def conditioning_table(frame):
 
 def inexact(results):
     section = Section(
-        "How far need a linear problem be solved?",
-        "The sweeps of an outer iteration end when the linear residual is a share of the nonlinear one. One step of the swinging "
-        "chain to its tolerance: what does the default share save against solving every linear problem to a tenth of that "
-        "tolerance?",
+        "How accurately must a linear problem be solved?",
+        "An outer iteration stops its sweeps when the linear residual has fallen to a given share of the nonlinear one. One step of the "
+        "swinging chain is solved to its tolerance. How much work does the default share save, compared with solving every linear "
+        "problem to a tenth of that tolerance?",
         figures=[Figure("inexact_row_updates", "Row updates until the step is solved. Solid: linear problems to the default share of "
                         "the nonlinear residual; dashed: each to a tenth of the step's tolerance.")])
     return section.tell(results.table("inexact", "solves"), saving_text)
@@ -110,4 +110,4 @@ def saving_text(frame):
              for name, values in ratio.groupby("relaxation", sort=False)]
     return (f"Exact linear solves take these multiples of the row updates of inexact ones: {'; '.join(parts)}. The errors of the "
             f"steps are {span(both['error'][shares[0]])} with exact, {span(both['error'][shares[-1]])} with inexact ones. "
-            "On a chain conjugate gradients end after as many sweeps as there are links, so that little can be left out.")
+            "On a chain conjugate gradients finish after as many sweeps as there are links, so that little can be saved.")

@@ -9,9 +9,8 @@ def point_hard_cases(results):
         "Which hard scenes does one method survive?",
         "Heavy and long ropes, stiffness in series, a wide grid, Young's moduli and steps over many decades, cubes that start "
         "scrambled, flat, collapsed or mirrored, nearly incompressible solids, slivers, a strain energy beyond its limit point, "
-        "other units. One method, the default, no setting for any case; the verdicts are about it. `direct` and `gauss_seidel` stand beside it "
-        "where there are sweeps to do. "
-        "Which of the same few gates hold?",
+        "other units. The default method runs all of them, without a setting for any case; the verdicts are about it. `direct` and `gauss_seidel` "
+        "run the cases that need sweeps. Which gates hold? The gates are the same for all cases.",
         figures=[
             Figure("point_hard_cases_gates", "Every gate of every case, with the number measured. Green holds, red fails, grey was "
                    "not asked."),
@@ -20,7 +19,7 @@ def point_hard_cases(results):
     gates, frontier = results.table("point_hard_cases", "gates"), results.table("point_hard_cases", "frontier")
     if gates is not None:
         section.paragraphs.append(gates_text(gates))
-        section.tables.append(failed_gates(gates))
+        section.tables += failed_gates(gates)
     if frontier is not None:
         section.paragraphs.append("Largest step at which all gates hold: " + "; ".join(
             f"`{name}` {span(rows['largest_step_s'])} s, none in {counted(int(rows['largest_step_s'].isna().sum()), 'case')} of "
@@ -34,24 +33,25 @@ def gates_text(gates):
     runs = asked.drop_duplicates(["scene", "relaxation"])
     unsolved = runs[runs["status"] != "ok"]
     return (f"{int((asked['holds'] == 1).sum())} of {counted(len(asked), 'gate')} hold, in {counted(len(runs), 'simulation')} of "
-            f"{gates['scene'].nunique()} cases; {len(gates) - len(asked)} more were not asked. "
-            f"In {len(unsolved)} simulations some step says itself that it missed the tolerance: "
-            f"{listed(unsolved['scene'] + ', ' + unsolved['relaxation'])}.")
+            f"{gates['scene'].nunique()} cases; {len(gates) - len(asked)} more do not apply. "
+            f"In {counted(len(unsolved), 'simulation')} a step reports that it missed its tolerance"
+            + (f": {listed(unsolved['scene'] + ', ' + unsolved['relaxation'])}." if len(unsolved) else "."))
 
 
 def failed_gates(gates):
+    """A table of them, if there are any."""
     bad = gates[(gates["status"] != "skipped") & (gates["holds"] != 1)]
-    return Table("Gates that fail.", ["scene", "relaxation", "steps", "gate", "measured", "bound", "status", "reason"],
+    return [Table("Gates that fail.", ["scene", "relaxation", "steps", "gate", "measured", "bound", "status", "reason"],
                  [[f"`{r['scene']}`", f"`{r['relaxation']}`", f"{r['steps']:.0f} of {step_text(r['step_s'])}", f"`{r['gate']}`",
-                   number(r["measured"]), number(r["bound"]), f"`{r['status']}`", r["reason"]] for _, r in bad.iterrows()])
+                   number(r["measured"]), number(r["bound"]), f"`{r['status']}`", r["reason"]] for _, r in bad.iterrows()])] if len(bad) else []
 
 
 def generated_scenes(results):
     section = Section(
         "Does a step that says ok tell the truth?",
         "Random points under random combinations of all effects, masses and stiffness over eight decades, hard rows that "
-        "may contradict each other. How do the steps end, and does the judge's own residual of their end, the least over all "
-        "impulses, confirm each that says it is solved?",
+        "may contradict each other. How do the steps end? Where a step says it is solved, is the residual small that the judge computes "
+        "from its end state, as the least over all impulses?",
         figures=[
             Figure("generated_scenes_outcomes", "Steps of each relaxation by outcome."),
             Figure("generated_scenes_sample", "A sample: error against Newton's method over the judge's residual. An error of "
@@ -62,7 +62,7 @@ def generated_scenes(results):
             "Outcomes.", ["relaxation", "status", "reason", "steps"],
             [[f"`{r['relaxation']}`", f"`{r['status']}`", r["reason"], f"{r['steps']:.0f}"] for _, r in outcomes.iterrows()]))
         ok = outcomes[outcomes["status"] == "ok"]
-        section.paragraphs.append("Largest residual found by the judge after a step with status ok, as part of what that status "
+        section.paragraphs.append("Largest residual that the judge finds after a step with status `ok`, as a share of what that status "
                                   "allows: " + "; ".join(f"`{r['relaxation']}` {number(r['claim_largest'])} ({r['steps']:.0f} steps)"
                                                          for _, r in ok.iterrows()) + ".")
     if sample is not None:
@@ -85,19 +85,19 @@ def sample_text(sample):
 
 def generated_worlds(results):
     section = Section(
-        "Is a step of anything that says ok true, and its answer the only one?",
-        "Random scenes of bodies of all shapes, joints with limits and motors, cloth, solids, ropes, damping and contact of all laws, "
-        "each by a method of its own. Code that shares nothing with the solver's rows judges each step that says ok. The first step is "
-        "made again of the same scene in other words, turned, mirrored, in other units, in another order, and by other methods.",
-        figures=[Figure("generated_worlds_agreement", "The first step of each variant beside that of the scene as it is, where both say "
-                        "ok. Told apart by the tolerance alone: at 1e-11 both agree. Another solution: at 1e-11 they still differ, and both "
-                        "are judged as true.")])
+        "Is each step that says ok right, and is its answer the only one?",
+        "Random scenes with bodies of all shapes, joints with limits and motors, cloth, solids, ropes, damping and contact by all laws. "
+        "A random method solves each. Code that shares nothing with the solver's rows judges each step that says ok. The first step is "
+        "repeated for variants that have the same answer: the scene turned, mirrored, in other units, in another order, and solved by other methods.",
+        figures=[Figure("generated_worlds_agreement", "The first step of each variant beside that of the original scene, where both say "
+                        "ok. Told apart by the tolerance alone: at 1e-11 both agree. Another solution: at 1e-11 they still differ, and the judge "
+                        "refutes neither.")])
     ends, refuted = results.table("generated_worlds", "ends"), results.table("generated_worlds", "refuted")
     agreement, broken = results.table("generated_worlds", "agreement"), results.table("generated_worlds", "broken")
     apart = results.table("generated_worlds", "apart")
-    if refuted is not None and ends is not None:
+    if ends is not None:
         steps = ends.set_index("status")["steps"]
-        scenes = refuted["world"].nunique()
+        scenes = refuted["world"].nunique() if refuted is not None else 0
         section.paragraphs.append(
             (f"{counted(scenes, 'scene')} have steps that say ok and are refuted. " if scenes else "No step that says ok is refuted. ")
             + f"Of {counted(int(steps.sum()), 'step')} {int(steps.get('ok', 0))} end as ok, {int(steps.get('not_converged', 0))} as not "
@@ -108,11 +108,11 @@ def generated_worlds(results):
     if agreement is not None:
         told = agreement.groupby("outcome")["first_steps"].sum()
         section.paragraphs.append(
-            f"Beside the scene as it is, {int(told.get('the same', 0))} first steps end alike, "
-            f"{int(told.get('told apart by the tolerance alone', 0))} alike at a tighter tolerance; "
-            f"{int(told.get('another solution', 0))} end elsewhere at a tighter tolerance, too, and the judge refutes neither: the step has "
-            f"more than one solution, or the judge cannot tell them. Of {int(told.get('not told', 0))} that differ the tighter step missed, "
-            f"so that this is not told.")
+            f"{int(told.get('the same', 0))} first steps of variants end where that of the original scene does. "
+            f"{int(told.get('told apart by the tolerance alone', 0))} more do so at a tighter tolerance. "
+            f"{int(told.get('another solution', 0))} end elsewhere at a tighter tolerance, too, and the judge refutes neither end: either the step "
+            f"has more than one solution, or the judge cannot tell the right one. {int(told.get('not told', 0))} differ and miss the tighter "
+            "tolerance, so that nothing can be said of them.")
     if apart is not None and len(apart):
         section.tables.append(Table(
             "First steps that end apart, the first 20: by how much of the step's scale, and how far a body turns.",

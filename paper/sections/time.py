@@ -7,13 +7,13 @@ from selecting import failed, good, rule_names, step_text
 def time_order(results):
     section = Section(
         "At which order does each integrator approach the motion?",
-        "Motions of springs, links, a solid and pendulums, integrated by ever smaller steps and compared at four times with "
+        "Springs, links, a solid and pendulums move, integrated by ever smaller steps. Their motion is compared at four times with "
         "the judge `ode`, which knows neither steps nor multipliers. Linear problems are solved directly, steps to a tolerance of "
         "1e-12. The observed order is the slope of the logarithm of the error over that of the step, by least squares over the four "
         "finest steps [@roache1994perspective]. `bdf2` begins with a step of implicit Euler, and so does `newmark` where there are "
         "hard constraints: one error of second order, which leaves the order as it is. `newmark` between 0.5 and 1 has an error of first order with "
         "the small coefficient alpha - 1/2 beside one of second order; its order is shown, not judged. The pendulum "
-        "over 10 s is there for what becomes of hard constraints in a long time; its orders are not judged either.",
+        "over 10 s shows what happens to hard constraints in a long time; its orders are not judged either.",
         figures=[Figure("time_order_errors", "Error of the worst node and time over the step, relative to the largest displacement. "
                         "Triangles show the orders 1 and 2. Crossed: the error exceeds the motion, or the simulation failed."),
                  Figure("time_order_orders", "Observed orders of the four finest steps.")])
@@ -25,8 +25,8 @@ def resolved_text(errors):
     """How far solves and judge are below the errors."""
     rows = good(errors, "error", "error_solve")
     share = (rows["error_solve"] + rows["error_reference"]) / rows["error"]
-    return (f"The steps, done again at 100 times the tolerance, and the judge's own error differ by {span(share)} of the error "
-            f"in the {len(rows)} of {len(errors)} runs that are ok.")
+    return (f"The error of the solves, found by repeating them at 100 times the tolerance, and the judge's own error add up to {span(share)} "
+            f"of the error shown, in the {len(rows)} of {len(errors)} runs that are ok.")
 
 
 def lost_text(orders):
@@ -46,4 +46,4 @@ def orders_table(orders):
         found = {row["scene"]: f"{row['order']:.3f}" if row["status"] == "ok" else row["status"] for _, row in group.iterrows()}
         rows.append([f"`{name}`", number(group["order_expected"].iloc[0]), *(found.get(scene, "") for scene in scenes)])
     finest = "; ".join(f"{scene} {step_text(group['step_s'].iloc[0])}" for scene, group in orders.groupby("scene", sort=False))
-    return Table(f"Observed orders. Finest steps: {finest}.", ["integrator", "order", *scenes], rows)
+    return Table(f"Observed orders. Finest steps: {finest}.", ["integrator", "order", *scenes], rows, first=True)

@@ -39,10 +39,7 @@ PlacedCylinder::Place PlacedCylinder::place(const Vec3& x) const {
 }
 
 double nearest_arc(const Segment& edge, const PlacedCylinder& b) {
-  const auto slope = [&](double s) {
-    const PlacedCylinder::Place at = b.place(edge.at(s));
-    return at.distance > 0 ? edge.along.dot(at.normal) : 0.0;
-  };
+  const auto slope = [&](double s) { return edge.along.dot(b.place(edge.at(s)).normal); };
   double low = 0, high = edge.length;
   if (slope(low) >= 0) return low;
   if (slope(high) <= 0) return high;

@@ -45,7 +45,8 @@ struct PlacedCylinder {
   double support(const Vec3& n) const;
 };
 
-/// The arc of an edge's point nearest to the cylinder (m): the distance is convex, its slope is bisected.
+/// The arc of an edge's point nearest to the cylinder or deepest in it (m): the signed distance is convex,
+/// its slope is bisected.
 double nearest_arc(const Segment& edge, const PlacedCylinder& b);
 
 /// Angles of points of a rim that are nearer to (or deeper in) the other than those beside them.

@@ -69,3 +69,28 @@ TEST_CASE("the least gap of convex pairs is their signed distance") {
   CHECK(worst_b < 1e-8);
   CHECK(apart > 100);
 }
+
+TEST_CASE("a node that lies on a cylinder hides no overlap elsewhere") {
+  const double off = GENERATE(-1e-15, 0.0, 1e-15);  // m, that the node is above the cap
+  Random random(67);
+  int overlaps = 0, unseen = 0;
+  for (int number = 0; number < 3000; ++number) {
+    const TriangleMesh octahedron = shaken_octahedron(random);
+    const Shape mesh = ClosedMesh(octahedron), solid = ConvexHull(octahedron);
+    const Cylinder cylinder = std::get<Cylinder>(random_shape("cylinder", random));
+    Frame at{Vec3::Zero(), random.rotation()};
+    const Vec3 on_cap(random.uniform(0, cylinder.radius), 0, cylinder.length / 2 + off);
+    at.origin = on_cap - at.place(octahedron.x.col(number % 6));
+    const auto least = [&](const Shape& other) {
+      double gap = infinity;
+      for (const auto& contact : contacts(cylinder, {}, other, at, 0.01))
+        gap = std::min(gap, touch(contact, {}, at).gap);
+      return gap;
+    };
+    if (!(least(solid) < -1e-6)) continue;
+    ++overlaps;
+    unseen += !(least(mesh) < -1e-6);
+  }
+  CHECK(overlaps > 500);
+  CHECK(unseen == 0);
+}

@@ -37,7 +37,7 @@ CONTRARY = {
     1: {"map": lambda frame: frame.assign(behaviour="oscillating")},
     2: FAILS,
     3: {"largest_steps": where("family", "position", largest_step_s=1e-9)},
-    4: {"equal_work": where("family", "position", error=1e9)},
+    4: {name: where("family", "position", error=1e9) for name in ("equal_work", "contact")},
     5: {"chain20": where("outer", "plain", iterations=np.nan)},
     6: {"errors": where("outer", "incremental", error=1e-16)},
     7: {"stretches": lambda frame: frame.assign(stretch_m=0.0)},
@@ -62,9 +62,11 @@ FAVOURABLE = {
     2: HOLDS | {"map": where("outer", "plain", measured_rate=lambda frame: frame["step_s"] ** 2),
                 "rates": lambda frame: frame.assign(measured_rate=frame["step_s"] ** 2, status="ok")},
     3: {"largest_steps": lambda frame: where("family", "velocity", largest_step_s=1e-9)(frame.assign(missed_steps=0.0))},
-    4: {"equal_work": lambda frame: where("family", "position", error=1e-12)(frame.assign(status="ok"))},
-    5: {"chain20": where("outer", "plain", iterations=3.0)},
-    6: {"errors": lambda frame: frame.assign(error=np.where(frame["outer"] == "incremental", 1.0, 1e-15), status="ok")},
+    4: {name: lambda frame: where("family", "position", error=1e-12)(frame.assign(status="ok")) for name in ("equal_work", "contact")},
+    5: {"chain20": where("outer", "plain", iterations=3.0),
+        "contenders": where("outer", "plain", status="ok", missed_steps=0.0, energy_highest=1.0)},
+    6: {"errors": lambda frame: frame.assign(error=np.where(frame["outer"] == "incremental", 1.0, 1e-15), status="ok"),
+        "residuals": lambda frame: frame.assign(residual_share=np.where(frame["outer"] == "plain", 0.0, 0.1), status="ok")},
     7: {"stretches": lambda frame: frame.assign(status="ok", stretch_m=1 / frame["sweeps"].clip(1), physical_m=0.0, error=0.0)},
     8: {"series": where("alpha", 0.55, energy_j=0.0, status="ok")},
     9: HOLDS | {"series": lambda frame: frame.assign(status="ok")},
@@ -122,7 +124,10 @@ def without_numbers(frame):
 # What the sample's data say against the method and its solver.
 AGAINST = {
     1: "`plain` converges in 4 of 12 cases of `pendulum` and `chain20`, on the 20-link chain only for h <= 1/240 s.",
-    2: "In contact the rate of `plain` falls as h to the power 1 to 2, not 2.",
+    2: "In contact the contraction is not always of order h²: in 2 of 6 cases the radius falls as h to the power 1 (ball rolls on a ball, "
+       "`cone` and ball rolls on a ball, `coulomb`).",
+    5: "On the taut chain refreshed directions alone (`plain`) are solved and stable up to 0.45 of the explicit limit of step, frozen ones "
+       "are stable up to 0.9; with a bound of the geometric stiffness added to the mass matrix it is 8.",
     9: "Newmark's rule with alpha = 1/2 fails: on `hard pendulum` it diverges (energy grew by ten times its scale; the energy moves by up "
        "to 5.24e3 of its scale).",
     13: "Under the convex law `cone`, the paper's, a sliding cube lifts by 1 m.",

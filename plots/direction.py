@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import draw_failed, figure, footnote, on_log, panels, shared_legend
+from common import curve_points, draw_failed, figure, footnote, on_log, panels, shared_legend
 from finding import fewer, finding
 from styles import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 from selecting import failed, good, reasons_note, step_text
@@ -173,3 +173,61 @@ def solved_of(frame, family):
 def solved_share(frame, family):
     rows = frame[frame["family"] == family]
     return len(good(rows, "row_updates_per_s", "error")) / max(1, len(rows))
+
+
+CONTENDERS = {("velocity", "frozen"): ("directions of the step's begin", BLACK, "P"), ("position", "plain"): ("refreshed directions", RED, "o"),
+              ("stiffness, one linearisation", "proximal"): ("stiffness in M, one linearisation", ORANGE, "s"),
+              ("stiffness", "proximal"): ("stiffness in M, solved", GREEN, "^")}
+
+
+@figure("direction", "contenders", table="contenders")
+def contenders(frame):
+    """The taut chain's largest energy, and the share of steps that miss, over the step in units of the explicit limit."""
+    fig, (energy, missed) = panels(2, columns=2, height=2.6, sharex=True)
+    frame = frame.assign(missed_share=frame["missed_steps"] / frame["steps"])
+    for key, rows in frame.groupby(["family", "outer"], sort=False):
+        label, color, marker = CONTENDERS[key]
+        look = {"color": color, "marker": marker, "linestyle": "-"}
+        curve_points(energy, rows.assign(status=rows["status"].replace("not_converged", "ok")), "of_explicit_limit", "energy_highest", label, look)
+        rows = rows.sort_values("of_explicit_limit")
+        if key[1] != "frozen":
+            missed.plot(rows["of_explicit_limit"], rows["missed_share"], label=label, markerfacecolor="white", **look)
+    energy.set(xscale="log", yscale="log", ylabel="largest energy over the first one")
+    missed.set(xscale="log", ylim=(-0.05, 1.05), ylabel="share of steps that miss their tolerance")
+    for ax in (energy, missed):
+        ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.6)
+    fig.supxlabel("step over the explicit limit", fontsize=8)
+    shared_legend(fig, [energy, missed], columns=2)
+    finding(fig, "Solved in every step without a gain of energy up to these shares of the explicit limit: " + ", ".join(
+        f"{CONTENDERS[key][0]} {number(steady_step(rows))}" for key, rows in frame.groupby(["family", "outer"], sort=False)))
+    footnote(fig, reasons_note(frame[frame["status"] == "diverged"]))
+    return fig
+
+
+def steady_step(rows):
+    """The longest step, in units of the explicit limit, up to which every run is solved and gains no energy; what freezes directions
+    does not claim to solve its steps."""
+    rows = rows.sort_values("of_explicit_limit")
+    steady = (rows["status"] == "ok") & (rows["energy_highest"] <= 1.01) & ((rows["missed_steps"] == 0) | (rows["outer"] == "frozen"))
+    return rows.loc[steady.cummin(), "of_explicit_limit"].max() if steady.iloc[0] else 0.0
+
+
+@figure("direction", "contact", table="contact")
+def contact(frame):
+    """Largest overlap or stretch over work, a panel a scene, a line a scheme."""
+    groups = list(frame.groupby("scene", sort=False))
+    fig, axes = panels(len(groups), columns=3, height=2.4)
+    for ax, (scene, rows) in zip(axes, groups):
+        for label, look, one in schemes(rows):
+            label = label if one["family"].iloc[0] == "velocity" else "refreshed directions"
+            curve_points(ax, one, "row_updates_per_s", "error", label, look)
+        ax.set(xscale="log", yscale="log", title=scene)
+    fig.supxlabel("row updates a simulated second", fontsize=8)
+    axes[0].set_ylabel("largest violation, relative")
+    shared_legend(fig, axes)
+    most = good(frame[frame["linearisations_per_frame"] == frame["linearisations_per_frame"].max()], "error")
+    finding(fig, "At the most work tried the largest violation is " + "; ".join(
+        f"{number(rows['error'].min())} to {number(rows['error'].max())} by {family} steps" for family, rows in most.groupby("family", sort=False))
+        if len(most) else f"No run of {len(frame)} came through at the most work tried")
+    footnote(fig, reasons_note(failed(frame, "error")))
+    return fig

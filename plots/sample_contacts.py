@@ -32,7 +32,8 @@ def incline(directory):
 
 
 def stopping(directory):
-    _answers(directory, "stopping", (("distance", "m", 1e-9), ("offset", "a h^2/8", 1.001), ("lift", "m", 1e-10)), LAWS)
+    _answers(directory, "stopping", (("distance", "m", 1e-9), ("offset", "a h^2/8", 1.001), ("lift", "m", 1e-10), ("spin_down", "relative", 1e-9),
+                                     ("pushed_row", "m", 1e-9)), LAWS)
 
 
 def friction_isotropy(directory):
@@ -69,7 +70,8 @@ def restitution(directory):
 
 def stack(directory):
     _answers(directory, "stack", (("weight", "relative", 1e-9), ("joints", "relative", 1e-8), ("penetration", "of the size", 1e-8),
-                                   ("redundant_motion", "m", 1e-9), ("redundant_force", "relative", 1e-9)))
+                                   ("redundant_motion", "m", 1e-9), ("redundant_force", "relative", 1e-9),
+                                   ("permuted_motion", "m", 1e-9), ("permuted_force", "of the mean", 1e-8)))
     rows = []
     for relaxation in ("conjugate_gradients", "direct"):
         for structure, counts, shares in (("overhang", (2, 3, 5), (0.999, 1.001)), ("arch", (7, 15), (1.01, 0.99))):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from sample_files import write
+from tables import columns
 
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "
 SCHEMES = [("position", "implicit_euler", "auto", "direct", blend, float("nan")) for blend in (0.0, 0.25, 0.5, 0.75, 1.0)] + \
@@ -32,6 +33,15 @@ def direction(directory):
     write(directory, "direction", "energy", SCHEME + "step_s time_s energy_j row_updates_per_s status reason", energy)
     write(directory, "direction", "equal_work", SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error "
           "violation_rms energy_change missed_steps steps status reason", work)
+    heavy, plain = ("stiffness", "implicit_euler", "proximal", "direct", 1.0, float("nan")), SCHEMES[4][:2] + ("plain",) + SCHEMES[4][3:]
+    once = ("stiffness, one linearisation",) + heavy[1:]
+    write(directory, "direction", "contenders", " ".join(columns("direction", "contenders")),
+          [("taut chain20", *scheme, 0.007 * share, share, 1.0, 0.5, 1e-6, 500.0, 0 if share <= limit else 40, 100,
+            *(("ok", "") if share <= limit else grew if scheme[0] == "velocity" else spent))
+           for scheme, limit in ((SCHEMES[-1], 0.9), (plain, 0.45), (once, 8), (heavy, 8)) for share in (0.25, 0.45, 0.9, 1.1, 8.0)])
+    write(directory, "direction", "contact", " ".join(columns("direction", "contact")),
+          [("ball rolls off a ball", *scheme, count, 1 / 60, 1.0, 100.0 * count, error / 10.0 ** count, 1e-4, 3, 60, "ok", "")
+           for scheme, error in ((plain, 1e-3), *((velocity, 1e-2) for velocity in SCHEMES[-3:])) for count in (1, 2, 4)])
 
 
 def damping(directory):

@@ -13,6 +13,7 @@ TABLES = {
     ("outer_convergence", "errors"): "scene step_s mass_ratio outer relaxation iteration error status reason",
     ("outer_convergence", "map"):
         "scene step_s mass_ratio outer predicted_rate measured_rate behaviour error_final status reason",
+    ("outer_convergence", "residuals"): "scene step_s outer relaxation residual_share outer_iterations status reason",
     ("stability_map", "chain20"): "scene step_s mass_ratio" + MAP,
     ("stability_map", "rods10"): "scene step_s mass_ratio" + MAP,
     ("stability_map", "cantilever"): "scene step_s young_pa" + MAP,
@@ -30,6 +31,10 @@ TABLES = {
     ("direction", "energy"): SCHEME + "step_s time_s energy_j row_updates_per_s status reason",
     ("direction", "equal_work"): SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error violation_rms "
                                           "energy_change missed_steps steps status reason",
+    ("direction", "contact"): SCHEME + "linearisations_per_frame step_s duration_s row_updates_per_s error violation_rms missed_steps "
+                                       "steps status reason",
+    ("direction", "contenders"): SCHEME + "step_s of_explicit_limit energy_highest energy_end error row_updates_per_s missed_steps "
+                                          "steps status reason",
     ("damping", "decrements"): "scene integrator outer relaxation max_sweeps step_s retardation_s decrement predicted_decrement "
                                "decay_per_s expected_decay_per_s order error row_updates status reason",
     ("damping", "rotation"): "scene integrator outer relaxation step_s retardation_s time_s vibration_j rotation_j drift_j "

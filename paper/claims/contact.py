@@ -60,7 +60,7 @@ def coulomb(stopping, incline, headings):
     true = held["coulomb"] == total["coulomb"]
     return Finding(
         judge(true and held["cone"] == total["cone"] and not lifts, true, "Coulomb's law (`coulomb`, ours)"),
-        f"Thresholds, accelerations, stopping distances and {headings['heading_deg'].nunique()} headings are within their bounds in "
+        f"Thresholds, accelerations, stopping distances, a ring's spin, a pushed row and {headings['heading_deg'].nunique()} headings are within their bounds in "
         + ", ".join(f"{share(held[law], total[law])} with `{law}`" for law in LAWS if total[law]) + f". {against}",
         share(held["coulomb"], total["coulomb"]), f"{total['coulomb']} of {total['coulomb']}", against)
 
@@ -114,12 +114,15 @@ def box_lcp(headings, incline, stopping):
 
 
 def unique_motion(answers):
-    held, rows = within(answers, "redundant_motion", "redundant_force")
-    motion, force = (rows.loc[rows["quantity"] == f"redundant_{what}", "error"].max(skipna=False) for what in ("motion", "force"))
+    names = ("redundant_motion", "redundant_force", "permuted_motion", "permuted_force")
+    held, rows = within(answers, *names)
+    worst = {name: some(rows.loc[rows["quantity"] == name, "error"], f"answer about {name}").max(skipna=False) for name in names}
     return Finding(
         judge(held.all(), held.any(), f"{share(held.sum(), len(rows))} answers"),
-        f"However many balls carry a slab, it moves the same to {number(motion)} m, and they carry its weight to {number(force)} of it. "
-        "Permuted contacts are not compared.", f"{share(held.sum(), len(rows))}", f"{len(rows)} of {len(rows)}")
+        f"However many balls carry a slab, it moves the same to {number(worst['redundant_motion'])} m, and they carry its weight to "
+        f"{number(worst['redundant_force'])} of it. A pile whose bodies and contacts stand in the opposite order moves the same to "
+        f"{number(worst['permuted_motion'])} m; balls that give way carry the same to {number(worst['permuted_force'])} of the mean.",
+        f"{share(held.sum(), len(rows))}", f"{len(rows)} of {len(rows)}")
 
 
 def statics(answers, thresholds):

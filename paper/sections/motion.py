@@ -15,6 +15,10 @@ def direction(results):
                    "of the fastest mode, without bound from b = 1/2 on. `auto` may end at a folded solution of a long step."),
             Figure("direction_modes", "A mode of the taut chain with h w = 1: what a step leaves of its energy."),
             Figure("direction_energy", "A hard pendulum released horizontally: schemes, and the same enlarged."),
+            Figure("direction_contenders", "The taut chain: directions of the step's begin, refreshed ones (`plain`), and refreshed ones with a bound "
+                   "of the geometric stiffness added to the mass matrix (`proximal`, ours). Dashed: the explicit limit 2/w."),
+            Figure("direction_contact", "Overlap of shapes over 0.1 m, or stretch of a rope, over work: linearisations of one step of 1/60 s, or "
+                   "shorter steps of velocity time stepping; 20 sweeps of Gauss-Seidel each."),
             Figure("direction_equal_work", "Largest violation of a link over work. Position: more linearisations of a step of 1/60 s; "
                    "velocity: as many shorter steps. Solved runs alone are drawn, and counted above. A step of velocity "
                    "time stepping does not claim to be solved.")])

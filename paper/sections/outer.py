@@ -6,7 +6,7 @@ import numpy as np
 
 from content import Figure, Section, Table, counted, listed, number, span
 from reading import CONTRACTING
-from selecting import cost_ratios, failed, good, stiffens
+from selecting import cost_ratios, failed, good, step_text, stiffens
 
 
 def outer_convergence(results):
@@ -27,7 +27,16 @@ def outer_convergence(results):
             Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum, measured and predicted; the spectral "
                    "radius is h² T/(m l) there.")])
     section.tell(results.table("outer_convergence", "map"), rates_text, behaviour_table)
-    return section.tell(results.table("outer_convergence", "errors"), floor_text, rescued_text)
+    section.tell(results.table("outer_convergence", "errors"), floor_text, rescued_text)
+    return section.tell(results.table("outer_convergence", "residuals"), residuals_table)
+
+
+def residuals_table(frame):
+    """What each outer iteration leaves of the momentum equation."""
+    return Table("Share of the step's correction v - v_free that no impulses along the directions at its end explain, by a judge.",
+                 ["scene", "step", "outer", "relaxation", "share", "status"],
+                 [[f"`{r['scene']}`", step_text(r["step_s"]), f"`{r['outer']}`", f"`{r['relaxation']}`", number(r["residual_share"]),
+                   f"`{r['status']}`"] for _, r in frame.iterrows()])
 
 
 def rates_text(rates):

@@ -46,27 +46,93 @@ void rest(KnownAnswers& answers, const Method& method, const std::string& name, 
   answers.add("penetration", name, method, contact_h, overlap.value(), 0, overlap.value(), run);
 }
 
-/// A slab that slides to rest on side x side fixed balls.
-void slab_on_posts(KnownAnswers& answers, const Method& method, int side) {
-  constexpr double friction = 0.5, speed = 0.3, radius = 0.02, pitch = 0.06, mass = 10;
-  BodyScene build({.friction = friction});
+constexpr double slab_friction = 0.5, slab_speed = 0.3, slab_mass = 10;
+
+/// A slab that slides to rest on side x side fixed balls; it is the last body.
+Scene slab_on_posts(int side) {
+  constexpr double radius = 0.02, pitch = 0.06;
+  BodyScene build({.friction = slab_friction});
   const double middle = (side - 1) / 2.0;
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
       build.fixed(Sphere{radius}, {Vec3((i - middle) * pitch, (j - middle) * pitch, -radius)});
-  build.box(Vec3(1, 1, 0.02), mass, {Vec3(0, 0, 0.01), Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
-  const Scene scene = build.finish();
+  build.box(Vec3(1, 1, 0.02), slab_mass,
+            {Vec3(0, 0, 0.01), Eigen::Quaterniond::Identity(), Vec3(slab_speed, 0, 0)});
+  return build.finish();
+}
+
+void carried_slab(KnownAnswers& answers, const Method& method, int side) {
+  const Scene scene = slab_on_posts(side);
   const int body = side * side;
   Worst force;
   const ContactRun run =
       simulate_contacts(scene, method, contact_h, 10, [&](const State&, const Workspace& workspace) {
-        force.add(std::abs(force_across(workspace, body).z() / (mass * gravity) - 1));
+        force.add(std::abs(force_across(workspace, body).z() / (slab_mass * gravity) - 1));
       });
-  const double exact = slide(speed, friction * gravity, contact_h, 10).x, moved = run.end.x(0, body);
+  const double exact = slide(slab_speed, slab_friction * gravity, contact_h, 10).x,
+               moved = run.end.x(0, body);
   const std::string name = fmt::format("slab on {} balls", side * side);
   answers.add("redundant_force", name, method, contact_h, force.value(), 0, force.value(), run);
   answers.add("redundant_motion", name, method, contact_h, moved, exact,
               (run.end.x.col(body) - Vec3(exact, 0, 0.01)).norm(), run);
+}
+
+/// The same bodies and colliders, those of one contact alone, in the opposite order.
+Scene reversed(const Scene& scene) {
+  Scene turned;
+  const int count = static_cast<int>(std::ssize(scene.bodies));
+  for (int b = count - 1; b >= 0; --b) {
+    const auto& [node, inertia] = scene.bodies[static_cast<std::size_t>(b)];
+    add_body(turned, scene.initial.x.col(node), scene.mass[static_cast<std::size_t>(node)], inertia,
+             scene.initial.orientation[static_cast<std::size_t>(b)], scene.initial.v.col(node),
+             scene.initial.spin.col(b));
+  }
+  turned.effects = scene.effects;
+  for (Effect& effect : turned.effects)
+    if (auto* contact = std::get_if<Contact>(&effect)) {
+      std::reverse(contact->collider.begin(), contact->collider.end());
+      for (Collider& collider : contact->collider) collider.body = count - 1 - collider.body;
+    }
+  return turned;
+}
+
+/// Cubes, a slab and a ball that slide and rest on each other, in either order: largest distance of a body.
+void permuted_pile(KnownAnswers& answers, const Method& method) {
+  const Scene scene = pile();
+  const ContactRun run = simulate_contacts(scene, method, contact_h, 10);
+  const ContactRun other = simulate_contacts(reversed(scene), method, contact_h, 10);
+  const double apart = (run.end.x - other.end.x.rowwise().reverse()).colwise().norm().maxCoeff();
+  answers.add("permuted_motion", "pile", method, contact_h, apart, 0, apart,
+              run.status == Status::ok ? other : run);
+}
+
+/// N, vertical forces on the colliders in the last of ten steps.
+Eigen::VectorXd vertical_forces(const Scene& scene, const Method& method, ContactRun& run) {
+  Eigen::VectorXd up(std::ssize(scene.bodies));
+  run = simulate_contacts(scene, method, contact_h, 10, [&](const State&, const Workspace& workspace) {
+    up.setZero();
+    for (const ContactForce& contact : workspace.contacts()) {
+      up[contact.collider[0]] += contact.force.z();
+      up[contact.collider[1]] -= contact.force.z();
+    }
+  });
+  return up;
+}
+
+/// Of a slab that slides on 4 x 4 balls which give way, in either order: largest difference of a ball's
+/// force, of the mean.
+void permuted_posts(KnownAnswers& answers, const Method& method) {
+  constexpr int side = 4;
+  Scene scene = slab_on_posts(side);
+  for (Effect& effect : scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect)) contact->law[0].compliance = 1e-6;  // m/N
+  ContactRun run, other;
+  const Eigen::VectorXd forces = vertical_forces(scene, method, run);
+  const Eigen::VectorXd turned = vertical_forces(reversed(scene), method, other);
+  const double mean = slab_mass * gravity / (side * side);
+  const double apart = (forces - turned.reverse()).cwiseAbs().maxCoeff() / mean;
+  answers.add("permuted_force", "slab on 16 balls that give way", method, contact_h, apart, 0, apart,
+              run.status == Status::ok ? other : run);
 }
 
 /// Stands: no body moves by more than 1e-4 of the size. Falls: one moves by a tenth of it.
@@ -115,7 +181,10 @@ void stack(Context& context) {
        {"joints", "each joint of a column carries what is above", "relative", 1e-8},
        {"penetration", "nothing sinks in", "of the size", 1e-8},
        {"redundant_force", "however many points carry a slab, they carry its weight", "relative", 1e-9},
-       {"redundant_motion", "it moves the same on them", "m", 1e-9}});
+       {"redundant_motion", "it moves the same on them", "m", 1e-9},
+       {"permuted_motion", "a pile moves the same whatever the order of its bodies and contacts", "m", 1e-9},
+       // Velocities are solved to 1e-12 of 0.3 m/s; h of that over 1e-6 m/N is 3e-9 N of 6 N.
+       {"permuted_force", "points that give way carry the same whatever their order", "of the mean", 1e-8}});
   context.begin(std::ssize(relaxations) + 2 * std::ssize(accurate));
   for (const auto relaxation : relaxations) {
     const Method method = patient_method(relaxation);
@@ -125,7 +194,9 @@ void stack(Context& context) {
       rest(answers, method, fmt::format("two cubes, masses 1:{:g}", ratio), column(2, ratio), true);
     for (const int base : context.full() ? std::vector{4, 10} : std::vector{4})
       rest(answers, method, fmt::format("pyramid of base {}", base), pyramid(base), false);
-    for (const int side : {2, 4, 10}) slab_on_posts(answers, method, side);
+    for (const int side : {2, 4, 10}) carried_slab(answers, method, side);
+    permuted_pile(answers, method);
+    permuted_posts(answers, method);
     context.advance(relaxation);
   }
   answers.close();

@@ -1,5 +1,6 @@
 // Do sliding bodies come to rest where they should? Boxes beside implicit Euler's recurrence and the motion
-// in continuous time, balls, cylinders and hoops that slip until they roll, and cubes that must not take off.
+// in continuous time, balls, cylinders and hoops that slip until they roll, cubes that must not take off,
+// a ring that spins flat on the ground and a row of cubes that is pushed.
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +57,42 @@ void launch(KnownAnswers& answers, const Method& method, double h) {
               method.friction != "cone");
 }
 
+/// A ring flat on the ground spins slower by h mu g/r in each step.
+void spin_down(KnownAnswers& answers, const Method& method, double h) {
+  constexpr double friction = 0.2, radius = 0.1, spin = 10, thickness = 0.05;
+  constexpr std::int64_t steps = 20;
+  BodyScene build({.friction = friction});
+  build.ground();
+  build.cylinder(radius, thickness, 1, {.position = Vec3(0, 0, thickness / 2), .spin = Vec3(0, 0, spin)});
+  Scene scene = build.finish();
+  const double across = radius * radius / 2 + thickness * thickness / 12;  // m^2, all its mass on the rim
+  scene.bodies[1].inertia = Vec3(across, across, radius * radius);
+  const ContactRun run = simulate_contacts(scene, method, h, steps);
+  const double exact = slide(spin, friction * gravity / radius, h, steps).v, left = run.end.spin(2, 1);
+  answers.add("spin_down", "ring of 0.1 m, 10 rad/s, friction 0.2", method, h, left, exact,
+              relative_difference(left, exact), run);
+}
+
+/// Cubes in a row, pushed at one end by `share` of the friction under all of them.
+void push_row(KnownAnswers& answers, const Method& method, double h, double share) {
+  constexpr int count = 3;
+  constexpr double friction = 0.3, mass = 4, size = 0.2, limit = count * friction * mass * gravity;
+  constexpr std::int64_t steps = 20;
+  BodyScene build({.friction = friction});
+  build.materials(2, {.friction = friction});
+  build.law(1, 1, {.friction = 0});
+  build.ground();
+  for (int k = 0; k < count; ++k) build.box(Vec3::Constant(size), mass, {Vec3(k * size, 0, size / 2)}, 1);
+  Scene scene = build.finish();
+  scene.effects.emplace_back(ExternalForce{{1}, {Vec3(share * limit, 0, 0)}});
+  const ContactRun run = simulate_contacts(scene, method, h, steps);
+  const double force = std::max(0.0, (share - 1) * limit);
+  const double exact = slide(0, -force / (count * mass), h, steps).x;
+  const double moved = run.end.x(0, count) - scene.initial.x(0, count);
+  answers.add("pushed_row", fmt::format("{} cubes, {:g} of their friction", count, share), method, h, moved,
+              exact, std::abs(moved - exact), run);
+}
+
 }  // namespace
 
 void stopping(Context& context) {
@@ -68,7 +105,10 @@ void stopping(Context& context) {
        {"offset", "that is h v0/2 before where it stops in continuous time", "a h^2/8", 1 + 1e-3},
        {"rolling_speed", "bodies slip to the speed they roll at", "relative", 1e-9},
        {"rolling_way", "they slip as far as implicit Euler's recurrence says", "m", 1e-9},
-       {"lift", "a cube that slides does not take off", "m", 1e-10}});
+       {"lift", "a cube that slides does not take off", "m", 1e-10},
+       {"spin_down", "friction on its rim slows a spinning ring", "relative", 1e-9},
+       {"pushed_row", "a row of cubes moves once the push exceeds the friction under all of them", "m",
+        1e-9}});
   context.begin(std::ssize(relaxations) * std::ssize(steps));
   for (const auto relaxation : relaxations)
     for (const double h : steps) {
@@ -81,6 +121,9 @@ void stopping(Context& context) {
       roll(answers, method, h, Round::ball, 0.4, "ball");
       roll(answers, method, h, Round::cylinder, 0.5, "cylinder");
       roll(answers, method, h, Round::hoop, 1, "hoop");
+      const Method patient = patient_method(relaxation);
+      spin_down(answers, patient, h);
+      for (const double share : {0.99, 1.5}) push_row(answers, patient, h, share);
       context.advance(fmt::format("{} {:.3g} s", relaxation, h));
     }
   answers.close();

@@ -12,6 +12,7 @@
 #include "scenes/standard.h"
 #include "studies/experiments.h"
 #include "studies/iteration/measured_rate.h"
+#include "studies/iteration/outer_residuals.h"
 
 namespace pbdcheck {
 namespace {
@@ -181,7 +182,7 @@ std::vector<Case> outer_convergence_cases(bool full) {
 }
 
 void outer_convergence(Context& context) {
-  context.begin(3 + std::ssize(curves()) + 1);
+  context.begin(3 + std::ssize(curves()) + 2);
   Table errors = context.table("errors", {"scene", "step_s", "mass_ratio", "outer", "relaxation", "iteration",
                                           "error", "status", "reason"});
   Table map = context.table("map", {"scene", "step_s", "mass_ratio", "outer", "predicted_rate",
@@ -191,6 +192,7 @@ void outer_convergence(Context& context) {
   chain_map(context, map);
   errors.close();
   map.close();
+  outer_residuals(context);
 }
 
 }  // namespace pbdcheck

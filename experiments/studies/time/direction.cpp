@@ -48,7 +48,7 @@ void add_row(Table& table, const std::string& scene, const Scheme& scheme, std::
 }
 
 void direction(Context& context) {
-  context.begin(4);
+  context.begin(6);
   direction_largest_steps(context);
   context.advance("largest steps");
   direction_modes(context);
@@ -57,6 +57,10 @@ void direction(Context& context) {
   context.advance("energy");
   direction_equal_work(context);
   context.advance("equal work");
+  direction_contact(context);
+  context.advance("contact");
+  direction_contenders(context);
+  context.advance("contenders");
 }
 
 }  // namespace pbdcheck

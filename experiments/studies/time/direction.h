@@ -29,5 +29,9 @@ void direction_modes(Context& context);
 void direction_energy(Context& context);
 /// Violations of constraints at equal work: `equal_work`.
 void direction_equal_work(Context& context);
+/// Overlaps of shapes at equal work: `contact`.
+void direction_contact(Context& context);
+/// Frozen and refreshed directions, and a heavier M, on the taut chain: `contenders`.
+void direction_contenders(Context& context);
 
 }  // namespace pbdcheck

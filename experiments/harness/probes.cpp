@@ -166,6 +166,12 @@ std::optional<std::string_view> error_unit(const pbd::Effect& effect) {
       effect);
 }
 
+double finite_mass(const pbd::Scene& scene) {
+  double sum = 0;
+  for (const double mass : scene.mass) sum += std::isfinite(mass) ? mass : 0;
+  return sum;
+}
+
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state) {
   double energy = 0;
   for_finite_nodes(scene,

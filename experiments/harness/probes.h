@@ -19,6 +19,9 @@ std::vector<std::string> probe_columns(const SceneFile& file);
 void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Workspace* stepped,
                    std::vector<Cell>& row);
 
+/// Sum of the finite masses, kg.
+double finite_mass(const pbd::Scene& scene);
+
 /// Sum of 1/2 m v^2 over the nodes of finite mass and 1/2 w . I w over the bodies of finite inertia, J.
 double kinetic_energy(const pbd::Scene& scene, const pbd::State& state);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/probes.h"
 #include "scenes/arch.h"
 #include "studies/robustness/contact_cases.h"
 
@@ -15,15 +16,8 @@ using namespace pbd;
 
 using std::numbers::pi;
 
-double weight(const Scene& scene) {
-  double mass = 0;
-  for (const double own : scene.mass)
-    if (std::isfinite(own)) mass += own;
-  return mass * gravity;
-}
-
 ContactCase at_rest(std::string name, Scene scene, double h, double duration, double size) {
-  const double carried = weight(scene);
+  const double carried = finite_mass(scene) * gravity;
   return {std::move(name), std::move(scene), h, duration, size, true, true, -1, carried};
 }
 

@@ -9,7 +9,6 @@
 #include "harness/interrupt.h"
 #include "harness/measure.h"
 #include "harness/probes.h"
-#include "residual.h"
 
 namespace pbdcheck {
 namespace {
@@ -25,13 +24,6 @@ double load_energy(const Scene& scene, const State& state) {
         if (std::isfinite(scene.mass[static_cast<std::size_t>(load->node[i])]))
           energy -= load->force[i].dot(state.x.col(load->node[i]));
   return energy;
-}
-
-/// Sum of the finite masses, kg.
-double finite_mass(const Scene& scene) {
-  double sum = 0;
-  for (const double mass : scene.mass) sum += std::isfinite(mass) ? mass : 0;
-  return sum;
 }
 
 /// (m g + |f|) L with the scene's own gravity, J.
@@ -108,7 +100,8 @@ class Watcher {
     const double work = start_load_ - load_energy(each_.scene, state);
     excess_.add(larger(0, (inner_energy(state) - start_energy_ - work) / scale_));
     links_.add(link_error(each_.scene, state));
-    if (judged && report.status == Status::ok) claims_.add(claim(before, state));
+    if (judged && report.status == Status::ok)
+      claims_.add(claim_share(reference::residual_of(each_.scene, before, h_, state), method_.tolerance));
   }
 
   void finish(const State& state) {
@@ -134,14 +127,6 @@ class Watcher {
     return kinetic_energy(each_.scene, state) + elastic_energy(each_.scene, state);
   }
 
-  /// The judge's residual as part of what status ok allows: sqrt(2) for the two residuals, each within the
-  /// tolerance or rounding.
-  double claim(const State& before, const State& after) const {
-    const auto judged = reference::residual_of(each_.scene, before, h_, after);
-    return judged.residual /
-           (std::sqrt(2.0) * std::max(method_.tolerance * judged.scale, judged.rounding) + judged.own);
-  }
-
   const HardCase& each_;
   const Method& method_;
   double h_, start_energy_, start_load_, scale_;
@@ -152,8 +137,13 @@ class Watcher {
 
 }  // namespace
 
-bool Simulated::all_hold() const {
+bool all_hold(const std::vector<Gate>& gates) {
   return std::none_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.fails(); });
+}
+
+double claim_share(const reference::StepResidual& judged, double tolerance) {
+  const double allowed = std::sqrt(2.0) * std::max(tolerance * judged.scale, judged.rounding) + judged.own;
+  return allowed > 0 ? judged.residual / allowed : judged.residual;
 }
 
 Simulated simulate(const HardCase& each, const Method& method, double h, const Watch& watch) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "residual.h"
 #include "step/step.h"
 #include "studies/robustness/hard_cases.h"
 
@@ -27,9 +28,10 @@ struct Simulated {
   std::int64_t steps = 0, steps_ok = 0, sweeps = 0;
   pbd::Status worst = pbd::Status::ok;
   std::string reason;  // of the first step with that status
-
-  bool all_hold() const;  // no gate fails
 };
+
+/// True if no gate fails.
+bool all_hold(const std::vector<Gate>& gates);
 
 /// How long, and how closely watched.
 struct Watch {
@@ -51,5 +53,9 @@ struct Watch {
 ///   tension    largest relative error of a hanging rope's tension
 ///   recovers   distance of the worst node from the rest shape, rigidly placed, as part of L
 Simulated simulate(const HardCase& each, const pbd::Method& method, double h, const Watch& watch);
+
+/// The judge's residual of a step that says ok, as part of what its tolerance allows: sqrt(2) of that for the
+/// two residuals, each within the tolerance or rounding.
+double claim_share(const pbd::reference::StepResidual& judged, double tolerance);
 
 }  // namespace pbdcheck

@@ -12,8 +12,8 @@
 #include "harness/judges.h"
 #include "harness/measure.h"
 #include "linear/linear_names.h"
-#include "residual.h"
 #include "studies/experiments.h"
+#include "studies/robustness/gates.h"
 #include "studies/robustness/generated.h"
 
 namespace pbdcheck {
@@ -39,13 +39,10 @@ struct Solved {
   bool false_claim() const { return says_ok() && !(claim <= 1); }
 };
 
-/// What status ok allows: either residual up to the tolerance or rounding, hence sqrt(2) times that.
 void judge_claim(const Case& each, const Method& method, const State& end, Solved& solved) {
   const auto found = reference::residual_of(each.scene, each.scene.initial, each.h, end);
   solved.judged = found.scale > 0 ? found.residual / found.scale : found.residual;
-  const double allowed =
-      std::sqrt(2.0) * std::max(method.tolerance * found.scale, found.rounding) + found.own;
-  solved.claim = allowed > 0 ? found.residual / allowed : found.residual;
+  solved.claim = claim_share(found, method.tolerance);
 }
 
 Solved solve_scene(const Case& each, std::string_view relaxation, const std::optional<Judged>& exact) {

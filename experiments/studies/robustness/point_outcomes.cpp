@@ -25,14 +25,14 @@ PointFrontier frontier_of(const HardCase& each, const Method& method, bool full)
   const auto run = [&](const Method& tried, double h) {
     auto simulated = simulate(each, tried, h, watch);
     ++frontier.tried;
-    frontier.passed += simulated.all_hold();
+    frontier.passed += all_hold(simulated.gates);
     return simulated;
   };
   const std::vector<double> all_steps{0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2};
   bool holds = true, solved = true;
   for (std::size_t i = 0; i < all_steps.size() && holds; i += full ? 1 : 3) {
     const auto simulated = run(method, all_steps[i]);
-    holds = simulated.all_hold();
+    holds = all_hold(simulated.gates);
     solved = solved && holds && simulated.steps_ok == simulated.steps;
     if (holds) frontier.largest_step = all_steps[i];
     if (solved) frontier.largest_solved = all_steps[i];
@@ -43,7 +43,7 @@ PointFrontier frontier_of(const HardCase& each, const Method& method, bool full)
     Method tried = method;
     tried.max_sweeps = sweeps[i];
     const auto simulated = run(tried, each.h);
-    holds = simulated.all_hold();
+    holds = all_hold(simulated.gates);
     if (holds && simulated.sweeps == 0) frontier.fewest_sweeps = 0;
     if (!holds || simulated.sweeps == 0) break;
     frontier.fewest_sweeps = sweeps[i];

@@ -53,7 +53,7 @@ TEST_CASE("a hanging rope passes its gates, and a gate sees what is wrong") {
   each.tension = true;
   pbd::Method method;
   const auto good = simulate(each, method, each.h, {10, 10, 3});
-  CHECK(good.all_hold());
+  CHECK(all_hold(good.gates));
   CHECK(good.steps_ok == 10);
   each.scene.initial.v.col(2) = pbd::Vec3(1, 0, 0);  // it swings, and does not settle
   const auto swinging = simulate(each, method, each.h, {10, 10, 3});
@@ -80,6 +80,44 @@ TEST_CASE("a method that gives up early fails the gate of hard rows, and says ok
   const auto early = simulate(swinging_rope(20), method, 0.05, {40, 40, 3});
   const auto names = failing(early);
   CHECK(std::count(names.begin(), names.end(), "hard_rows") == 1);
+  CHECK(early.steps_ok == 0);
+}
+
+TEST_CASE("a step that says ok and ended elsewhere fails the gate of claims") {
+  const HardCase each = swinging_rope(5);
+  pbd::Method method;
+  pbd::Workspace workspace(each.scene, method);
+  pbd::State end = each.scene.initial;
+  REQUIRE(pbd::step(workspace, each.h, end).status == pbd::Status::ok);
+  const auto share = [&] {
+    return claim_share(pbd::reference::residual_of(each.scene, each.scene.initial, each.h, end),
+                       method.tolerance);
+  };
+  CHECK(share() <= 1);
+  end.x(2, 3) += 1e-8;  // m, of a rope of 1 m: a hundred times 1e-8 h g, which the tolerance allows at most
+  end.v(2, 3) += 1e-8 / each.h;
+  CHECK(share() > 1);
+  end.x(2, 3) = std::nan("");
+  CHECK_FALSE(share() <= 1);
+}
+
+TEST_CASE("an iteration that only leads away fails the gate of residuals") {
+  pbd::Method method;
+  method.outer = "incremental";  // its point is not the step's: it comes to that, and no nearer
+  method.relaxation = "direct";
+  method.max_outer = 2;
+  const auto names = failing(simulate(swinging_rope(5), method, 0.2, {3, 3, 0}));
+  CHECK(std::count(names.begin(), names.end(), "residual") == 1);
+}
+
+TEST_CASE("a state that ceases to be finite fails its gate") {
+  HardCase each = swinging_rope(2);
+  for (auto& effect : each.scene.effects)
+    if (auto* links = std::get_if<pbd::Distance>(&effect)) links->compliance.assign(2, 1e-8);
+  pbd::Method method;
+  method.integrator = "symplectic_euler";  // w h = 1e3: it grows a millionfold a step
+  const auto names = failing(simulate(each, method, 0.05, {60, 60, 0}));
+  CHECK(std::count(names.begin(), names.end(), "finite") == 1);
 }
 
 TEST_CASE("a motion that blows up fails the gate of the energy") {

@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "scenes/keys.h"
+#include "validate.h"
 
 namespace pbdcheck {
 namespace {
@@ -18,6 +19,9 @@ pbd::Vec3 Keys::checked_vector(const toml::node& node, std::string_view key) con
   pbd::Vec3 vector;
   for (int i = 0; i < 3; ++i)
     vector[i] = checked_number((*array)[static_cast<std::size_t>(i)], key, Range::finite);
+  if (key == "velocity_m_s" && vector.norm() > pbd::most_speed)  // a scene would refuse it without its line
+    throw pbd::SetupError(where_of(&node, key), shown(node),
+                          fmt::format("a speed up to {:g} m/s", pbd::most_speed));
   return vector;
 }
 

@@ -31,6 +31,8 @@ const std::vector<Mistake> body_mistakes{
      {"scene.toml:15: rigid_body.2", "moments of inertia 0"}},
     {body(sphere + "radius_m = 1\nmass_kg = 1\nheld = \"still\"\n"),
      {"scene.toml:20: rigid_body.2.held", "`still`", "free, fixed, moving"}},
+    {body(sphere + "radius_m = 1\ndensity_kg_m3 = 1\nvelocity_m_s = [1e15, 1e15, 0]\n"),
+     {"scene.toml:20: rigid_body.2.velocity_m_s", "1000000000000000.0", "a speed up to 1e+15 m/s"}},
     {body(sphere + "radius_m = 1\nheld = \"fixed\"\nvelocity_m_s = [1, 0, 0]\n"),
      {"scene.toml:20: rigid_body.2.velocity_m_s", "a fixed body", "moving"}},
     {body("name = \"a\"\nshape = \"box\"\nsize_m = [1, 1]\nmass_kg = 1\n"),

@@ -125,9 +125,9 @@ void verdicts(Context& context, const std::vector<FoundRate>& all) {
                   still, all.size(), least_rate, not_falling),
       "largest measured/bound", above.value(), 1 + rounding);
   const std::string statement = "the solver predicts measured rates between 0.7 and 0.95, ";
-  context.verdict(Basis::theory, "contraction.prediction_stiffening", statement + "stiffening decides",
+  context.verdict(Basis::goal, "contraction.prediction_stiffening", statement + "stiffening decides",
                   "largest |predicted/measured - 1|", stiffened.value(), 0.05);
-  context.verdict(Basis::theory, "contraction.prediction_softening", statement + "compression decides",
+  context.verdict(Basis::goal, "contraction.prediction_softening", statement + "compression decides",
                   "largest |predicted/measured - 1|", softened.value(), 0.05);
 }
 

@@ -1,17 +1,19 @@
 """How do sweeps solve the contacts of a step?"""
 
 from common import curve, figure, footnote, on_log, panels, shared_legend
-from selecting import failed, reasons_note
+from finding import fewer, finding
+from selecting import drawable, failed, good, reasons_note
 from styles import BLACK, style
+from wording import counted, number, share
 
-BOUNDED = {"ista": "bound of ista, 1/k", "fista": "bound of fista, 1/k^2"}
-SHOWN = ("gauss_seidel", "jacobi", "nesterov_jacobi", "power_law", "ista", "fista", "fista_restarted")
+BOUNDED = {"jacobi": "the bound of ista, 1/k", "nesterov_jacobi": "the bound of fista, 1/k²"}
+SHOWN = ("jacobi", "nesterov_jacobi", "power_law", "fista", "fista_restarted")
 
 
-def traces(frame, law, column, label):
-    """One panel a scene, over the sweeps."""
+def traces(frame, law, column, label, low, what):
+    """One panel a scene, over the sweeps; counts the scenes in which each relaxation's last value is at most `low`."""
     frame = frame[frame["law"] == law]
-    scenes = list(frame["scene"].unique())
+    scenes, left = fewer(frame["scene"].unique())
     fig, axes = panels(len(scenes), columns=3, height=2.1, sharey=True)
     for ax, scene in zip(axes, scenes):
         for relaxation, rows in frame[frame["scene"] == scene].groupby("relaxation", sort=False):
@@ -21,29 +23,31 @@ def traces(frame, law, column, label):
     fig.supylabel(label, fontsize=8)
     shared_legend(fig, axes, columns=5)
     ends = frame.sort_values("sweep").groupby(["scene", "relaxation"], sort=False).tail(1)
-    footnote(fig, reasons_note(failed(ends, column)))
+    finding(fig, f"Scenes {what} {number(low)} by the law {law}: " + ", ".join(
+        f"{name} {share((good(rows, column)[column] <= low).sum(), len(rows))}" for name, rows in ends.groupby("relaxation", sort=False)))
+    footnote(fig, left + reasons_note(failed(ends, column)))
     return fig
 
 
 @figure("contact_convergence", "residual", table="traces")
 def residual(frame):
-    return traces(frame, "cone", "natural_residual", "natural residual, of |q| (law cone)")
+    return traces(frame, "cone", "natural_residual", "natural residual, of |q|", 1e-10, "solved to")
 
 
 @figure("contact_convergence", "residual_coulomb", table="traces")
 def residual_coulomb(frame):
-    return traces(frame, "coulomb", "natural_residual", "natural residual, of |q| (law coulomb)")
+    return traces(frame, "coulomb", "natural_residual", "natural residual, of |q|", 1e-10, "solved to")
 
 
 @figure("contact_convergence", "penetration", table="traces")
 def penetration(frame):
-    return traces(frame, "coulomb", "penetration_m", "deepest overlap at the step's end (m, law coulomb)")
+    return traces(frame, "coulomb", "penetration_m", "deepest overlap at the step's end (m)", 1e-9, "that overlap by at most (m)")
 
 
 @figure("contact_convergence", "gaps", table="gaps")
 def gaps(frame):
     """The dual gap over the sweeps with the bounds of theory, one panel a scene."""
-    scenes = list(frame["scene"].unique())
+    scenes, left = fewer(frame["scene"].unique())
     fig, axes = panels(len(scenes), columns=3, height=2.1, sharey=True)
     for ax, scene in zip(axes, scenes):
         here = frame[frame["scene"] == scene]
@@ -52,10 +56,14 @@ def gaps(frame):
         for relaxation, label in BOUNDED.items():
             rows = here[here["relaxation"] == relaxation]
             ax.plot(rows["sweep"], on_log(rows["bound"]), color=BLACK, linewidth=0.8, label=label,
-                    linestyle="--" if relaxation == "ista" else "-")
+                    linestyle="--" if relaxation == "jacobi" else "-")
         ax.set(xscale="log", yscale="log", title=scene, ylim=(1e-12, 10))
     fig.supxlabel("sweeps, set-up included", fontsize=8)
     fig.supylabel("dual gap (F - F*)/(F(0) - F*) (law cone)", fontsize=8)
     shared_legend(fig, axes)
-    footnote(fig, reasons_note(failed(frame, "gap")))
+    of_bound = {name: (rows["gap"] / rows["bound"]).max() for name, rows in frame[drawable(frame, ["gap", "bound"])].groupby("relaxation")}
+    finding(fig, "The dual gap of " + ", that of ".join(
+        f"{name} is at most {number(of_bound[name])} of {label}" for name, label in BOUNDED.items() if name in of_bound)
+        if set(BOUNDED) & set(of_bound) else f"No gap of {counted(len(scenes), 'scene')} can be drawn beside its bound")
+    footnote(fig, left + reasons_note(failed(frame, "gap")))
     return fig

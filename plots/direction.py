@@ -180,13 +180,18 @@ CONTENDERS = {("velocity", "frozen"): ("directions of the step's begin", BLACK, 
               ("stiffness", "proximal"): ("stiffness in M, solved", GREEN, "^")}
 
 
+def contender(family, outer):
+    """Label, colour and marker."""
+    return CONTENDERS.get((family, outer), (f"{family}, {outer}", BLACK, "o"))
+
+
 @figure("direction", "contenders", table="contenders")
 def contenders(frame):
     """The taut chain's largest energy, and the share of steps that miss, over the step in units of the explicit limit."""
     fig, (energy, missed) = panels(2, columns=2, height=2.6, sharex=True)
     frame = frame.assign(missed_share=frame["missed_steps"] / frame["steps"])
     for key, rows in frame.groupby(["family", "outer"], sort=False):
-        label, color, marker = CONTENDERS[key]
+        label, color, marker = contender(*key)
         look = {"color": color, "marker": marker, "linestyle": "-"}
         curve_points(energy, rows.assign(status=rows["status"].replace("not_converged", "ok")), "of_explicit_limit", "energy_highest", label, look)
         rows = rows.sort_values("of_explicit_limit")
@@ -198,17 +203,20 @@ def contenders(frame):
         ax.axvline(1, color=BLACK, linestyle="--", linewidth=0.6)
     fig.supxlabel("step over the explicit limit", fontsize=8)
     shared_legend(fig, [energy, missed], columns=2)
-    finding(fig, "Solved in every step without a gain of energy up to these shares of the explicit limit: " + ", ".join(
-        f"{CONTENDERS[key][0]} {number(steady_step(rows))}" for key, rows in frame.groupby(["family", "outer"], sort=False)))
+    finding(fig, "Stable, and solved where that is claimed, up to these parts of the explicit limit of step: " + ", ".join(
+        f"{contender(*key)[0]} {number(steady_step(rows))}" for key, rows in frame.groupby(["family", "outer"], sort=False)))
     footnote(fig, reasons_note(frame[frame["status"] == "diverged"]))
     return fig
 
 
 def steady_step(rows):
-    """The longest step, in units of the explicit limit, up to which every run is solved and gains no energy; what freezes directions
-    does not claim to solve its steps."""
+    """The longest step, in units s of the explicit limit, up to which every run is stable and solved; what freezes directions does not
+    claim to solve its steps. The energy of a stable explicit scheme moves within (1 + s)/(1 - s) of itself; beyond the limit
+    none is gained."""
     rows = rows.sort_values("of_explicit_limit")
-    steady = (rows["status"] == "ok") & (rows["energy_highest"] <= 1.01) & ((rows["missed_steps"] == 0) | (rows["outer"] == "frozen"))
+    part = rows["of_explicit_limit"]
+    bound = ((1 + part) / (1 - part)).where(part < 1, 1.01)
+    steady = (rows["status"] == "ok") & (rows["energy_highest"] <= bound) & ((rows["missed_steps"] == 0) | (rows["outer"] == "frozen"))
     return rows.loc[steady.cummin(), "of_explicit_limit"].max() if steady.iloc[0] else 0.0
 
 

@@ -8,8 +8,8 @@ from common import curve, draw_failed, figure, footnote, on_log, panels, shared_
 from finding import fewer, finding, first_and_last, guide
 from styles import BLACK, BLUE, RED, style
 from reading import CONTRACTING, LARGEST
-from selecting import failed, good, reasons_note, scene_text, step_text, text_number
-from wording import counted, number, share
+from selecting import drawable, failed, good, reasons_note, scene_text, step_text, text_number
+from wording import counted, number, share, span
 
 REACHED = 1e-8  # an error against Newton that counts as the solution
 CASE = ["scene", "step_s", "mass_ratio"]
@@ -153,6 +153,27 @@ def predicted_rate(frame):
     finding(fig, contracts(frame)[0].upper() + contracts(frame)[1:],
             f"Where a rate is measured it is the predicted one to {100 * off.max():.2g} %" if len(off) else "")
     footnote(fig, reasons_note(failed(frame, "predicted_rate", "measured_rate")))
+    return fig
+
+
+@figure("outer_convergence", "residuals", table="residuals")
+def residuals(frame):
+    """What each end leaves of its step's equations: one line a scene, a mark an outer iteration."""
+    scenes = list(frame["scene"].unique())
+    fig, (ax,) = panels(1, height=0.3 * len(scenes) + 0.6)
+    for (outer, relaxation), rows in frame.groupby(["outer", "relaxation"], sort=False):
+        rows = rows.assign(place=rows["scene"].map(scenes.index) + 1)
+        seen, chosen = good(rows, "residual_share"), look(outer, relaxation) | {"linestyle": "none"}
+        ax.plot(on_log(seen["residual_share"]), seen["place"], markerfacecolor="white", label=f"{outer}, {relaxation}", **chosen)
+        draw_failed(ax, failed(rows, "residual_share"), "residual_share", "place", chosen)
+    ax.set(xscale="log", xlabel="|v - v_free| that no impulses explain, as part of it", ylim=(0.5, len(scenes) + 0.5))
+    ax.set_yticks(range(1, len(scenes) + 1), scenes)
+    shared_legend(fig, [ax])
+    finding(fig, "Of a step's correction the impulses at its end leave open " + ", ".join(
+        f"{span(rows['residual_share'])} by {outer}"
+        for outer, rows in frame[drawable(frame, ["residual_share"])].groupby("outer", sort=False))
+        if drawable(frame, ["residual_share"]).any() else f"None of {counted(len(frame), 'end')} is known")
+    footnote(fig, reasons_note(failed(frame, "residual_share")))
     return fig
 
 

@@ -24,6 +24,8 @@ def outer_convergence(results):
                    "fall near the solution, so there is no rate. Dashed: where the predicted spectral radius is 1."),
             Figure("outer_convergence_predicted_rate", "Measured rate of `plain` against the predicted spectral radius, all "
                    "cases. Crossed under the upper edge: the cases that do not contract, at their predicted rate."),
+            Figure("outer_convergence_residuals", "Where each iteration ends: the share of a step's correction v - v_free that no "
+                   "impulses along the directions there explain, as a judge finds it. Crossed: not solved.", detail=True),
             Figure("outer_convergence_pendulum", "Rate of `plain` on the pendulum, measured and predicted; the spectral "
                    "radius is h² T/(m l) there.")])
     section.tell(results.table("outer_convergence", "map"), rates_text, behaviour_table)

@@ -19,9 +19,9 @@ def contact_convergence(results):
         "no other solution; error and dual gap are those to a judge's, an interior point method, or to the planted one.",
         figures=[
             Figure("contact_convergence_residual", "Natural residual over the sweeps, convex law. Crossed: not solved to 1e-10."),
-            Figure("contact_convergence_residual_coulomb", "The same under Coulomb's law."),
+            Figure("contact_convergence_residual_coulomb", "The same under Coulomb's law.", detail=True),
             Figure("contact_convergence_gaps", "Dual gap over the sweeps, convex law; black: what theory allows `ista` and `fista`."),
-            Figure("contact_convergence_penetration", "How deep the step ends, Coulomb's law.")])
+            Figure("contact_convergence_penetration", "How deep the step ends, Coulomb's law.", detail=True)])
     section.tell(results.table("contact_convergence", "traces"), residual_text)
     section.tell(results.table("contact_convergence", "bounds"), lambda frame: GRADIENTS, bounds_text, bounds_table)
     return section.tell(results.table("contact_convergence", "budgets"), budgets_text, budgets_table)

@@ -61,7 +61,8 @@ def provenance_section(results, experiments):
         holds, total = counts.get("holds", 0), sum(counts.values())
         rows.append([f"`{name}`", shortfall or COMPLETE, f"{holds} of {total} hold" if total else "", str(run.get("date", UNRECORDED)),
                      number(run["load"]) if "load" in run else UNRECORDED, number(run["wall_s"]) if run else ""])
-    section.tables.append(Table("Experiments.", ["experiment", "run", "verdicts", "ended (UTC)", "load", "wall time (s)"], rows))
+    section.tables.append(Table("Experiments.", ["experiment", "run", "verdicts", "ended (UTC)", "load", "wall time (s)"], rows,
+                                detail=True))
     section.tables += [Table(f"Provenance of {listed(names)}.", ["fact", "value"], list(facts))
                        for facts, names in results.producers(experiments).items()]
     used = {"Python": sys.version.split()[0], **{module.__name__: module.__version__ for module in (matplotlib, numpy, pandas, jinja2)}}

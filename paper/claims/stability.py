@@ -8,7 +8,7 @@ from direction import steady_step
 from reading import CONTRACTING
 from sections.motion import equal_work_ratios
 from sections.outer import contact_orders
-from selecting import good, step_text
+from selecting import drawable, good, step_text
 
 
 def converges(rates, touching):
@@ -44,9 +44,9 @@ def contracts(outer, effects, rates, contacts, touching):
     orders = list(contact_orders(some(touching, "contact")))
     powers = [power for *_, power in orders]
     falls = len(powers) > 0 and min(powers) > 0
-    slower = [(scene, law, power) for scene, law, _, power in orders if power < 1.9]
+    slower = [(scene, power) for scene, _, _, power in orders if power < 1.9]
     against = (f"In contact the contraction is not always of order h²: in {share(len(slower), len(orders))} cases the radius falls as h to the power "
-               f"{span([power for *_, power in slower])} ({joined(sorted({f'{scene}, `{law}`' for scene, law, _ in slower}))}).") if slower else ""
+               f"{span([power for _, power in slower])} ({joined(sorted({scene for scene, _ in slower}))}).") if slower else ""
     return Finding(
         judge(False, holds and falls and abs(order - 2) <= 0.1, "a spectral radius below 1"),
         f"The measured rate of `plain` differs from the dense spectral radius, where that is from 0.01 to 0.95, by at most "
@@ -142,7 +142,8 @@ def differ(errors, residuals):
     ends = some(ends.loc[ends.index.isin(solved)], "step that `plain` solves")
     far = ends["incremental"] > 1e3 * ends["plain"]
     apart, same = far.sum(), ends.index[~far].get_level_values("scene").unique()
-    shares = {outer: good(rows, "residual_share")["residual_share"] for outer, rows in residuals.groupby("outer")}
+    known = residuals[drawable(residuals, ["residual_share"])]  # where `incremental` ends is no solution, and says so
+    shares = {outer: rows["residual_share"] for outer, rows in known.groupby("outer")}
     whole, part = (some(shares.get(outer, []), f"end of `{outer}`") for outer in ("plain", "incremental"))
     wider = whole.max() < part.min() / 1e3
     return Finding(

@@ -22,29 +22,27 @@ def contact_convergence(results):
             Figure("contact_convergence_residual_coulomb", "The same under Coulomb's law.", detail=True),
             Figure("contact_convergence_gaps", "Dual gap over the sweeps, convex law; black: what theory allows `ista` and `fista`."),
             Figure("contact_convergence_penetration", "How deep the step ends, Coulomb's law.", detail=True)])
-    section.tell(results.table("contact_convergence", "traces"), residual_text)
-    section.tell(results.table("contact_convergence", "bounds"), lambda frame: GRADIENTS, bounds_text, bounds_table)
-    return section.tell(results.table("contact_convergence", "budgets"), budgets_text, budgets_table)
+    section.tell(results.table("contact_convergence", "traces"), sweeps_table)
+    section.tell(results.table("contact_convergence", "bounds"), lambda frame: GRADIENTS, orders_table, bounds_table)
+    return section.tell(results.table("contact_convergence", "budgets"), nearest_table, budgets_table)
 
 
-def residual_text(frame, target=1e-6):
+def sweeps_table(frame, target=1e-6):
     """Sweeps to a residual, over the scenes, and what is not solved."""
-    parts = []
-    for law, rows in frame.groupby("law", sort=False):
-        reached = sweeps_to(rows.assign(error=rows["natural_residual"]), target).unstack("scene")
-        parts += [f"`{name}` by `{law}` {share(sweeps.notna().sum(), len(sweeps))}, in {span(sweeps)}"
-                  for name, sweeps in reached.iterrows()]
-    return f"Scenes in which the natural residual falls to {number(target)}, and in how many sweeps: {'; '.join(parts)}."
+    laws = list(frame["law"].unique())
+    reached = {law: sweeps_to(rows.assign(error=rows["natural_residual"]), target).unstack("scene") for law, rows in frame.groupby("law", sort=False)}
+    rows = [[f"`{name}`", *(f"{share(sweeps.notna().sum(), len(sweeps))}, in {span(sweeps)}" for sweeps in (reached[law].loc[name] for law in laws))]
+            for name in frame["relaxation"].unique()]
+    return Table(f"Scenes in which the natural residual falls to {number(target)}, and in how many sweeps.",
+                 ["relaxation", *(f"law `{law}`" for law in laws)], rows)
 
 
-def bounds_text(frame):
+def orders_table(frame):
     bounded = frame[frame["bound_share"].notna()]
-    parts = [f"`{name}` {span(rows['bound_share'])}, exponents {span(rows['exponent'])}"
-             for name, rows in bounded.groupby("relaxation", sort=False)]
-    return ("Largest gap over its bound, of `jacobi` over that of `ista` and of `nesterov_jacobi` over that of `fista`, and the fitted "
-            f"exponent of the decrease with k: {'; '.join(parts)}. Fitted over the ten-fold sweeps from where the bound of `fista` falls to "
-            "1; beyond them the decrease is no power any more but linear. The solver's two are beside bounds that are proven for steps of at "
-            "most 1/L without restart.")
+    return Table("Largest dual gap over its bound (of `jacobi` that of `ista`, of `nesterov_jacobi` that of `fista`), and the power of k by "
+                 "which it falls in ten-fold sweeps from where the bound of `fista` is 1. The bounds are proven for steps of at most 1/L "
+                 "without restart.", ["method", "gap over bound", "power of k"],
+                 [[f"`{name}`", span(rows["bound_share"]), span(-rows["exponent"])] for name, rows in bounded.groupby("relaxation", sort=False)])
 
 
 def bounds_table(frame):
@@ -63,13 +61,12 @@ def nearest(frame):
     return found
 
 
-def budgets_text(frame):
+def nearest_table(frame):
     """Which method without a factorisation comes nearest, by budget."""
     sweeping = frame[frame["relaxation"].isin(("gauss_seidel", "jacobi", "nesterov_jacobi", "power_law", "mass_splitting"))]
-    parts = [f"{number(budget)} sweeps: " + ", ".join(f"`{name}` in {count}" for name, count in best.items())
-             for budget, best in nearest(sweeping).items()]
-    names = listed(sweeping["relaxation"].unique())
-    return f"Scenes in which each of {names} has the smallest dual gap, by the sweeps it may take: {'; '.join(parts)}."
+    names, found = list(sweeping["relaxation"].unique()), nearest(sweeping)
+    return Table("Scenes in which each method has the smallest dual gap, by the sweeps it may take.", ["sweeps", *(f"`{name}`" for name in names)],
+                 [[number(budget), *(str(best.get(name, 0)) for name in names)] for budget, best in found.items()], detail=True)
 
 
 def budgets_table(frame):

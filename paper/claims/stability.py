@@ -163,7 +163,7 @@ def stops_soft(stretches):
         soft.append(len(rows) > 1 and beyond.iloc[0] > max(0.01 * rows["physical_m"].iloc[0], 1e-9) and beyond.iloc[0] > beyond.iloc[-1])
         if scene == "chain" and not compliance and relaxation == "gauss_seidel" and len(rows):
             few, many = rows.iloc[0], rows.iloc[-1]
-            parts.append(f"{number(few['stretch_m'])} m after {counted(few['sweeps'], 'sweep')} a step and {number(many['stretch_m'])} m after "
+            parts.append(f"{number(few['stretch_m'])} m after {counted(int(few['sweeps']), 'sweep')} a step and {number(many['stretch_m'])} m after "
                          f"{number(many['sweeps'])} at h = {step_text(step)}")
     apart = stopped.loc[(stopped["relaxation"] == "gauss_seidel") & (stopped["scene"] == "chain"), "error"].max(skipna=False)
     count = sum(soft)

@@ -44,11 +44,15 @@ Touching at_edges(const ContactPoint& contact, const Frame& a, const Frame& b) {
   return rounded(contact, -normal.dot(apart), normal, y_a + s * e_a, y_b + t * e_b);
 }
 
-/// The deepest point along -n of a's rim about y, or y where there is none.
+/// The deepest point along -n of a's rim about y, or y where there is none. A rim that leans by no more than
+/// rounding is as deep all round: its point would jump in each iteration.
 Vector3d on_rim(const ContactPoint& contact, const Frame& a, const Vector3d& y, const Vector3d& n) {
   if (!(contact.rim_a > 0)) return y;
-  const Vector3d axis = a.rotation * contact.direction_a;
-  return y - contact.rim_a * unit_across(across(n, axis), axis);
+  const Vector3d axis = a.rotation * contact.direction_a, lean = across(n, axis);
+  constexpr double flat = 1e-13;  // rad
+  const Vector3d down =
+      lean.norm() > flat ? Vector3d(-unit_across(lean, axis)) : Vector3d(a.rotation * contact.across_a);
+  return y + contact.rim_a * down;
 }
 
 /// The point of a's rim about y that is nearest to the line through `on_line`: where the derivative of its
@@ -101,6 +105,7 @@ ContactPoint placed(const ContactPoint& contact, const Frame& a, const Frame& b)
   moved.point_b = b.place(contact.point_b);
   moved.direction_a = a.rotation * contact.direction_a;
   moved.direction_b = b.rotation * contact.direction_b;
+  moved.across_a = a.rotation * contact.across_a;
   return moved;
 }
 

@@ -9,7 +9,8 @@
 // y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
 // are rounded by. A rim, the edge of a disc about a's point of radius rim_a across direction_a, is the point
 // of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis, n
-// of a line that at y_a itself (face and line alone). Normals point from b to a: the impulse of a
+// of a line that at y_a itself (face and line alone). A rim that lies flat on a plane touches at the point
+// R_a across_a, which stays where it is. Normals point from b to a: the impulse of a
 // contact pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a - velocity of b)
 // at the touching points.
 #pragma once
@@ -30,6 +31,7 @@ struct ContactPoint {
   Eigen::Vector3d point_a, point_b;  // m
   Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or of its rim's axis
   Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line
+  Eigen::Vector3d across_a = Eigen::Vector3d::Zero();     // unit: to the point of a rim that lies flat
   double radius_a = 0, radius_b = 0;                      // m
   double rim_a = 0;                                       // m
   double side = 1;                                        // edges: the sign of e_a x e_b in n

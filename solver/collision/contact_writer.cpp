@@ -40,6 +40,7 @@ void ContactWriter::write(ContactPoint contact, std::uint64_t key, double gap) c
   contact.point_b = frame_b.rotation.transpose() * (contact.point_b - frame_b.origin);
   contact.direction_a = frame_a.rotation.transpose() * contact.direction_a;
   contact.direction_b = frame_b.rotation.transpose() * contact.direction_b;
+  contact.across_a = frame_a.rotation.transpose() * contact.across_a;
   out.push_back(contact);
 }
 

@@ -154,10 +154,8 @@ struct CylinderPair {
   void write_axis(const CylinderAxis& axis) const {
     const double gap = axis.apart - a.radius;
     if (axis.of == CylinderAxis::Of::face) {
-      ContactPoint contact = on_face(b.cap(b.axis.dot(axis.normal) > 0 ? 1 : -1), 0,
-                                     a.node(a.corner(axis.i, 0)), -axis.normal, a.radius);
-      contact.direction_a = b.axis;
-      contact.rim_a = b.radius;
+      const ContactPoint contact = on_plane_by_rim(b, b.axis.dot(axis.normal) > 0 ? 1 : -1,
+                                                   a.node(a.corner(axis.i, 0)), -axis.normal, a.radius);
       return writer.exchanged().rewrite(contact, writer.key(Feature::face, axis.i, Feature::rim, 0), gap);
     }
     if (axis.of == CylinderAxis::Of::edge)

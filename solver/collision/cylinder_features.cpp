@@ -22,6 +22,7 @@ ContactPoint on_plane_by_rim(const PlacedCylinder& a, int end, const Vec3& on_pl
                              double radius_b) {
   ContactPoint contact = on_face(a.cap(end), 0, on_plane, normal, radius_b);
   contact.direction_a = a.axis;
+  contact.across_a = a.across;
   contact.rim_a = a.radius;
   return contact;
 }

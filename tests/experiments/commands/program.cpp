@@ -84,7 +84,7 @@ TEST_CASE("an interrupted simulation exits with 3 and leaves complete files of w
   const TemporaryFolder folder;
   const auto ran =
       run_program({"simulate", scenes / "pendulum.toml", "--set", "step.duration_s=1e6", "-o", folder.path},
-                  "timeout --preserve-status -s INT 1");
+                  "timeout --preserve-status -s INT 3");
   CHECK(ran.exit_code == 3);
   const auto record = record_of(folder.path);
   CHECK(record["status"] == "interrupted");

@@ -64,13 +64,16 @@ Step balls() {
   return step;
 }
 
-/// A ball of 1 kg that falls on the ground at 1 m/s and leaves it at `after`, pressed as that takes.
-Step bounce(double restitution, double after) {
+/// A ball of 1 kg that falls on the ground at 1 m/s and leaves it at `after`, pressed as that takes; above 0 m/s
+/// another falls freely beside it.
+Step bounce(double restitution, double after, double beside = 0) {
   pbdcheck::BodyScene scene(ContactLaw{.friction = 0, .restitution = restitution}, g);
   scene.ground();
   scene.ball(0.1, 1, {.position = {0, 0, 0.105}, .velocity = {0, 0, -1}});
+  if (beside > 0) scene.ball(0.1, 1, {.position = {1, 0, 50}, .velocity = {0, 0, -beside}});
   Step step(scene.finish());
   step.end.v.col(1).z() = after;
+  if (beside > 0) step.end.v.col(2).z() -= h * g;
   step.move();
   step.contacts.push_back({.collider = {1, 0},
                            .point = step.end.x.col(1) - Vec3(0, 0, 0.1),
@@ -157,6 +160,8 @@ TEST_CASE("rebound and energy: collisions end at their speed, and no damping giv
   }
   // Gravity may be allowed h g (v1 - v0)/2 alone, which is what it gives a ball that keeps its speed.
   CHECK(refuted(bounce(1, 1 + 1e-6)) == Names{"energy", "rebound"});
+  CHECK(refuted(bounce(1, 1, 100)).empty());  // another ball falls far beside it
+  CHECK(refuted(bounce(1, 1.1, 100)) == Names{"energy", "rebound"});
   CHECK(refuted(damped_spring(1)).empty());
   CHECK(refuted(damped_spring(-1)) == Names{"energy"});
 }

@@ -64,8 +64,8 @@ Step balls() {
   return step;
 }
 
-/// A ball of 1 kg that falls on the ground at 1 m/s and leaves it at `after`, pressed as that takes; above 0 m/s
-/// another falls freely beside it.
+/// A ball of 1 kg that falls on the ground at 1 m/s and leaves it at `after`, pressed as that takes; above 0
+/// m/s another falls freely beside it.
 Step bounce(double restitution, double after, double beside = 0) {
   pbdcheck::BodyScene scene(ContactLaw{.friction = 0, .restitution = restitution}, g);
   scene.ground();

@@ -72,8 +72,8 @@ def accuracy_told(points):
         return "none", "", (f"In none of {counted(len(ours), 'scene')} does a method of ours come to an error of {number(LEVELS[-1])}.")
     return (number(ratio.median()), "times as long for an error a million times smaller",
             f"To reach an error of {number(LEVELS[-1])} our quickest method takes {number(ratio.median())} times as long as for "
-            f"{number(LEVELS[0])}. That is the median over {share(reached, len(ours))} pairs of scene and step; the range is {span(ratio)} times, and "
-            f"{span(1e3 * ours[LEVELS[-1]])} ms a step. Newton's method with CHOLMOD is quicker than all our methods in "
+            f"{number(LEVELS[0])}. That is the median over {share(reached, len(ours))} pairs of scene and step; the ratio ranges over {span(ratio)}. "
+            f"A step takes {span(1e3 * ours[LEVELS[-1]])} ms. Newton's method with CHOLMOD is quicker than all our methods in "
             f"{share(wins, entered)} rows that it enters. See [#work_precision].")
 
 

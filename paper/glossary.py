@@ -32,7 +32,7 @@ WORDS = {
     "judge": "a reference solver that shares no code with the solver",
     "rival": "another method, written for speed, to compare with",
     "gate": "a bound that a simulation of a hard case must keep",
-    "verdict": "a size beside its bound: it holds if it is from 0 to that; not a number never holds. A time is not decided if its repeats lie on both "
+    "verdict": "a size beside its bound: it holds if it lies from 0 to the bound, and never if it is not a number. A time is not decided if its repeats lie on both "
                "sides of the bound, a goal is missed, and neither is a failure",
     "`ok`, `not_converged`, `diverged`, `skipped`": "how a solve ended: solved, tolerance missed, residual or energy grew without bound, not tried",
     "tier": "`quick` or `full`: how large and how many the cases of a run are",

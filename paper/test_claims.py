@@ -126,7 +126,7 @@ AGAINST = {
     1: "`plain` converges in 4 of 12 cases of `pendulum` and `chain20`, on the 20-link chain only for h <= 1/240 s.",
     2: "In contact the contraction is not always of order h²: in 2 of 6 cases the radius falls as h to the power 1 (ball rolls on a ball).",
     5: "On the taut chain refreshed directions alone (`plain`) are solved and stable up to 0.45 of the explicit limit of step, frozen ones "
-       "are stable up to 0.9; with a bound of the geometric stiffness added to the mass matrix it is 8.",
+       "are stable up to 0.9; `proximal`, with a bound of the geometric stiffness in the mass matrix, is up to 8.",
     9: "Newmark's rule with alpha = 1/2 fails: on `hard pendulum` it diverges (energy grew by ten times its scale; the energy moves by up "
        "to 5.24e3 of its scale).",
     13: "Under the convex law `cone`, the paper's, a sliding cube lifts by 1 m.",

@@ -38,8 +38,8 @@ def nothing_overlaps(traces, answers, solves):
               held.all() and solved.any() and reached.any() and all_at_most(left, 1e-9),
               f"{share(solved.sum(), len(rules))} relaxations and laws"),
         f"One step's contacts by the convex law are solved by `nesterov_jacobi` in {share(reached.sum(), len(paper))} scenes, in "
-        f"{span(paper.loc[reached, 'sweep'])} sweeps; what is solved overlaps by at most {number(left.max(skipna=False))} m. {against} Columns, pyramids and slabs at rest overlap by at most {number(deepest)} of their size; p u of a pile's contacts is what the "
-        f"tolerance allows in {share(solved.sum(), len(rules))} solves.", number(deepest), number(rows["bound"].iloc[0]), against)
+        f"{span(paper.loc[reached, 'sweep'])} sweeps; what is solved overlaps by at most {number(left.max(skipna=False))} m. {against} Columns, pyramids and slabs at rest overlap by at most {number(deepest)} of their size; In {share(solved.sum(), len(rules))} solves of a pile "
+        "impulse times gap speed is within the tolerance.", number(deepest), number(rows["bound"].iloc[0]), against)
 
 
 def coulomb(stopping, incline, headings):
@@ -148,8 +148,8 @@ def late(motions):
     return Finding(
         judge((better & obeys).all(), (better & obeys).any(), f"{share((better & obeys).sum(), len(better))} cases"),
         f"What friction holds creeps by {span(creep.get_group('end'))} m/s where friction comes at the end of the step, by at most "
-        f"{number(creep.get_group('inside').max())} m/s where it is solved within; Coulomb's law is missed by {span(violated.get_group('end'))} "
-        f"of |q| beside {number(violated.get_group('inside').max())}"
+        f"{number(creep.get_group('inside').max())} m/s where it is solved within; the natural residual of Coulomb's law is {span(violated.get_group('end'))} "
+        f"there, and {number(violated.get_group('inside').max())} at most within"
         + (f"; an arch moves by {number(arch['end'])} m beside {number(arch['inside'])} m" if {"inside", "end"} <= set(arch.index) else "")
         + f". Friction within is as near or nearer in {share(better.sum(), len(better))} cases.",
         share((better & obeys).sum(), len(better)), f"{len(better)} of {len(better)}")

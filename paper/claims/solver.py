@@ -43,8 +43,8 @@ def early(gaps):
     nearer = {name: gaps[name] < ours for name in ("gauss_seidel", "power_law")}
     if not any(near.any() for near in nearer.values()):
         return ""
-    return (f"In as many sweeps, set-up included, `gauss_seidel` comes nearer than `nesterov_jacobi` in {share(nearer['gauss_seidel'].sum(), len(gaps))} "
-            f"cases, the authors' step-size heuristic of 2014 in {share(nearer['power_law'].sum(), len(gaps))}; up to 50 sweeps in "
+    return (f"With as many sweeps, set-up included, `gauss_seidel` comes nearer than `nesterov_jacobi` in {share(nearer['gauss_seidel'].sum(), len(gaps))} "
+            f"cases, and the authors' step-size heuristic of 2014 does in {share(nearer['power_law'].sum(), len(gaps))}. With at most 50 sweeps it is "
             + " and ".join(share(near[few].sum(), few.sum()) for near in nearer.values()
                            for few in [near.index.get_level_values("budget") <= 50]) + ".")
 
@@ -77,8 +77,8 @@ def ripples(bounds, budgets):
         judge(none.all() and nearer.all(), fewer.all() and nearer.all(), f"{share(none.sum(), len(on))} scenes; elsewhere it is less"),
         f"Without restart {span(off)} sweeps of a run raise the dual objective, with restart {span(on)}. After {number(budgets['budget'].max())} "
         f"sweeps the gap with restart is smaller in {share(nearer.sum(), len(on))} scenes: {span(last['fista_restarted'])} against "
-        f"{span(last['fista'])}. Both are the experiment's own, by the paper's formula; `nesterov_jacobi`, which always restarts, rises "
-        f"{span(rises['nesterov_jacobi']) if 'nesterov_jacobi' in rises else 'not known how many'} times.",
+        f"{span(last['fista'])}. Both were written for this experiment. With `nesterov_jacobi`, which always restarts, "
+        f"{span(rises['nesterov_jacobi']) if 'nesterov_jacobi' in rises else 'an unknown number of'} sweeps raise it.",
         f"{number(on.max(skipna=False))} rises", "0")
 
 

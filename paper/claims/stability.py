@@ -50,8 +50,8 @@ def contracts(outer, effects, rates, contacts, touching):
     return Finding(
         judge(False, holds and falls and abs(order - 2) <= 0.1, "a spectral radius below 1"),
         f"The measured rate of `plain` differs from the dense spectral radius, where that is from 0.01 to 0.95, by at most "
-        f"{number(apart['measured'])}; on the pendulum it falls as h to the power {number(order)}. In contact that sticks or slides the radius "
-        f"of its map is a judge's, too, and falls as h to the power {span(powers)}. Where the radius is 1 or more "
+        f"{number(apart['measured'])}; on the pendulum it falls as h to the power {number(order)}. In contact that sticks or slides a "
+        f"judge's spectral radius agrees with the solver's and falls as h to the power {span(powers)}. Where the radius is 1 or more "
         f"there is no contraction. {against} The proof itself was not available.".replace("  ", " "),
         number(apart["measured"]), number(apart["bound"]), against)
 
@@ -93,7 +93,7 @@ def satisfied(work, contact):
         f"On `{fewest}` position runs at equal work solved {share(solved, len(ours))}, where velocity stepping, which does not "
         f"claim to solve its steps, came through {share(whole, len(theirs))}.")
     told = [f"{span(found)} on `{scene}`" for scene, found in ratios.items()]
-    overlaps = [f"{span(found)} on `{scene}`" for scene, found in touching.items() if found]
+    overlaps = [f"{span(found)} on `{scene}`" for scene, found in touching.items() if found and min(found) >= 1]
     less = {scene: (sum(ratio < 1 for ratio in found), len(found)) for scene, found in touching.items() if found and min(found) < 1}
     if less:
         against += " " * bool(against) + "In contact velocity stepping with as much work violates less in " + "; ".join(
@@ -122,7 +122,7 @@ def directions_suffice(contenders, cells):
     once = longest.get(("proximal", "stiffness, one linearisation"), 0.0)
     against = "" if refreshed > kept else (
         f"On the taut chain refreshed directions alone (`plain`) are solved and stable up to {number(refreshed)} of the explicit limit of step, "
-        f"frozen ones are stable up to {number(kept)}; with a bound of the geometric stiffness added to the mass matrix it is {number(heavier)}.")
+        f"frozen ones are stable up to {number(kept)}; `proximal`, with a bound of the geometric stiffness in the mass matrix, is up to {number(heavier)}.")
     return Finding(
         judge(part >= 0.5 and refreshed > kept),
         f"Of {total} cells of the chain's map, `frozen` (directions of the start) finds the step in {frozen}, `plain` (directions "
@@ -150,8 +150,8 @@ def differ(errors, residuals):
         judge(apart == len(ends) and wider, wider and apart, f"all that `plain` solves but {listed(same)}"),
         f"Where `plain` (whole multipliers) solves the step, at errors of {span(ends['plain'])}, `incremental` (classic PBD) ends at "
         f"{span(ends['incremental'])}" + (f"; on {listed(same)} both end at the same point." if len(same) else ".")
-        + f" Of the step's correction no impulses along the directions at its end explain {span(100 * whole)} % by `plain`, {span(100 * part)} % by "
-        "`incremental`, as a judge finds.", f"{share(apart, len(ends))} steps apart", f"{len(ends)} of {len(ends)}")
+        + f" A judge finds that impulses along the directions at the end leave {span(100 * whole)} % of the step's correction unexplained with `plain`, "
+        f"{span(100 * part)} % with `incremental`.", f"{share(apart, len(ends))} steps apart", f"{len(ends)} of {len(ends)}")
 
 
 def stops_soft(stretches):

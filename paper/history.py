@@ -119,7 +119,8 @@ def history_section(results, experiments):
                                   f"alone: {joined(map(str, bad))}.")
     if not pairs:
         section.paragraphs.append("No earlier run by another program, on the same machine with the same tier and threads, is in "
-                                  "`history.jsonl`: there is nothing to compare with.")
+                                  "`history.jsonl`: there is nothing to compare with. To get one, run the experiments by both programs into "
+                                  "the same folder, one after the other: each run adds a line.")
         return section
     entries = [(name, before["experiments"][name], now["experiments"][name]) for name, (before, now) in pairs.items()]
     turns = [row for entry in entries for row in turned(*entry)]

@@ -30,10 +30,12 @@ def last_rows(frame, keys):
 
 
 def look(outer, relaxation):
-    """Colour tells the outer iteration; where it runs with Gauss-Seidel, marker and line are those of Gauss-Seidel."""
+    """Colour tells the outer iteration; marker and line tell whether sweeps solve its problems."""
     chosen = style(outer)
     if relaxation == "gauss_seidel":
         chosen |= {"marker": "v", "linestyle": (0, (1, 1)), "color": BLUE if outer == "incremental" else chosen["color"]}
+    if relaxation == "nesterov_jacobi":
+        chosen |= {"marker": "x", "linestyle": (0, (1, 1))}
     return chosen
 
 
@@ -71,6 +73,7 @@ def errors(frame):
 @figure("outer_convergence", "proximal", table="errors")
 def proximal(frame):
     keeping = ["plain", "proximal", "auto"]
+    frame = frame[frame["relaxation"] != "nesterov_jacobi"]
     compared = frame.groupby(CASE)["outer"].transform(lambda names: names.isin(keeping[1:]).any())
     return error_curves(frame[compared], keeping)
 

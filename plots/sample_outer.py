@@ -17,6 +17,8 @@ def outer_convergence(directory):
             trace = np.minimum(1e3, np.maximum(floor, 0.3 * rate ** np.arange(60)))
             errors += [(scene, step, ratio, outer, "direct", k, float(e) if rate < 30 or k < 20 else float("nan"),
                         status, reason) for k, e in enumerate(trace)]
+            if outer == "plain" and scene == "chain20":
+                errors += [(scene, step, ratio, outer, "nesterov_jacobi", k, 0.5 * 0.9 ** k, "not_converged", "outer iterations spent") for k in range(60)]
             behaviour = "converged" if rate < 0.6 else "converging" if rate < 1 else "oscillating" if rate < 30 else "diverging"
             rates.append((scene, step, ratio, outer, rate, rate * 1.01 if rate < 30 else float("nan"), behaviour,
                           float(trace[-1]), status, reason))

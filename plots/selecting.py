@@ -80,8 +80,12 @@ def missed_note(frame):
 
 
 def text_number(value, digits=3):
-    """A number as text: 0.004, 1e6."""
-    return f"{value:.{digits}g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+    """A number as text: 0.004, 1e-4, 1e6."""
+    text = f"{value:.{digits}g}"
+    if 0 < abs(value) < 1e-3 and "e" not in text:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        text = f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{exponent}"
+    return text.replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 
 
 def scene_text(scene):

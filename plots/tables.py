@@ -47,7 +47,8 @@ TABLES = {
     ("contact_convergence", "budgets"): "scene relaxation budget gap natural_residual penetration_m status reason",
     ("softness", "stretches"): "scene variant relaxation step_s sweeps compliance_m_per_n factor stretch_m expected_m physical_m error "
                                "status reason",
-    ("late_friction", "motions"): "scene variant step_s quantity measured expected unit natural_residual penetration_m status reason",
+    ("late_friction", "motions"): "scene variant step_s quantity measured expected resolved unit natural_residual penetration_m sweeps "
+                                  "steps status reason",
     ("conditioning", "sweeps"): "scene parameter value condition relaxation sweeps residual status reason",
     ("inexact", "solves"): "scene step_s mass_ratio outer relaxation inner_tolerance outer_iterations sweeps row_updates error "
                            "status reason",

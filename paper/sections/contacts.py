@@ -73,9 +73,17 @@ def told(results, experiment, title, question, theory, figures=()):
 
 
 def incline(results):
-    return told(results, "incline", "Does a box on a plane stick and slide as Coulomb's law says?",
+    section = told(results, "incline", "Does a box on a plane stick and slide as Coulomb's law says?",
                 "Boxes of 1e-6 to 1e6 kg rest and slide on planes of several angles. Friction is a millionth above the tangent of the angle, a "
                 "millionth below it, and well below it.", RECURRENCE)
+    return section.tell(results.table("incline", "answers"), creep_text)
+
+
+def creep_text(frame):
+    """How far each law lets a box drift that should stick."""
+    creep = frame[frame["quantity"] == "creep"]
+    parts = [f"`{law}` {number(rows['error'].where(rows['status'] == 'ok').max(skipna=False))}" for law, rows in creep.groupby("friction", sort=False)]
+    return f"The fastest creep by each law, in m/s: {', '.join(parts)}. With friction at the end of the step boxes creep visibly: [#late_friction]."
 
 
 def stopping(results):

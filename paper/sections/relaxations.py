@@ -56,7 +56,7 @@ def fastest_table(errors, target=1e-6):
 def conditioning(results):
     section = Section(
         "What makes a relaxation slow?",
-        "One linearised step from smooth velocities: a chain of 20 links whose tip gets heavier, a cantilever that gets "
+        "One linearised step from smooth velocities: `chain20`, whose tip gets heavier, a cantilever that gets "
         "stiffer, and one that gets nearly incompressible. In how many sweeps does each relaxation bring the residual to 1e-6 of its start?",
         figures=[Figure("conditioning_sweeps", "Sweeps over mass ratio, Young's modulus and distance from incompressibility. Crossed "
                         "under the upper edge: the residual is not reached in the sweeps allowed.")])

@@ -2,6 +2,7 @@
 
 from content import Figure, Section, Table, listed, number, share, span
 from sections.relaxations import sweeps_to
+from selecting import step_text
 
 GRADIENTS = (
     "The convex law makes the step's impulses the minimum of F(p) = p.W p/2 + q.p over the cones. With a_i = trace(W_ii)/3 and L the "
@@ -111,11 +112,15 @@ def softness_table(frame):
                    number(r["physical_m"]), r["status"]] for _, r in frame.iterrows()], detail=True)
 
 
-LATE = (
+FRICTION_AT_END = (
     "With friction at the end of the step, normal impulses without friction move the bodies, and then the slip of each contact is braked "
     "once, one after the other, by at most mu times its normal impulse. Velocities are changed, positions keep what they slid: what "
     "friction holds creeps at h a, a the acceleration that friction would balance. The contender is ours, made of the solver's rows; a "
-    "box with infinite inertia, which never turns, obeys the formula to rounding.")
+    "box with infinite inertia, which never turns, obeys the formula to rounding. The threshold is the friction, or the push, at which a "
+    "body begins to slide, over what Coulomb's law says; it is measured to a hundredth.")
+
+
+LATE = {"within": "within the step", "end": "at the end of the step"}
 
 
 def late_friction(results):
@@ -124,20 +129,29 @@ def late_friction(results):
         "A box on an incline of 20 degrees and a pushed stack, held by friction a tenth and two times larger than needed; where they begin "
         "to slide; an arch a fifth thicker than it has to be. Friction is solved together with the normal impulses, or after them.",
         figures=[Figure("late_friction_creep", "Creep of what friction holds, over the step.")])
-    return section.tell(results.table("late_friction", "motions"), lambda frame: LATE, late_text, late_table)
+    return section.tell(results.table("late_friction", "motions"), lambda frame: FRICTION_AT_END, late_text, late_table)
 
 
 def late_text(frame):
     parts = []
     for (scene, quantity), rows in frame[frame["quantity"] != "creep"].groupby(["scene", "quantity"], sort=False):
-        sides = [f"{number(r['measured'])} ({r['variant']})" for _, r in rows.iterrows()]
-        parts.append(f"{quantity} of the {scene} {' and '.join(sides)} {rows['unit'].iloc[0]}")
-    residuals = "; ".join(f"{variant} {span(rows['natural_residual'])}" for variant, rows in frame.groupby("variant", sort=False))
-    return f"Beside the creep: {'; '.join(parts)}. Natural residual of Coulomb's law, the largest of each run: {residuals}."
+        sides = [f"{number(r['measured'])} with friction {LATE[r['variant']]}" for _, r in rows.iterrows()]
+        parts.append(f"The {quantity} of the {scene} is {' and '.join(sides)}{' m' if rows['unit'].iloc[0] == 'm' else ''}.")
+    return " ".join([*parts, late_cost(frame)])
+
+
+def late_cost(motions):
+    """What each kind of friction costs, in Newton iterations of `direct`."""
+    work = motions.groupby("variant")[["sweeps", "steps"]].sum()
+    each = work["sweeps"] / work["steps"]
+    return (f"A step takes {number(each['within'])} iterations of `direct` with friction within it, {number(each['end'])} with friction at its end "
+            "(for the normal impulses).")
 
 
 def late_table(frame):
-    return Table("Friction within the step and at its end.", ["scene", "friction", "step", "quantity", "measured", "expected", "unit",
-                                                              "natural residual", "overlap (m)", "status"],
-                 [[r["scene"], r["variant"], number(r["step_s"]), r["quantity"], number(r["measured"]), number(r["expected"]), r["unit"],
-                   number(r["natural_residual"]), number(r["penetration_m"]), r["status"]] for _, r in frame.iterrows()], detail=True)
+    return Table("Friction within the step and at its end. Expected: by Coulomb's law, but of what creeps with friction at the end h a. Natural "
+                 "residual: of Coulomb's law, the largest of the run.",
+                 ["scene", "friction", "step", "quantity", "measured", "expected", "unit", "natural residual", "overlap (m)", "sweeps a step", "status"],
+                 [[r["scene"], LATE[r["variant"]], step_text(r["step_s"]), r["quantity"], number(r["measured"]), number(r["expected"]), r["unit"],
+                   number(r["natural_residual"]), number(r["penetration_m"]), number(r["sweeps"] / r["steps"]), r["status"]]
+                  for _, r in frame.iterrows()], detail=True)

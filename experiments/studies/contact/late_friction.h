@@ -9,12 +9,13 @@
 
 namespace pbdcheck {
 
-enum class FrictionPlace { inside, end };
+enum class FrictionPlace { within, end };  // the step
 
 /// What a step was, beside its end.
 struct PlacedFriction {
   double residual = 0;     // natural residual of Coulomb's law by the step's impulses, |map| / |q|
   double penetration = 0;  // m, deepest overlap at the end of its positions, as linearised
+  int sweeps = 0;          // that its contacts took, by `direct`
   bool solved = false;     // its contacts, with friction or without, to 1e-12
 };
 

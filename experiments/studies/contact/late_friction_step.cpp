@@ -37,7 +37,7 @@ PlacedFriction step_with(FrictionPlace place, const Scene& scene, double h, Stat
   const ConeProblem problem = cone_problem(step.rows(), step.v_free());
   ConeProblem smooth = problem;
   smooth.friction.setZero();
-  const ConeSolution solved = solve_placed(place == FrictionPlace::inside ? problem : smooth);
+  const ConeSolution solved = solve_placed(place == FrictionPlace::within ? problem : smooth);
   VectorXd impulse = solved.impulse;
   State next = step.end(moved_by(step.rows(), step.v_free(), impulse));
   const VectorXd u = problem.velocity(impulse);
@@ -53,6 +53,7 @@ PlacedFriction step_with(FrictionPlace place, const Scene& scene, double h, Stat
   }
   state = next;
   PlacedFriction found;
+  found.sweeps = solved.iterations;
   found.solved = solved.outcome == Outcome::ok;
   found.residual = measure_cone(problem, FrictionLaw::coulomb, impulse).natural_residual;
   if (problem.contacts() > 0)

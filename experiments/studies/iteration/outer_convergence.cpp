@@ -114,6 +114,7 @@ void error_curves(Context& context, Table& errors) {
     const State start = start_of(each);
     const auto judged = truth(each.scene, start, each.h);
     for (const auto& [outer, relaxation, iterations] : {std::tuple{"plain", "direct", 60},
+                                                        {"plain", "nesterov_jacobi", 60},
                                                         {"proximal", "direct", 60},
                                                         {"auto", "direct", 200},
                                                         {"incremental", "direct", 60},

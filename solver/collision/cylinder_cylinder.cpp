@@ -59,14 +59,15 @@ void look_along_rims(const PlacedCylinder& own, const PlacedCylinder& other, con
 
 /// To a local maximum of what is between them, uphill from the direction: Newton's method on the sphere,
 /// where the slope is what lies between their farthest points, and rims bend it by radius over sine of the
-/// angle to the axis.
+/// angle to the axis. The sphere bends it the other way where they overlap; its part is taken with the sign
+/// that leads uphill.
 void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
-  constexpr int most_steps = 10, most_halvings = 5;
+  constexpr int most_steps = 30, most_halvings = 5;
   for (int k = 0; k < most_steps; ++k) {
     const Vec3 n = way.normal;
     Vec3 between = a.centre - b.centre;
     const Eigen::Matrix3d along_n = n * n.transpose();
-    Eigen::Matrix3d bend = a.radius * along_n + way.apart * (Eigen::Matrix3d::Identity() - along_n);
+    Eigen::Matrix3d bend = a.radius * along_n + std::abs(way.apart) * (Eigen::Matrix3d::Identity() - along_n);
     for (const PlacedCylinder* own : {&a, &b}) {
       const Vec3 aside = n - n.dot(own->axis) * own->axis;
       const double sine = aside.norm();

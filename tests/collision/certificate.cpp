@@ -56,6 +56,13 @@ void look(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, 
   }
 }
 
+/// The point of a cylinder that is farthest along a direction that is none of its own, in the world (m).
+Vec3 farthest_on_rim(const Cylinder& cylinder, const Frame& at, const Vec3& along) {
+  const Vec3 axis = at.rotation.col(2), aside = along - along.dot(axis) * axis;
+  return at.origin + std::copysign(cylinder.length / 2, along.dot(axis)) * axis +
+         cylinder.radius * aside.normalized();
+}
+
 }  // namespace
 
 TEST_CASE("contacts of cylinders are nearest points, with a proof") {
@@ -117,6 +124,38 @@ TEST_CASE("what has just entered a cylinder is as deep in it as it went") {
   INFO(kind << " of " << seen);
   CHECK(seen > 200);
   CHECK(deep == 0);
+}
+
+TEST_CASE("cylinders whose rims go through each other are told a way out that none nearby is shorter than") {
+  // Along the shortest way nearby the deepest points of both lie on one normal; not so where it is across a
+  // side, near which the deepest point jumps from one end of the side to the other.
+  constexpr double near_side = 0.02, off_normal = 1e-5;  // off normal (rad) by the root of rounding, and more
+  Random random(7);
+  int seen = 0, longer = 0;
+  for (int number = 0; number < 100000; ++number) {
+    const auto a = std::get<Cylinder>(random_shape("cylinder", random));
+    const auto b = std::get<Cylinder>(random_shape("cylinder", random));
+    const Frame at_a{0.5 * random.vector(), random.rotation()}, at_b{Vec3::Zero(), random.rotation()};
+    Touching deepest;
+    deepest.gap = 0;
+    for (const auto& contact : contacts(a, at_a, b, at_b, 0)) {
+      Touching t = touch(contact, at_a, at_b);
+      if (contact.swapped) t.normal *= -1;
+      if (t.gap < deepest.gap) deepest = t;
+    }
+    const auto across_rim = [&](const Frame& at) {
+      const Vec3 axis = at.rotation.col(2);
+      return std::abs(deepest.normal.dot(axis)) > near_side && deepest.normal.cross(axis).norm() > near_side;
+    };
+    const double depth = -deepest.gap;
+    if (!(depth > 0 && depth < 0.02 && across_rim(at_a) && across_rim(at_b))) continue;
+    ++seen;
+    const Vec3 through = farthest_on_rim(b, at_b, deepest.normal) - farthest_on_rim(a, at_a, -deepest.normal);
+    if (!(through.cross(deepest.normal).norm() <= off_normal)) ++longer;
+  }
+  INFO("of " << seen);
+  CHECK(seen > 200);
+  CHECK(longer == 0);
 }
 
 TEST_CASE("what has a point in common with a closed mesh or a cylinder is told to overlap it") {

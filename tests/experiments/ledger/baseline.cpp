@@ -68,7 +68,8 @@ TEST_CASE("a baseline tells what changed of its tables, and nothing else") {
            {"100", "113", "sweeps is 113, was 100"},
            {"diverged", "ok", "status is ok, was diverged"},
            {"force_n", "push_n", "no column `force_n` any more"},
-           {"chain,0.01,nan,0,200,0.25,diverged\n", "", "motion: 1 rows, were 2"}}) {
+           {"chain,0.01,nan,0,200,0.25,diverged\n", "", "motion: 1 rows, were 2"},
+           {"chain,", "chain,0.01,nan,0,200,0.25,diverged\nchain,", "motion: 3 rows, were 2"}}) {
     INFO(was << " -> " << is);
     const auto found = kept.after(was, is);
     REQUIRE_FALSE(found.empty());

@@ -83,6 +83,9 @@ class LinearisedStep {
   }
 
   void add(const Contact& contact, const ClaimedContact& each, const Placement& end) {
+    for (const int k : each.collider)
+      if (k < 0 || k >= static_cast<int>(contact.collider.size()))
+        throw SetupError(where, "a contact of a node or surface", "contacts of bodies");
     const ContactLaw& law = contact.between(static_cast<std::size_t>(each.collider[0]),
                                             static_cast<std::size_t>(each.collider[1]));
     if (law.restitution > 0 || law.compliance > 0)

@@ -4,8 +4,7 @@
 //   text                                         equal
 //   sweeps, row_updates, outer_iterations        10 % and two
 //   errors, residuals and differences            half of themselves and 1e-11: a factor of 3/2 shows,
-//   rounding
-//                                                does not
+//                                                rounding does not
 //   other numbers                                1e-6 of themselves and 1e-11
 //   times (wall_s, cpu_s)                        not at all: they are not kept
 //

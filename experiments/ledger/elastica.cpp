@@ -125,9 +125,9 @@ void bent_rows(Ledger& rows) {
     }
 }
 
-/// Under a moment of `share` 2 pi E I/L at its end, raised in steps.
 constexpr double rolled_h = 5, rolled_inertia = 0.1;  // s, kg m^2: such links are slow
 
+/// Under a moment of `share` 2 pi E I/L at its end, raised in steps.
 double rolled_distance(const Method& method, double share, int links) {
   Rod rod = make_rod({links, rolled_inertia, 0.1});
   const auto moment = [&](double part) {

@@ -90,6 +90,8 @@ nlohmann::ordered_json ledger_json(const LedgerEntry& entry) {
 LedgerResult ledger_result(const nlohmann::ordered_json& object) {
   const auto verdict = object.at("verdict").get<std::string>();
   const auto found = std::find(ledger_verdict_names.begin(), ledger_verdict_names.end(), verdict);
+  if (found == ledger_verdict_names.end())
+    throw pbd::SetupError("verdict", verdict, "one of " + joined(strings(ledger_verdict_names)));
   return {number_or_nan(object.at("expected")),
           number_or_nan(object.at("measured")),
           number_or_nan(object.at("bound")),

@@ -41,8 +41,10 @@ def nothing_overlaps(traces, answers, solves):
               held.all() and solved.any() and reached.any() and all_at_most(left, 1e-9),
               f"{share(solved.sum(), len(rules))} relaxations and laws"),
         f"One step's contacts by the convex law are solved by `nesterov_jacobi` in {share(reached.sum(), len(paper))} scenes, in "
-        f"{span(paper.loc[reached, 'sweep'])} sweeps; what is solved overlaps by at most {number(left.max(skipna=False))} m. {against} Columns, pyramids and slabs at rest overlap by at most {number(deepest)} of their size; In {share(solved.sum(), len(rules))} solves of a pile "
-        "impulse times gap speed is within the tolerance.", number(deepest), number(rows["bound"].iloc[0]), against)
+        f"{span(paper.loc[reached, 'sweep'])} sweeps; what is solved overlaps by at most {number(left.max(skipna=False))} m. "
+        + (f"{against} " if against else "")
+        + f"Columns, pyramids and slabs at rest overlap by at most {number(deepest)} of their size; in {share(solved.sum(), len(rules))} solves "
+        "of a pile impulse times gap speed is within the tolerance.", number(deepest), number(rows["bound"].iloc[0]), against)
 
 
 def coulomb(stopping, incline, headings):
@@ -141,9 +143,10 @@ def statics(answers, thresholds):
 def late(motions):
     some(motions if {"within", "end"} <= set(motions["variant"]) else [], "run with friction within the step and at its end")
     lawful = motions["expected"].where(motions["quantity"] == "threshold", 0)  # by Coulomb's law what creeps or moves stays
-    off = np.maximum(abs(motions["measured"] - lawful), motions["resolved"]).where(motions["status"] == "ok", np.inf)
-    table = motions.assign(off=off.fillna(np.inf)).set_index(["scene", "step_s", "quantity", "variant"])["off"].unstack("variant")
-    nearer, alike = table["within"] < table["end"], (table["within"] == table["end"]) & np.isfinite(table["end"])
+    off = np.maximum(abs(motions["measured"] - lawful), motions["resolved"]).where(motions["status"] == "ok")
+    table = motions.assign(off=off).set_index(["scene", "step_s", "quantity", "variant"])["off"].unstack("variant")
+    table = table[table["end"].notna()]  # an unsolved run of the rival is no measurement
+    nearer, alike = table["within"] < table["end"], table["within"] == table["end"]
     creep = motions[motions["quantity"] == "creep"].groupby("variant")["measured"]
     violated = motions.groupby("variant")["natural_residual"]
     unsolved = motions[motions["status"] != "ok"]
@@ -152,7 +155,8 @@ def late(motions):
         f"What friction holds creeps by {span(creep.get_group('end'))} m/s where friction comes at the end of the step, by at most "
         f"{number(creep.get_group('within').max())} m/s where it is solved within the step. The natural residual of Coulomb's law is "
         f"{span(violated.get_group('end'))} at the end, and {number(violated.get_group('within').max())} at most within. Friction within the step "
-        f"is nearer to Coulomb's law in {share(nearer.sum(), len(table))} cases, in {alike.sum()} both are as near as is measured."
+        f"is nearer to Coulomb's law in {share(nearer.sum(), len(table))} cases that friction at the end solves, in {alike.sum()} both are as "
+        "near as is measured."
         + "".join(f" On the {r['scene']} friction {LATE[r['variant']]} does not solve every step." for _, r in unsolved.iterrows())
         + f" {late_cost(motions)}",
         share((nearer | alike).sum(), len(table)), share(len(table), len(table)))

@@ -70,9 +70,11 @@ def conditioned_text(frame):
     cases = len(frame.drop_duplicates(["parameter", "value"]))
     parts = [f"`{name}` {reached[name].count()}, in {span(reached[name] / best)} times as many"
              for name in reached if name not in ("conjugate_gradients", "direct")]
+    fewest = all((reached[name] >= best)[reached[name].notna()].all() for name in reached if name not in ("conjugate_gradients", "direct"))
     return (f"The condition of the preconditioned matrix D^-1 N is {span(frame['condition'])}. Of {counted(cases, 'case')} "
-            f"`conjugate_gradients` solve {best.count()}, in {span(best)} sweeps; {'; '.join(parts)}. For bilateral rows conjugate "
-            "gradients need the fewest sweeps; a sweep costs as much as one of Jacobi's, and nothing is factored.")
+            f"`conjugate_gradients` solve {best.count()}, in {span(best)} sweeps; {'; '.join(parts)}. "
+            + ("Conjugate gradients need the fewest sweeps in each of them. " if fewest else "Others need fewer sweeps in some of them. ")
+            + "A sweep of them costs as much as one of Jacobi's, and nothing is factored.")
 
 
 def conditioning_table(frame):

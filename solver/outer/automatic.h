@@ -28,6 +28,7 @@ class Automatic {
   void iterate(StepSystem& system, Progress& progress);
   void forget();
   void forget_stiffness() {
+    pbd::forget(other_);
     if (quasi_newton_) quasi_newton_->forget_stiffness();
   }
   void end(StepSystem& system) { proximal_.end(system); }

@@ -155,7 +155,7 @@ void Workspace::change(std::size_t index, const Effect& effect) {
   if (same_stiffness(before, effect)) return;
   ++data_->system.rows.generation;
   forget(data_->system.solver);
-  if (slot->eliminated) forget_stiffness(data_->outer);
+  forget_stiffness(data_->outer);
 }
 
 std::vector<EffectCost> Workspace::costs() const {

@@ -64,20 +64,32 @@ PlacedRun run_placed(FrictionPlace place, const Scene& scene, double h, double d
 
 constexpr double resolved = 0.01;  // of the share at which bodies begin to slide
 
+struct Threshold {
+  double share = 0;
+  PlacedRun runs;  // the worst of all, and their sums
+};
+
 /// The share of friction (or push) at which the bodies begin to slide: they slide if in the second half they
 /// gain half of the speed that a lack of `resolved` gives them, `acceleration` being what friction balances.
 /// What friction at the end of the step leaves over is no sliding.
-double sliding_threshold(FrictionPlace place, const std::function<Scene(double share)>& held_by, double h,
-                         double acceleration, bool grows) {
+Threshold sliding_threshold(FrictionPlace place, const std::function<Scene(double share)>& held_by, double h,
+                            double acceleration, bool grows) {
   constexpr double duration = 0.5;
+  Threshold found;
   double low = 0, high = 4;
   while (high - low > resolved / 2) {
     const double middle = (low + high) / 2;
-    const bool slides = !(run_placed(place, held_by(middle), h, duration).gained <=
-                          resolved / 2 * acceleration * duration / 2);
+    const PlacedRun run = run_placed(place, held_by(middle), h, duration);
+    found.runs.residual.add(run.residual.value());
+    found.runs.penetration.add(run.penetration.value());
+    found.runs.solved &= run.solved;
+    found.runs.sweeps += run.sweeps;
+    found.runs.steps += run.steps;
+    const bool slides = !(run.gained <= resolved / 2 * acceleration * duration / 2);
     (slides == grows ? high : low) = middle;
   }
-  return (low + high) / 2;
+  found.share = (low + high) / 2;
+  return found;
 }
 
 constexpr std::array place_names{"within", "end"};
@@ -133,15 +145,17 @@ void late_friction(Context& context) {
     const PlacedRun stands = run_placed(place, arch, placed_h, 1);
     table.add("arch", place, placed_h, "displacement", stands.moved, 0, 0, "m", stands);
 
-    const double friction = sliding_threshold(
+    const Threshold friction = sliding_threshold(
         place, [](double share) { return sliding_box(incline_angle, share * std::tan(incline_angle), 0); },
         placed_h, acceleration, false);
-    const double pushed = sliding_threshold(place, pushed_stack, placed_h, push, true);
-    table.add("box on an incline", place, placed_h, "threshold", friction, 1, resolved, "of tan a",
-              run_placed(place, box, placed_h, 1));
-    table.add("pushed stack", place, placed_h, "threshold", pushed, 1, resolved,
-              "of the push that friction holds", run_placed(place, pushed_stack(0.5), placed_h, 1));
-    if (within) thresholds.add(std::abs(friction - 1)), thresholds.add(std::abs(pushed - 1));
+    const Threshold pushed = sliding_threshold(place, pushed_stack, placed_h, push, true);
+    table.add("box on an incline", place, placed_h, "threshold", friction.share, 1, resolved, "of tan a",
+              friction.runs);
+    table.add("pushed stack", place, placed_h, "threshold", pushed.share, 1, resolved,
+              "of the push that friction holds", pushed.runs);
+    if (within)
+      for (const Threshold& each : {friction, pushed})
+        thresholds.add(each.runs.solved ? std::abs(each.share - 1) : std::nan(""));
     context.advance(place_names[static_cast<std::size_t>(place)]);
   }
   table.close();

@@ -2,7 +2,8 @@
 // end of the step, as engines of position based dynamics do it: normal impulses without friction move the
 // bodies; then the slip of each contact is braked once, one after the other, by at most mu times its normal
 // impulse, which changes velocities alone. The positions keep what the step slid:
-//   what friction holds creeps by h a a second, a the acceleration that the missing friction would balance.
+//   what friction holds, and never turns, creeps at h a, a the acceleration that the missing friction would
+//   balance; what turns creeps faster.
 #pragma once
 
 #include "scene.h"

@@ -57,7 +57,8 @@ PlacedFriction step_with(FrictionPlace place, const Scene& scene, double h, Stat
   found.solved = solved.outcome == Outcome::ok;
   found.residual = measure_cone(problem, FrictionLaw::coulomb, impulse).natural_residual;
   if (problem.contacts() > 0)
-    found.penetration = std::max(0.0, -h * u(Eigen::seqN(0, problem.contacts(), 3)).minCoeff());
+    found.penetration =
+        larger(0, -h * u(Eigen::seqN(0, problem.contacts(), 3)).minCoeff<Eigen::PropagateNaN>());
   return found;
 }
 

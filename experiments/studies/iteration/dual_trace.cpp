@@ -61,7 +61,7 @@ void DualTrace::add(std::int64_t sweep, const VectorXd& impulse) {
   samples.push_back({sweep, natural_map(problem, of_->law, impulse).norm() / scale,
                      (velocity - of_->velocity).norm() / scale, gap(impulse, velocity),
                      of_->h * (approach < 0 ? 0 : approach),
-                     rise > std::numeric_limits<double>::epsilon() * terms * rounding});
+                     !(rise <= std::numeric_limits<double>::epsilon() * terms * rounding)});
   impulse_ = impulse;
   velocity_ = velocity;
 }

@@ -97,6 +97,12 @@ Method plain(int iterations, double tolerance, std::string_view friction) {
 
 }  // namespace
 
+double distance_from(const Scene& scene, const State& start, const reference::Judgement& solved,
+                     const State& end) {
+  return rate_columns(scene, end.v - solved.v, end.spin - solved.spin).norm() /
+         change_of(scene, start, solved);
+}
+
 double measured_rate(const Scene& scene, const State& start, double h, const reference::Judgement& solved) {
   constexpr double end = 1e-10, settled = 1e-3;
   constexpr int fewest_restarts = 8, most_restarts = 40, most_iterations = 400;
@@ -156,7 +162,8 @@ bool plain_returns(const Scene& scene, const State& start, double h, const refer
   const Method method = plain(iterations, 1e-12, friction);
   Moved moved = beside(scene, start, h, solved, without_symmetry(scene));
   Workspace workspace(moved.scene, method);
-  return step(workspace, h, moved.start).status == Status::ok;
+  return step(workspace, h, moved.start).status == Status::ok &&
+         distance_from(scene, start, solved, moved.start) < begin;
 }
 
 }  // namespace pbdcheck

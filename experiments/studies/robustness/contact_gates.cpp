@@ -106,7 +106,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
     excess.add(larger(0, kinetic_energy(scene, state) + gravity_energy(scene, state) - start));
     overlap_at_end = reaction = 0;
     for (const ContactForce& contact : workspace.contacts()) {
-      if (!(-contact.gap <= overlap_at_end)) overlap_at_end = -contact.gap;
+      overlap_at_end = larger(overlap_at_end, -contact.gap);
       if (contact.collider[0] == 0) reaction -= contact.force.z();
       if (contact.collider[1] == 0) reaction += contact.force.z();
     }

@@ -23,8 +23,8 @@ struct Watched {
 
 /// The gates of a case; one that the case does not ask for is skipped. `mass` in kg, of all that moves:
 ///    finite              coordinates at the end that are not finite, and diverged steps
-///    energy              largest excess of kinetic and potential energy over the start's and what scripted
-///                        bodies can have given, as part of the start's + m g L
+///    energy              largest excess of kinetic and potential energy over the start's, as part of
+///                        that + m g L; skipped where scripted bodies do work
 ///    penetration         largest overlap, as part of the smallest body's size, 1e-2 while bodies strike
 ///    penetration_at_end  the same where the run ends, 1e-3
 ///    joints              largest error of a joint, as part of the size

@@ -43,8 +43,7 @@ struct Watch {
 /// Simulates a case by steps of h seconds and measures its gates:
 ///   finite     number of coordinates at the end, and of steps, that are not finite or diverged
 ///   energy     largest excess, 0 if there is none, of kinetic + elastic energy over that of the start and
-///   the work of gravity and
-///              forces, as part of the start's + (m g + |f|) L
+///              the work of gravity and forces, as part of the start's + (m g + |f|) L
 ///   hard_rows  largest error of a hard link, as part of its length
 ///   claims     largest residual found by the judge after a step with status ok, as part of what the status
 ///              allows

@@ -51,13 +51,13 @@ Scene toppling() {
 
 double violation_of(const Scene& scene, const Workspace& workspace, const State& state) {
   double most = 0;
-  for (const ContactForce& contact : workspace.contacts()) most = std::max(most, -contact.gap / radius);
+  for (const ContactForce& contact : workspace.contacts()) most = larger(most, -contact.gap / radius);
   for (const Effect& effect : scene.effects)
     if (const auto* ropes = std::get_if<BodyDistance>(&effect))
       for (std::size_t k = 0; k < ropes->body.size(); ++k) {
         const auto& [a, b] = ropes->body[k];
         const double length = (state.x.col(b) - state.x.col(a)).norm();  // points are centres
-        most = std::max(most, std::abs(length / ropes->rest_length[k] - 1));
+        most = larger(most, std::abs(length / ropes->rest_length[k] - 1));
       }
   return most;
 }
@@ -76,7 +76,7 @@ DirectionRun violations(const Scene& scene, const Method& method, double h, doub
     found.missed += report.status != Status::ok;
     if (report.status == Status::diverged) found.status = report.status, found.reason = report.reason;
     const double violation = violation_of(scene, workspace, state);
-    found.violation_largest = std::max(found.violation_largest, violation);
+    found.violation_largest = larger(found.violation_largest, violation);
     squares += violation * violation;
   }
   found.violation_rms = std::sqrt(squares / found.steps);

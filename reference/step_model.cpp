@@ -102,7 +102,7 @@ bool explicit_forces(const StepClaim& claim) {
 }
 
 double level_of(const StepClaim& claim, const StepModel& model) {
-  double speed = 0, mass = 0, size = claim.end.x.cwiseAbs().maxCoeff();
+  double speed = 0, mass = 0, inertia = 0, size = claim.end.x.cwiseAbs().maxCoeff();
   const auto& nodes = model.rigid.nodes;
   for (std::size_t i = 0; i < nodes.first.size(); ++i)
     if (const int u = nodes.first[i]; u >= 0) {
@@ -114,6 +114,7 @@ double level_of(const StepClaim& claim, const StepModel& model) {
     const auto body = static_cast<Eigen::Index>(b);
     const Rotor& rotor = model.rigid.rotors[b];
     if (rotor.unknown < 0) continue;
+    inertia += rotor.inertia.sum();
     for (const State* state : {&claim.start, &claim.end})
       speed += rotor.inertia.dot(state->spin.col(body).cwiseAbs2());
   }
@@ -121,7 +122,7 @@ double level_of(const StepClaim& claim, const StepModel& model) {
     size = std::max({size, joint.point[0].norm(), joint.point[1].norm()});
   const bool told = explicit_forces(claim) || !is_euler_step(claim);
   return claim.tolerance * (told ? claim.scale : scale_of(claim, model.rigid)) +
-         step_rounding * (std::sqrt(speed) + std::sqrt(mass) * size / claim.h);
+         step_rounding * (std::sqrt(speed) + (std::sqrt(mass) * size + std::sqrt(inertia)) / claim.h);
 }
 
 }  // namespace pbd::reference

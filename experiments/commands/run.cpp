@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands/commands.h"
 #include "error.h"
@@ -37,16 +38,35 @@ nlohmann::ordered_json tier_json(const RunOptions& options) {
   return {{"tier", options.tier}};
 }
 
-/// Whether `directory` holds a complete run by this very program, with the same tier and settings.
-bool already_complete(const std::filesystem::path& directory, const RunOptions& options) {
+/// Whether the tables are there, with as many lines as `rows` says and one with their columns.
+bool tables_are_whole(const std::filesystem::path& directory, const nlohmann::ordered_json& rows) {
+  return std::all_of(rows.items().begin(), rows.items().end(), [&](const auto& table) {
+    std::ifstream in(directory / (table.key() + ".csv"));
+    std::int64_t lines = -1;
+    for (std::string line; std::getline(in, line); ++lines)
+      if (in.eof()) return false;  // the last line is cut off
+    return lines == table.value().template get<std::int64_t>();
+  });
+}
+
+/// What a complete run by this very program with the same tier and settings, whose tables are all there, makes
+/// of the exit code; nothing if `directory` holds none.
+std::optional<int> already_complete(const std::filesystem::path& directory, const RunOptions& options) {
   const auto file = directory / "run.json";
-  if (!std::filesystem::is_regular_file(file)) return false;
+  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   std::ifstream in(file);
   const auto record = nlohmann::ordered_json::parse(in, nullptr, false);
   try {
-    return record.is_object() && from_this_build(record) && record.value("status", "") == outcome_names[0] &&
-           record.value("tier", "") == options.tier &&
-           record.value("settings", nlohmann::ordered_json()) == tier_json(options);
+    const bool complete = record.is_object() && from_this_build(record) &&
+                          record.value("status", "") == outcome_names[0] &&
+                          record.value("tier", "") == options.tier &&
+                          record.value("settings", nlohmann::ordered_json()) == tier_json(options) &&
+                          tables_are_whole(directory, record.value("rows", nlohmann::ordered_json()));
+    if (!complete) return std::nullopt;
+    const auto verdicts = record.value("verdicts", nlohmann::ordered_json::object());
+    return verdicts.value(std::string(ruling_names[static_cast<std::size_t>(Ruling::fails)]), 0) > 0
+               ? exit_failed
+               : exit_done;
   } catch (const nlohmann::ordered_json::type_error& error) {
     throw pbd::SetupError(file.string(), error.what(),
                           "a record as `run` writes it; without one the experiment is run again");
@@ -162,8 +182,12 @@ int run(const RunOptions& options, const std::vector<Experiment>& known) {
   int exit_code = exit_done;
   nlohmann::ordered_json history;
   for (const auto& experiment : list) {
-    if (options.resume && already_complete(options.directory / experiment.name, options)) {
-      fmt::print("{}: complete already, skipped\n", experiment.name);
+    const auto before =
+        options.resume ? already_complete(options.directory / experiment.name, options) : std::nullopt;
+    if (before) {
+      fmt::print("{}: complete already{}, skipped\n", experiment.name,
+                 *before == exit_failed ? ", with verdicts that fail" : "");
+      exit_code = std::max(exit_code, *before);
       continue;
     }
     exit_code = std::max(exit_code, run_one(experiment, options, history));

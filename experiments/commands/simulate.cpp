@@ -53,10 +53,22 @@ struct Totals {
   std::int64_t missed() const { return steps - by_status[0]; }
 };
 
+/// What an earlier simulation has written there: a folder holds one.
+void remove_earlier(const std::filesystem::path& directory) {
+  for (const auto* name : {"run.json", "probes.csv", "checks.csv", "simulation.pvd", "bodies.pvd"})
+    std::filesystem::remove(directory / name);
+  if (!std::filesystem::is_directory(directory / "frames")) return;
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "frames"))
+    if (const auto name = entry.path().filename().string();
+        entry.path().extension() == ".vtu" && (name.starts_with("frame_") || name.starts_with("bodies_")))
+      std::filesystem::remove(entry.path());
+}
+
 class Output {
  public:
   Output(const SimulateOptions& options, const SceneFile& file) : file_(file) {
     require_writable(options.directory);
+    remove_earlier(options.directory);
     if (!file.probes.empty()) {
       for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
       probes_.emplace(options.directory / "probes.csv", columns_, &totals_);

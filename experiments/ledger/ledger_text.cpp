@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "error.h"
+#include "scenes/choices.h"
 namespace pbdcheck {
 namespace {
 

@@ -60,7 +60,9 @@ bool Keys::has(std::string_view key) {
 
 double Keys::checked_number(const toml::node& node, std::string_view key, Range range) const {
   const bool is_number = node.is_floating_point() || node.is_integer();
-  const double value = is_number ? *node.value<double>() : 0;
+  double value = 0;
+  if (node.is_floating_point()) value = *node.value<double>();
+  if (node.is_integer()) value = static_cast<double>(*node.value<std::int64_t>());  // beyond 2^53 rounded
   if (!is_number || !within(value, range))
     throw pbd::SetupError(where_of(&node, key), shown(node), description(range));
   return value;

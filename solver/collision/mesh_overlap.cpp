@@ -48,15 +48,16 @@ bool goes_through_a(const MeshPair& pair, int triangle) {
   return false;
 }
 
-/// That the mean of a's nodes is inside the mesh.
+/// That a point inside of a is inside the mesh: of a convex one the mean of its nodes.
 bool holds_middle(const MeshPair& pair) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : pair.a.x) middle += x / static_cast<double>(pair.a.x.size());
+  if (pair.mesh_a != nullptr) middle = pair.writer.frame_a.place(pair.mesh_a->inside);
   MeshPlace place{};
   return nearest_of_mesh(pair.b, middle, 0, place) && place.distance < -pair.flush;
 }
 
-/// Along the normals of the mesh's faces that are cut, of all that are near where a's middle is inside: none
+/// Along the normals of the mesh's faces that are cut, of all that are near where a's inside is inside: none
 /// is cut of meshes that coincide. Lists these faces' nodes in the scratch.
 Overlap below_mesh(const MeshPair& pair) {
   const RoundedPolyhedron& a = pair.a;

@@ -1,7 +1,5 @@
 #include "effects/angle_joint.h"
 
-#include <numbers>
-
 #include "rows/effect_rows.h"
 
 namespace pbd {
@@ -29,8 +27,7 @@ void Constraint<AngleJoint>::evaluate(const AngleJoint& effect, std::size_t i, c
                                       Value& value, Jacobian& jacobian) {
   const Pose &a = *at.body[0], &b = *at.body[1];
   const Twist twist(effect, i, a, b);
-  value[0] =
-      std::remainder(twist.angle - effect.rest_angle[i] - effect.rate[i] * at.time, 2 * std::numbers::pi);
+  value[0] = std::remainder(twist.angle - effect.rest_angle[i] - effect.rate[i] * at.time, period);
   const Vec3 turn = twist.squared > 0 ? twist.to.cross(twist.gradient) : Vec3(a.rotation * effect.axis[i]);
   jacobian << Row3::Zero(), -turn.transpose() * a.turn_per_arc, Row3::Zero(),
       turn.transpose() * b.turn_per_arc;

@@ -35,6 +35,7 @@ struct ClosedMesh {
   double size = 0;      // m, the box's diagonal
   Polyhedron solid;     // a face a triangle
   Points node_normals;  // unit, the faces' normals weighted by their angles at the node
+  Vec3 inside;          // m: half way from the middle of the largest triangle to what is behind it
   BoxTree tree;         // of the triangles' boxes
 };
 

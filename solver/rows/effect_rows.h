@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "rows/effect_constraint.h"
 #include "rows/row_operations.h"
@@ -49,6 +50,8 @@ class EffectRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
     if (kind().damped)
       for (AnyBlock& any : blocks) begin_damping(begin, std::get<Block>(any));
+    else if (has_period)
+      for (AnyBlock& any : blocks) keep_values(begin, std::get<Block>(any));
     return false;
   }
 
@@ -175,6 +178,13 @@ class EffectRows final : public Source {
   }
 
  private:
+  static constexpr bool has_period = requires { C::period; };
+
+  /// The value nearest to `to` of those that a periodic constraint has: within a step it does not jump.
+  static void unwrap(const Value& to, Value& value) {
+    if constexpr (has_period) value[0] += C::period * std::round((to[0] - value[0]) / C::period);
+  }
+
   static Kind kind_of(const E& effect) {
     Kind kind{constraint_count(effect), C::rows};
     kind.of_bodies = BodyEffect<E>;
@@ -189,6 +199,16 @@ class EffectRows final : public Source {
                 Jacobian& jacobian) const {
     const std::size_t entry = block.entry(i);
     C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
+    if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
+  }
+
+  /// Where the step begins.
+  void keep_values(const StepBegin& begin, Block& block) const {
+    Jacobian unused;
+    block.begin_value.clear();  // as they are
+    std::vector<Value> values(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i) evaluate(block, i, begin.at, values[i], unused);
+    block.begin_value = std::move(values);
   }
 
   /// J of constraint i at other positions than its value's.
@@ -205,6 +225,7 @@ class EffectRows final : public Source {
       const std::size_t entry = block.entry(i);
       const auto own = local_at(effect_, entry, block.node[i], place.at);
       C::evaluate(effect_, entry, own, value, block.jacobian[i]);
+      if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
       if (place.directions != nullptr) take_directions(block, i, *place.directions, block.jacobian[i]);
       if (damped) value -= block.offset[i];
       if (!damped) block.compliance[i] = C::compliance(effect_, entry) / (place.map.s * place.map.d);
@@ -226,17 +247,21 @@ class EffectRows final : public Source {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const std::size_t entry = block.entry(i);
       Value value, ahead, behind;
-      evaluate(block, i, begin.at, value, block.jacobian[i]);
+      C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], begin.at), value,
+                  block.jacobian[i]);
       Value from = value;  // c0
       if (c.x_v != 0) from += block.jacobian[i] * (c.x_v * block.gather(begin.v, i));
       if (c.x_a != 0) from += block.jacobian[i] * (c.x_a * block.gather(begin.a, i));
-      if (c.before != 0) from += c.before * (value - block.begin_value[i]);
+      if (c.before != 0) {
+        unwrap(value, block.begin_value[i]);
+        from += c.before * (value - block.begin_value[i]);
+      }
+      block.begin_value[i] = value;
       if (bend_of_rate(c) != 0) {
         evaluate(block, i, begin.ahead, ahead, unused);
         evaluate(block, i, begin.behind, behind, unused);
         from += bend_of_rate(c) * ((ahead - 2 * value + behind) / (c.d * c.d));
       }
-      block.begin_value[i] = value;
       if (i == 0 || !C::one_material)
         share = inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
       block.offset[i] = from - share * from;

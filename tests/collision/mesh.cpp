@@ -196,6 +196,33 @@ TEST_CASE("closed meshes that coincide overlap by their least side") {
   }
 }
 
+TEST_CASE("a ring of triangles touches nothing that stands in its middle, and rings are linked apart") {
+  // 24 x 12 quadrilaterals about circles of radius 1 m and 0.3 m: the hole's radius is 0.7 m.
+  constexpr int around = 24, across = 12;
+  constexpr double turn = 2 * std::numbers::pi;
+  TriangleMesh torus;
+  torus.x.resize(3, around * across);
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double a = turn * i / around, b = turn * j / across, r = 1 + 0.3 * std::cos(b);
+      torus.x.col(across * i + j) << r * std::cos(a), r * std::sin(a), 0.3 * std::sin(b);
+      const auto at = [&](int m, int n) { return across * ((i + m) % around) + (j + n) % across; };
+      torus.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
+      torus.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
+    }
+  const Shape ring = ClosedMesh(torus);
+  const Frame upright{Vec3(1, 0, 0), Eigen::AngleAxisd(turn / 4, Vec3::UnitX()).toRotationMatrix()};
+  for (const bool first : {true, false}) {
+    const Shape post = ClosedMesh(box_surface({0.8, 0.8, 3}));
+    CHECK((first ? contacts(ring, {}, post, {}, 0.01) : contacts(post, {}, ring, {}, 0.01)).empty());
+  }
+  CHECK(contacts(ring, upright, ring, {}, 0.01).empty());
+  double least = infinity;
+  for (const auto& contact : contacts(ring, {}, ring, {}, 0.01))
+    least = std::min(least, touch(contact, {}, {}).gap);
+  CHECK(least < -0.1);  // on itself it overlaps
+}
+
 TEST_CASE("a mesh over a half space touches with its nodes") {
   Random random(43);
   const TriangleMesh surface = refined(shaken_octahedron(random));

@@ -173,6 +173,20 @@ TEST_CASE("constraints: a link is as long as it is to be") {
   CHECK(refuted(step).count("constraints") == 1);
 }
 
+TEST_CASE("constraints: at rest an angle is known to rounding") {
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1));
+  for (const auto& [off, names] : {std::pair{3e-15, Names{}}, {1e-10, Names{"constraints"}}}) {
+    Scene held = scene;
+    held.effects.emplace_back(
+        AngleJoint{{{0, 1}}, {Vec3::UnitY()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {off}, {0}, {0}});
+    Step step(held);
+    step.forces[0] = {0};
+    CHECK(refuted(step) == names);
+  }
+}
+
 TEST_CASE("contacts: force, cone, slip, gap and depth") {
   Step turned = box_on_ground(0.5, 1);
   for (auto& contact : turned.contacts) contact.force.x() *= -1;

@@ -100,6 +100,25 @@ TEST_CASE("an interrupted verify keeps what is done, and --resume does the rest"
   CHECK(counted.first == 2);
 }
 
+TEST_CASE("results of another program are none of a resumed verify's, though it has run nothing yet") {
+  const TemporaryFolder folder;
+  int runs = 0;
+  std::vector<LedgerRow> rows{planted_row("a.first", 1, 1, 1), planted_row("c.slow", 1, 1, 1)};
+  rows[0].run = [&](const pbd::Method&) { return ++runs, 1.0; };
+  rows[1].tier = Tier::full;
+  VerifyOptions options{.directory = folder.path};
+  CHECK(verify(options, rows) == exit_done);
+  auto record = record_of(folder.path / "verify");
+  record["commit"] = "old";
+  folder.write("verify/run.json", record.dump());
+  options.resume = true;
+  options.only = "c.*";
+  CHECK(verify(options, rows) == exit_done);
+  options.only.clear();
+  CHECK(verify(options, rows) == exit_done);
+  CHECK(runs == 2);
+}
+
 TEST_CASE("results that are none are refused by --resume") {
   const TemporaryFolder folder;
   CountedRows counted;

@@ -289,3 +289,21 @@ TEST_CASE("run --resume skips what is complete with the same tier, and repeats t
   CHECK(run(options, samples) == exit_done);
   CHECK(times_counted == 6);
 }
+
+TEST_CASE("run --resume repeats what has lost a table or a part of one, and tells of verdicts that fail") {
+  const TemporaryFolder folder;
+  RunOptions options{.experiments = {"worked"}, .resume = true, .directory = folder.path};
+  CHECK(run(options, samples) == exit_done);
+  const std::string costs = read_text(folder.path / "worked" / "costs.csv"),
+                    verdicts = read_text(folder.path / "worked" / "verdicts.csv");
+  for (const std::size_t left : {costs.size() - 2, costs.size() - 1, std::size_t(40), std::size_t(0)}) {
+    folder.write("worked/costs.csv", costs.substr(0, left));
+    CHECK(run(options, samples) == exit_done);
+    CHECK(read_text(folder.path / "worked" / "costs.csv") == costs);
+  }
+  std::filesystem::remove(folder.path / "worked" / "verdicts.csv");
+  CHECK(run(options, samples) == exit_done);
+  CHECK(read_text(folder.path / "worked" / "verdicts.csv") == verdicts);
+  options.experiments = {"bad"};
+  for (int k = 0; k < 2; ++k) CHECK(run(options, samples) == exit_failed);
+}

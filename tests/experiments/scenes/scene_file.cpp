@@ -18,6 +18,17 @@ const Effect& effect(const SceneFile& file, std::size_t index) {
 
 }  // namespace
 
+TEST_CASE("integers beyond 2^53 are numbers like any other") {
+  const auto file = read(R"(
+[[particle]]
+position_m = [0, -9223372036854775807, 10000000000000001]
+mass_kg = 9007199254740993
+)");
+  CHECK(file.scene.initial.x(1, 0) == -9223372036854775807.0);
+  CHECK(file.scene.initial.x(2, 0) == 1e16);
+  CHECK(file.scene.mass[0] == 9007199254740992.0);
+}
+
 TEST_CASE("particles, forces, anchors, links and hinges are read as written") {
   const auto file = read(R"(
 [[particle]]

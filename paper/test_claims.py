@@ -11,6 +11,7 @@ import pandas as pd
 import answers
 import claims
 from claims.claim import REFUTED, SUPPORTED, UNTESTED, find, judge, worst
+from claims.contact import late
 from results import Results
 from sections.cost import LEVELS
 
@@ -285,6 +286,28 @@ class Answers(unittest.TestCase):
             rows = frame[~frame["outer"].isin(["judge", "rival"])].iloc[[0, 0]]
             return rows.assign(outer="plain", status="ok", wall_s=[1.0, 7.0], error=[0.9 * LEVELS[0], 0.9 * LEVELS[-1]])
         self.assertIn("takes 7 times as long", self.told({"points": points})[0])
+
+
+class LateFriction(unittest.TestCase):
+    """What friction at the end of the step does not solve is no measurement of it."""
+
+    @staticmethod
+    def runs(end_status):
+        rows = [("box", variant, 0.01, "creep", 0.0, 0.0, sweeps, 10, "ok") for variant, sweeps in (("within", 30), ("end", 40))]
+        rows += [("arch", "within", 0.01, "displacement", 0.0, 0.0, 50, 10, "ok"), ("arch", "end", 0.01, "displacement", 1.0, 0.0, 900, 10, end_status)]
+        columns = ["scene", "variant", "step_s", "quantity", "measured", "resolved", "sweeps", "steps", "status"]
+        return pd.DataFrame(rows, columns=columns).assign(expected=0.0, unit="m", natural_residual=0.0, penetration_m=0.0, reason="")
+
+    def test_its_unsolved_runs_count_for_neither(self):
+        found = late(self.runs("not_converged"))
+        self.assertIn("in 0 of 1 cases that friction at the end solves, in 1 both are as near", found.sentence)
+        self.assertIn("a step takes 3 iterations of `direct` with friction within it, 4 with friction at its end", found.sentence)
+        self.assertIn("On the arch friction at the end of the step does not solve every step.", found.sentence)
+
+    def test_its_solved_runs_do(self):
+        found = late(self.runs("ok"))
+        self.assertIn("in 1 of 2 cases", found.sentence)
+        self.assertIn("4 iterations of `direct` with friction within it, 47 with friction at its end", found.sentence)
 
 
 def sample_figures():

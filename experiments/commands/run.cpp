@@ -49,8 +49,8 @@ bool tables_are_whole(const std::filesystem::path& directory, const nlohmann::or
   });
 }
 
-/// What a complete run by this very program with the same tier and settings, whose tables are all there, makes
-/// of the exit code; nothing if `directory` holds none.
+/// What a complete run by this very program with the same tier and settings, whose tables are all there,
+/// makes of the exit code; nothing if `directory` holds none.
 std::optional<int> already_complete(const std::filesystem::path& directory, const RunOptions& options) {
   const auto file = directory / "run.json";
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;

@@ -144,6 +144,8 @@ def late_cost(motions):
     """What each kind of friction costs, in Newton iterations of `direct`, where both solve a run of the same scene."""
     runs = motions[motions["quantity"] != "threshold"].assign(solved=motions["status"] == "ok").set_index(["scene", "step_s", "variant"])
     runs = runs[runs.groupby(level=[0, 1])["solved"].transform("all")]
+    if runs.empty:
+        return "No scene is solved by both, so that their costs cannot be compared."
     work = runs.groupby("variant")[["sweeps", "steps"]].sum()
     each = work["sweeps"] / work["steps"]
     return (f"Where both solve every step, a step takes {number(each['within'])} iterations of `direct` with friction within it, "

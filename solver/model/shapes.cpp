@@ -25,7 +25,8 @@ Vec3 point_inside(const TriangleMesh& surface) {
   std::size_t largest = surface.triangles.size();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
-    const Vec3 corner = surface.x.col(a), across = Vec3(surface.x.col(b) - corner).cross(surface.x.col(c) - corner);
+    const Vec3 corner = surface.x.col(a),
+               across = Vec3(surface.x.col(b) - corner).cross(surface.x.col(c) - corner);
     if (!(across.norm() > most)) continue;
     most = across.norm();
     middle = (corner + surface.x.col(b) + surface.x.col(c)) / 3;

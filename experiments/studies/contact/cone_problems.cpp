@@ -206,8 +206,8 @@ void cone_problems(Context& context) {
                     fmt::format("{} ({})", share, small.found.relaxed.owner()), small.found.relaxed.value(),
                     1);
     context.verdict(Basis::robustness, "cone_problems.large",
-                    "cone_interior_point solves every large problem of the convex law", left,
-                    large.left(), 0);
+                    "cone_interior_point solves every large problem of the convex law", left, large.left(),
+                    0);
   }
   small.close();
   large.close();

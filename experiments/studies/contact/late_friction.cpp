@@ -66,8 +66,18 @@ constexpr double resolved = 0.01;  // of the share at which bodies begin to slid
 
 struct Threshold {
   double share = 0;
-  PlacedRun runs;  // the worst of all, and their sums
+  PlacedRun runs;  // of the two nearest to it on either side: the worst of both, and their sums
 };
+
+PlacedRun both(const PlacedRun& a, const PlacedRun& b) {
+  PlacedRun all = a;
+  all.residual.add(b.residual.value());
+  all.penetration.add(b.penetration.value());
+  all.solved = a.solved && b.solved;
+  all.sweeps += b.sweeps;
+  all.steps += b.steps;
+  return all;
+}
 
 /// The share of friction (or push) at which the bodies begin to slide: they slide if in the second half they
 /// gain half of the speed that a lack of `resolved` gives them, `acceleration` being what friction balances.
@@ -75,21 +85,17 @@ struct Threshold {
 Threshold sliding_threshold(FrictionPlace place, const std::function<Scene(double share)>& held_by, double h,
                             double acceleration, bool grows) {
   constexpr double duration = 0.5;
-  Threshold found;
+  PlacedRun below, above;
+  below.solved = above.solved = false;  // until there is a run
   double low = 0, high = 4;
   while (high - low > resolved / 2) {
     const double middle = (low + high) / 2;
     const PlacedRun run = run_placed(place, held_by(middle), h, duration);
-    found.runs.residual.add(run.residual.value());
-    found.runs.penetration.add(run.penetration.value());
-    found.runs.solved &= run.solved;
-    found.runs.sweeps += run.sweeps;
-    found.runs.steps += run.steps;
     const bool slides = !(run.gained <= resolved / 2 * acceleration * duration / 2);
     (slides == grows ? high : low) = middle;
+    (slides == grows ? above : below) = run;
   }
-  found.share = (low + high) / 2;
-  return found;
+  return {(low + high) / 2, both(below, above)};
 }
 
 constexpr std::array place_names{"within", "end"};

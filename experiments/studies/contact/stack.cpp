@@ -103,7 +103,7 @@ void permuted_pile(KnownAnswers& answers, const Method& method) {
   const ContactRun other = simulate_contacts(reversed(scene), method, contact_h, 10);
   const double apart = (run.end.x - other.end.x.rowwise().reverse()).colwise().norm().maxCoeff();
   answers.add("permuted_motion", "pile", method, contact_h, apart, 0, apart,
-              other.status > run.status ? other : run);
+              run.status > other.status ? run : other);
 }
 
 /// N, vertical forces on the colliders in the last of six steps, while a slab of 0.3 m/s still slides (it

@@ -104,8 +104,8 @@ void absent_is_free(Context& context) {
   padded.effects.emplace_back(Contact{});
   const State a = run_scene(scene).state, b = run_scene(padded).state;
   context.verdict(
-      Basis::theory, "effects.empty.bitwise", "effects that are present and empty change no bit of the result",
-      "entries that differ",
+      Basis::theory, "effects.empty.bitwise",
+      "effects that are present and empty change no bit of the result", "entries that differ",
       static_cast<double>((a.x.array() != b.x.array()).count() + (a.v.array() != b.v.array()).count()), 0);
   std::vector<double> change = ratios(padded, scene);
   for (double& ratio : change) ratio = std::abs(ratio - 1);

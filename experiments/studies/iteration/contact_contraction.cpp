@@ -85,8 +85,8 @@ void write_touching(Context& context, const std::vector<TouchingCase>& all,
                smooth   ? "ok"
                : solved ? "skipped"
                         : "not_converged",
-               smooth   ? ""
-               : solved ? "the map has a kink at the solution"
+               smooth              ? ""
+               : solved            ? "the map has a kink at the solution"
                : std::isnan(apart) ? judged.solved.reason
                                    : fmt::format("the judge's solution is {:.3g} of the step away", apart)});
   }

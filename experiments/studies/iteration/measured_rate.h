@@ -29,11 +29,11 @@ double measured_map_rate(const pbd::Scene& scene, const pbd::State& start, doubl
                          const pbd::reference::Judgement& solved, std::string_view friction);
 
 /// How far `end` is from the solution: of all columns' velocities, over what the step changes of them.
-double distance_from(const pbd::Scene& scene, const pbd::State& start, const pbd::reference::Judgement& solved,
-                     const pbd::State& end);
+double distance_from(const pbd::Scene& scene, const pbd::State& start,
+                     const pbd::reference::Judgement& solved, const pbd::State& end);
 
-/// Whether `plain` returns to the solution from 1e-6 of the step beside it within `iterations`: it ends ok, and
-/// nearer than it began.
+/// Whether `plain` returns to the solution from 1e-6 of the step beside it within `iterations`: it ends ok,
+/// and nearer than it began.
 bool plain_returns(const pbd::Scene& scene, const pbd::State& start, double h,
                    const pbd::reference::Judgement& solved, int iterations,
                    std::string_view friction = "coulomb");

@@ -163,8 +163,9 @@ void off(Context& context) {
     std::get<Distance>(zero.effects[0]).damping = {0, 0};
     count += static_cast<double>(differing(rule, none, zero));
   }
-  context.verdict(Basis::theory, "damping.off", "damping that is absent and damping of zero give the same bits",
-                  "numbers that differ", count, 0);
+  context.verdict(Basis::theory, "damping.off",
+                  "damping that is absent and damping of zero give the same bits", "numbers that differ",
+                  count, 0);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactS
 /// `slack` is what a gap may be off, m.
 void check_rebound(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, double slack, Findings& findings) {
-  const auto& [a, b] = c.collider;
+  const int a = c.collider[0], b = c.collider[1];
   if (!is_euler_step(claim) || explicit_forces(claim) || open.law.compliance > 0 ||
       std::max(a, b) >= sides.count())
     return findings.leave_out("rebound: by this integrator, of what gives way, on surfaces");

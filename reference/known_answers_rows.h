@@ -15,6 +15,10 @@ using Rows = std::vector<KnownAnswer>;
 inline constexpr double pi = std::numbers::pi;
 inline constexpr double g = 9.81;  // m/s^2
 
+inline double radians(double degrees) {
+  return degrees * pi / 180;
+}
+
 /// Decimal without trailing zeros, for statements.
 std::string number(double value);
 

@@ -7,10 +7,6 @@
 namespace pbd::reference::known {
 namespace {
 
-double radians(double degrees) {
-  return degrees * pi / 180;
-}
-
 /// Compression and time of contact of 1 kg on 1000 N/m, by ODE from the touch to the lift.
 Landing landing_by_ode() {
   const auto slope = [](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) {

@@ -9,10 +9,6 @@
 namespace pbd::reference::known {
 namespace {
 
-double radians(double degrees) {
-  return degrees * pi / 180;
-}
-
 double at_end(const Slope& slope, const Eigen::VectorXd& start, double end) {
   return solve_ode(slope, start, {end}).states.back()(0);
 }

@@ -75,15 +75,15 @@ void rope_rows(Ledger& rows) {
        .bound = {.relative = 1e-6, .derivation = "way of a step over the drum's radius 1e-8; tolerance"},
        .expected = [] { return reference::capstan_ratio_of_links(0.5, std::numbers::pi, links); },
        .run = [](const Method& method) { return tension_ratio(method, 0.5, std::numbers::pi, links); }});
-  for (const auto& [friction, turns] : {std::pair{0.1, 0.5},
-                                        {0.2, 0.5},
-                                        {0.2, 1.0},
-                                        {0.3, 0.25},
-                                        {0.3, 0.5},
-                                        {0.3, 1.0},
-                                        {0.5, 0.5},
-                                        {0.5, 1.0}}) {
-    const double angle = 2 * std::numbers::pi * turns;
+  for (const auto& [mu, turns] : {std::pair{0.1, 0.5},
+                                  {0.2, 0.5},
+                                  {0.2, 1.0},
+                                  {0.3, 0.25},
+                                  {0.3, 0.5},
+                                  {0.3, 1.0},
+                                  {0.5, 0.5},
+                                  {0.5, 1.0}}) {
+    const double friction = mu, angle = 2 * std::numbers::pi * turns;
     rows.push_back({.id = fmt::format("capstan.rope_{:g}_{:g}", friction, turns),
                     .statement = "ever shorter links over a drum approach a rope",
                     .quantity = "ratio of the tensions",

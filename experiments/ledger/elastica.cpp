@@ -58,7 +58,7 @@ Rod make_rod(const RodKind& kind) {
     axes.compliance.push_back(0);
     if (i == 0 && kind.pinned) continue;
     springs.body.push_back({body - 1, body});
-    springs.axis.push_back(Vec3::UnitZ());
+    springs.axis.emplace_back(Vec3::UnitZ());
     springs.reference.push_back({Vec3::UnitX(), Vec3::UnitX()});
     springs.rest_angle.push_back(0);
     springs.rate.push_back(0);

@@ -44,7 +44,8 @@ void incline_rows(Ledger& rows) {
                });
              }});
   }
-  for (const auto& [degrees, friction] : {std::pair{30, 0.5}, {20, 0.3}, {10, 0.1}})
+  for (const auto& [degrees, mu] : {std::pair{30, 0.5}, {20, 0.3}, {10, 0.1}}) {
+    const double angle = radians(degrees), friction = mu;
     rows.push_back(
         {.id = fmt::format("friction.slide_{}", degrees),
          .statement = "a box slides down an incline as Coulomb says",
@@ -54,13 +55,13 @@ void incline_rows(Ledger& rows) {
          .scene = fmt::format("box on a plane of {} degrees, friction {:g}, 1 s", degrees, friction),
          .method = direct_method(),
          .bound = {.relative = 1e-9, .derivation = "velocities are exact; tolerance"},
-         .expected =
-             [=] { return gravity * (std::sin(radians(degrees)) - friction * std::cos(radians(degrees))); },
+         .expected = [=] { return gravity * (std::sin(angle) - friction * std::cos(angle)); },
          .run =
              [=](const Method& method) {
-               const Scene scene = sliding_box(radians(degrees), friction, 0);
+               const Scene scene = sliding_box(angle, friction, 0);
                return state_after(scene, method, contact_h, 100).v.col(1).norm();
              }});
+  }
 }
 
 void stopping_rows(Ledger& rows) {

@@ -10,7 +10,7 @@ using namespace pbdcheck;
 
 namespace {
 
-constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Ruling ruling(const Measured& measured, double bound, Basis basis = Basis::code) {
   return Verdict{.basis = basis, .measured = measured, .bound = bound}.ruling();
@@ -22,13 +22,14 @@ TEST_CASE(
     "a size from 0 to its bound holds; beyond it, negative or no number it fails, whatever it rests on") {
   CHECK(ruling(1, 1) == Ruling::holds);
   CHECK(ruling(0, 0) == Ruling::holds);
-  for (const double wrong : {1.0000001, 700.0, -1e-9, -1.0, nan_, std::numeric_limits<double>::infinity()}) {
+  for (const double wrong :
+       {1.0000001, 700.0, -1e-9, -1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
     CAPTURE(wrong);
     for (const Basis basis : {Basis::code, Basis::theory, Basis::paper, Basis::robustness})
       CHECK(ruling(wrong, 1, basis) == Ruling::fails);
     CHECK(ruling(wrong, 1, Basis::goal) == Ruling::missed);
   }
-  CHECK(ruling(1, nan_) == Ruling::fails);
+  CHECK(ruling(1, not_a_number) == Ruling::fails);
 }
 
 TEST_CASE("repeats on both sides of the bound decide nothing, repeats beyond it fail") {
@@ -37,7 +38,7 @@ TEST_CASE("repeats on both sides of the bound decide nothing, repeats beyond it 
   CHECK(ruling(Measured({0.9, 1.1, 1.3}), 1) == Ruling::not_decided);
   CHECK(ruling(Measured({0.9, 1.1, 1.3}), 0.8) == Ruling::fails);
   CHECK(ruling(Measured({0.9, 1.1, 1.3}), 0.8, Basis::goal) == Ruling::missed);
-  CHECK(ruling(Measured({0.9, nan_}), 1.2) == Ruling::fails);
+  CHECK(ruling(Measured({0.9, not_a_number}), 1.2) == Ruling::fails);
   CHECK(ruling(Measured({-0.1, 0.1}), 1) == Ruling::fails);
   CHECK(ruling(Measured(std::vector<double>{}), 1) == Ruling::fails);
 }
@@ -55,7 +56,7 @@ TEST_CASE("what does not hold says why") {
   CHECK(reason(1).empty());
   CHECK(reason(2) == "2 > 1");
   CHECK(reason(-2) == "a size is not negative");
-  CHECK(reason(nan_) == "no number was measured");
+  CHECK(reason(not_a_number) == "no number was measured");
   CHECK(reason(Measured({0.5, 2})) == "spread: repeats from 0.5 to 2, bound 1");
 }
 
@@ -66,7 +67,7 @@ TEST_CASE("the worst is the largest and says whose it is; the first that is no n
   worst.add(3, "b");
   worst.add(2, "c");
   CHECK((worst.value() == 3 && worst.owner() == "b"));
-  worst.add(nan_, "d");
+  worst.add(not_a_number, "d");
   worst.add(5, "e");
   CHECK((std::isnan(worst.value()) && worst.owner() == "d"));
 

@@ -135,8 +135,8 @@ def late_friction(results):
 def late_text(frame):
     parts = []
     for (scene, quantity), rows in frame[frame["quantity"] != "creep"].groupby(["scene", "quantity"], sort=False):
-        sides = [f"{number(r['measured'])} with friction {LATE[r['variant']]}" for _, r in rows.iterrows()]
-        parts.append(f"The {quantity} of the {scene} is {' and '.join(sides)}{' m' if rows['unit'].iloc[0] == 'm' else ''}.")
+        sides = [f"{number(r['measured'])}{' m' if r['unit'] == 'm' else ''} with friction {LATE[r['variant']]}" for _, r in rows.iterrows()]
+        parts.append(f"The {quantity} of the {scene} is {' and '.join(sides)}.")
     return " ".join([*parts, late_cost(frame)])
 
 

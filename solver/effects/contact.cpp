@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effects/contact_stiffness.h"
+#include "rows/moving_squares.h"
 #include "rows/row_operations.h"
 
 namespace pbd {
@@ -50,7 +51,7 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
   const double size = value_rounding * largest_coordinate(contact, found, place.at) / place.map.d;
   sums.add(squared_residual(block, i, r),
-           size * size * jacobian.row(0).squaredNorm() * block.inverse_diagonal[i](0, 0));
+           size * size * moving_squares(block, i, place.inverse_mass)[0] * block.inverse_diagonal[i](0, 0));
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
 

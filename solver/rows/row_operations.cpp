@@ -1,6 +1,7 @@
 #include "rows/row_operations.h"
 
 #include "rows/invert.h"
+#include "rows/moving_squares.h"
 
 namespace pbd {
 
@@ -33,7 +34,7 @@ void RowOperations<R, K>::linearise(const RowPlace& place, const Value& value, d
   const double rounding = value_rounding * size / place.map.d;
   sums.add(singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r),
            rounding * rounding *
-               block.jacobian[i].rowwise().squaredNorm().dot(block.inverse_diagonal[i].diagonal()));
+               moving_squares(block, i, place.inverse_mass).dot(block.inverse_diagonal[i].diagonal()));
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
 

@@ -31,6 +31,28 @@ TEST_CASE("the rounding of a link far away does not excuse one at the origin") {
   CHECK(missed <= h * method.tolerance * report.scale * std::sqrt(2 / 0.1));
 }
 
+TEST_CASE("ground that carries far from its centre excuses no miss") {
+  // A cylinder of 100 km tumbles over the ground: lengths are known to 1e-11 m, not to 1e5 times that.
+  constexpr double size = 1e5, h = 3;  // m, s
+  Scene scene;
+  const int ground = add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  const int body = add_body(scene, Vec3(0, 0, 3 * size), 1, size * size * Vec3(7.0 / 12, 7.0 / 12, 0.5),
+                            Eigen::Quaterniond(Eigen::AngleAxisd(0.6, Vec3(3, 1, 0).normalized())));
+  Contact contact;
+  contact.collider = {{HalfSpace{}, ground}, {Cylinder{size, 2 * size}, body}};
+  scene.effects = {Gravity{}, contact};
+  Workspace workspace(scene, {});
+  State state = scene.initial;
+  int solved = 0;
+  for (int k = 0; k < 150; ++k) {
+    const Report report = step(workspace, h, state);
+    if (report.status != Status::ok) continue;
+    ++solved;
+    CHECK(report.dual <= workspace.method().tolerance * report.scale);
+  }
+  CHECK(solved > 100);
+}
+
 TEST_CASE("a step that misses tells the constraint that misses most") {
   Scene scene;
   for (const double x : {0.0, 1.0, 2.0}) add_node(scene, Vec3(x, 0, 0), x == 1 ? 1 : infinity);

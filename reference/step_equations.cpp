@@ -14,9 +14,9 @@ namespace {
 double squared_miss(const Vector& missed, const RowMatrix& n, double gamma,
                     const std::array<double, 2>& bounds) {
   if (missed.size() > 1) return missed.dot(solve(Eigen::MatrixXd(n), Vector(missed)));
-  const double to = gamma - missed(0) / n(0, 0);
-  const double change = std::clamp(to, bounds[0], bounds[1]) - gamma;
-  return std::isnan(to) ? to : change * change * n(0, 0);
+  const double asked = -missed(0) / n(0, 0);  // not added to gamma, beside which it may be lost
+  const double change = std::clamp(asked, bounds[0] - gamma, bounds[1] - gamma);
+  return std::isnan(asked) || std::isnan(gamma) ? std::nan("") : change * change * n(0, 0);
 }
 
 /// J W J^T h^2 + A.

@@ -38,9 +38,9 @@ nlohmann::ordered_json tier_json(const RunOptions& options) {
   return {{"tier", options.tier}};
 }
 
-/// Whether the tables are there, with as many lines as `rows` says and one with their columns.
+/// Whether the tables that `rows` counts are there, each with its columns and as many rows.
 bool tables_are_whole(const std::filesystem::path& directory, const nlohmann::ordered_json& rows) {
-  return std::all_of(rows.items().begin(), rows.items().end(), [&](const auto& table) {
+  return !rows.empty() && std::all_of(rows.items().begin(), rows.items().end(), [&](const auto& table) {
     std::ifstream in(directory / (table.key() + ".csv"));
     std::int64_t lines = -1;
     for (std::string line; std::getline(in, line); ++lines)
@@ -51,7 +51,7 @@ bool tables_are_whole(const std::filesystem::path& directory, const nlohmann::or
 
 /// What a complete run by this very program with the same tier and settings, whose tables are all there,
 /// makes of the exit code; nothing if `directory` holds none.
-std::optional<int> already_complete(const std::filesystem::path& directory, const RunOptions& options) {
+std::optional<int> exit_code_of_complete(const std::filesystem::path& directory, const RunOptions& options) {
   const auto file = directory / "run.json";
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   std::ifstream in(file);
@@ -183,7 +183,7 @@ int run(const RunOptions& options, const std::vector<Experiment>& known) {
   nlohmann::ordered_json history;
   for (const auto& experiment : list) {
     const auto before =
-        options.resume ? already_complete(options.directory / experiment.name, options) : std::nullopt;
+        options.resume ? exit_code_of_complete(options.directory / experiment.name, options) : std::nullopt;
     if (before) {
       fmt::print("{}: complete already{}, skipped\n", experiment.name,
                  *before == exit_failed ? ", with verdicts that fail" : "");

@@ -8,15 +8,14 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "commands/simulation_output.h"
 #include "harness/constraint_name.h"
 #include "harness/files.h"
 #include "harness/interrupt.h"
-#include "harness/probes.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
 #include "harness/step_checks.h"
 #include "harness/stepper.h"
-#include "harness/vtk.h"
 
 namespace pbdcheck {
 namespace {
@@ -51,66 +50,6 @@ struct Totals {
     }
   }
   std::int64_t missed() const { return steps - by_status[0]; }
-};
-
-/// What an earlier simulation has written there: a folder holds one.
-void remove_earlier(const std::filesystem::path& directory) {
-  for (const auto* name : {"run.json", "probes.csv", "checks.csv", "simulation.pvd", "bodies.pvd"})
-    std::filesystem::remove(directory / name);
-  if (!std::filesystem::is_directory(directory / "frames")) return;
-  for (const auto& entry : std::filesystem::directory_iterator(directory / "frames"))
-    if (const auto name = entry.path().filename().string();
-        entry.path().extension() == ".vtu" && (name.starts_with("frame_") || name.starts_with("bodies_")))
-      std::filesystem::remove(entry.path());
-}
-
-class Output {
- public:
-  Output(const SimulateOptions& options, const SceneFile& file) : file_(file) {
-    require_writable(options.directory);
-    remove_earlier(options.directory);
-    if (!file.probes.empty()) {
-      for (auto& column : probe_columns(file)) columns_.push_back(std::move(column));
-      probes_.emplace(options.directory / "probes.csv", columns_, &totals_);
-    }
-    if (options.export_format != "vtk") return;
-    frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
-    surfaces_.emplace(file.scene, file.bodies);
-    if (!surfaces_->empty()) body_frames_.emplace(options.directory, "bodies", "bodies", surfaces_->cells());
-  }
-
-  /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing.
-  std::string add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped) {
-    std::vector<Cell> row{step, state.time};
-    append_probes(file_, state, stepped, row);
-    for (std::size_t i = 0; i < row.size(); ++i)
-      if (const auto* number = std::get_if<double>(&row[i]); number != nullptr && !std::isfinite(*number))
-        return columns_[i];
-    if (probes_) probes_->row(row);
-    if (frames_) frames_->add_frame(state.time, state.x, state.v);
-    if (body_frames_) {
-      pbd::Points x, v;
-      surfaces_->place(state, x, v);
-      body_frames_->add_frame(state.time, x, v);
-    }
-    return "";
-  }
-
-  void close() {
-    if (probes_) probes_->close();
-    if (frames_) frames_->close();
-    if (body_frames_) body_frames_->close();
-  }
-
-  const TableTotals& totals() const { return totals_; }
-
- private:
-  const SceneFile& file_;
-  TableTotals totals_;
-  std::vector<std::string> columns_{"step", "time_s"};
-  std::optional<Table> probes_;
-  std::optional<VtkSeries> frames_, body_frames_;
-  std::optional<BodySurfaces> surfaces_;
 };
 
 /// The worst step. Its residual is NaN if it diverged, infinite where nothing moves: there is no scale.
@@ -167,7 +106,7 @@ void write_checks(const std::filesystem::path& path, const StepChecks& checks, T
 }
 
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
-std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, Totals& totals,
+std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput& output, Totals& totals,
                     StepChecks* checks) {
   pbd::State state = file.scene.initial;
   Stepper stepper(file, workspace);
@@ -205,7 +144,7 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, Output& output, 
 int simulate(const SimulateOptions& options) {
   SceneFile file = read_scene_file(options.scene, options.settings);
   pbd::Workspace workspace = file.workspace();
-  Output output(options, file);
+  SimulationOutput output(options, file);
   PartialFile record(options.directory / "run.json");
 
   const auto start = std::chrono::steady_clock::now();

@@ -118,7 +118,7 @@ class LedgerRun {
     try {
       for (const auto& object : parsed(ledger_file()))
         before.emplace(object.at("id").get<std::string>(), ledger_result(object));
-    } catch (const nlohmann::ordered_json::exception& error) {
+    } catch (const std::exception& error) {  // of JSON, or a verdict that there is not
       throw pbd::SetupError(ledger_file().string(), error.what(),
                             "results as `verify` writes them; without them all rows are run again");
     }

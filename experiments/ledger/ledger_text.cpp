@@ -9,6 +9,7 @@
 
 #include "error.h"
 #include "scenes/choices.h"
+
 namespace pbdcheck {
 namespace {
 

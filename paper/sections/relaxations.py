@@ -68,9 +68,9 @@ def conditioned_text(frame):
     reached = good(frame, "sweeps").pivot_table("sweeps", ["parameter", "value"], "relaxation", sort=False)
     best = reached.get("conjugate_gradients", reached.max(axis=1))
     cases = len(frame.drop_duplicates(["parameter", "value"]))
-    parts = [f"`{name}` {reached[name].count()}, in {span(reached[name] / best)} times as many"
-             for name in reached if name not in ("conjugate_gradients", "direct")]
-    fewest = all((reached[name] >= best)[reached[name].notna()].all() for name in reached if name not in ("conjugate_gradients", "direct"))
+    ratios = reached.drop(columns=["conjugate_gradients", "direct"], errors="ignore").div(best, axis=0)
+    parts = [f"`{name}` {ratio.count()}, in {span(ratio)} times as many" for name, ratio in ratios.items()]
+    fewest = not (ratios < 1).any(axis=None)
     return (f"The condition of the preconditioned matrix D^-1 N is {span(frame['condition'])}. Of {counted(cases, 'case')} "
             f"`conjugate_gradients` solve {best.count()}, in {span(best)} sweeps; {'; '.join(parts)}. "
             + ("Conjugate gradients need the fewest sweeps in each of them. " if fewest else "Others need fewer sweeps in some of them. ")

@@ -116,8 +116,8 @@ FRICTION_AT_END = (
     "With friction at the end of the step, normal impulses without friction move the bodies, and then the slip of each contact is braked "
     "once, one after the other, by at most mu times its normal impulse. Velocities are changed, positions keep what they slid: what "
     "friction holds creeps at h a if it never turns, a the acceleration that friction would balance, and faster where bodies turn. The "
-    "contender is ours, made of the solver's rows; a box with infinite inertia, which never turns, obeys the formula to rounding. The threshold is the friction, or the push, at which a "
-    "body begins to slide, over what Coulomb's law says; it is measured to a hundredth.")
+    "contender is ours, made of the solver's rows; a box with infinite inertia, which never turns, obeys the formula to rounding. The "
+    "threshold is the friction, or the push, at which a body begins to slide, over what Coulomb's law says; it is measured to a hundredth.")
 
 
 LATE = {"within": "within the step", "end": "at the end of the step"}

@@ -48,17 +48,21 @@ bool goes_through_a(const MeshPair& pair, int triangle) {
   return false;
 }
 
-/// That a point inside of a is inside the mesh: of a convex one the mean of its nodes.
-bool holds_middle(const MeshPair& pair) {
+/// A point of a that is inside it: of a mesh one that is known, else the mean of the nodes.
+Vec3 inside_of_a(const MeshPair& pair) {
+  if (pair.mesh_a != nullptr) return pair.writer.frame_a.place(pair.mesh_a->inside);
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : pair.a.x) middle += x / static_cast<double>(pair.a.x.size());
-  if (pair.mesh_a != nullptr) middle = pair.writer.frame_a.place(pair.mesh_a->inside);
-  MeshPlace place{};
-  return nearest_of_mesh(pair.b, middle, 0, place) && place.distance < -pair.flush;
+  return middle;
 }
 
-/// Along the normals of the mesh's faces that are cut, of all that are near where a's inside is inside: none
-/// is cut of meshes that coincide. Lists these faces' nodes in the scratch.
+bool holds_inside_of_a(const MeshPair& pair) {
+  MeshPlace place{};
+  return nearest_of_mesh(pair.b, inside_of_a(pair), 0, place) && place.distance < -pair.flush;
+}
+
+/// Along the normals of the mesh's faces that are cut; of all that are near if the mesh holds a point inside
+/// a: of meshes that coincide none is cut. Lists these faces' nodes in the scratch.
 Overlap below_mesh(const MeshPair& pair) {
   const RoundedPolyhedron& a = pair.a;
   pair.scratch.cut_nodes.clear();
@@ -75,7 +79,7 @@ Overlap below_mesh(const MeshPair& pair) {
     }
     if (here.apart > least.apart) least = here;
   };
-  const bool all = holds_middle(pair), convex = pair.mesh_a == nullptr && a.face_count() > 0;
+  const bool all = holds_inside_of_a(pair), convex = pair.mesh_a == nullptr && a.face_count() > 0;
   if (all || convex)
     pair.b.tree.find(box, [&](int triangle) {
       if (all || goes_through_a(pair, triangle)) look(triangle);

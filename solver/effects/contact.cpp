@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "effects/contact_stiffness.h"
-#include "rows/moving_squares.h"
 #include "rows/row_operations.h"
 
 namespace pbd {
@@ -47,11 +46,13 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   block.compliance[i].setZero();
   block.compliance[i](0, 0) = contact.compliance / (place.map.h * place.map.d);
   block.bounds[i] = {};
-  RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, place.inverse_mass, i);
+  using Operations = RowOperations<Block::rows, Block::nodes>;
+  Operations::invert_diagonal(block, place.inverse_mass, i);
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
   const double size = value_rounding * largest_coordinate(contact, found, place.at) / place.map.d;
-  sums.add(squared_residual(block, i, r),
-           size * size * moving_squares(block, i, place.inverse_mass)[0] * block.inverse_diagonal[i](0, 0));
+  sums.add(squared_residual(block, i, r), size * size *
+                                              Operations::moving_squares(block, i, place.inverse_mass)[0] *
+                                              block.inverse_diagonal[i](0, 0));
   sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
 }
 

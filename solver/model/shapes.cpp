@@ -18,6 +18,7 @@ double behind(const TriangleMesh& surface, const std::array<int, 3>& node, const
   return std::min({second, third, 1 - second - third}) >= -slack && distance > 0 ? distance : infinity;
 }
 
+/// Half way from the middle of the largest triangle to what is behind it; that middle if nothing is.
 Vec3 point_inside(const TriangleMesh& surface) {
   double most = 0;
   Vec3 middle = surface.x.cols() > 0 ? Vec3(surface.x.rowwise().mean()) : Vec3(Vec3::Zero()),

@@ -48,10 +48,11 @@ class EffectRows final : public Source {
   }
 
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
-    if (kind().damped)
-      for (AnyBlock& any : blocks) begin_damping(begin, std::get<Block>(any));
-    else if (has_period)
-      for (AnyBlock& any : blocks) keep_values(begin, std::get<Block>(any));
+    for (AnyBlock& any : blocks)
+      if (kind().damped)
+        begin_damping(begin, std::get<Block>(any));
+      else if (has_period)
+        keep_values(begin, std::get<Block>(any));
     return false;
   }
 
@@ -197,18 +198,21 @@ class EffectRows final : public Source {
 
   void evaluate(const Block& block, std::size_t i, const Configuration& at, Value& value,
                 Jacobian& jacobian) const {
-    const std::size_t entry = block.entry(i);
-    C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
+    evaluate_anew(block, i, at, value, jacobian);
     if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
   }
 
-  /// Where the step begins.
+  /// Wherever the step began.
+  void evaluate_anew(const Block& block, std::size_t i, const Configuration& at, Value& value,
+                     Jacobian& jacobian) const {
+    const std::size_t entry = block.entry(i);
+    C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
+  }
+
   void keep_values(const StepBegin& begin, Block& block) const {
-    Jacobian unused;
-    block.begin_value.clear();  // as they are
-    std::vector<Value> values(block.size());
-    for (std::size_t i = 0; i < block.size(); ++i) evaluate(block, i, begin.at, values[i], unused);
-    block.begin_value = std::move(values);
+    block.begin_value.resize(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i)
+      evaluate_anew(block, i, begin.at, block.begin_value[i], block.jacobian[i]);
   }
 
   /// J of constraint i at other positions than its value's.
@@ -247,8 +251,7 @@ class EffectRows final : public Source {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const std::size_t entry = block.entry(i);
       Value value, ahead, behind;
-      C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], begin.at), value,
-                  block.jacobian[i]);
+      evaluate_anew(block, i, begin.at, value, block.jacobian[i]);
       Value from = value;  // c0
       if (c.x_v != 0) from += block.jacobian[i] * (c.x_v * block.gather(begin.v, i));
       if (c.x_a != 0) from += block.jacobian[i] * (c.x_a * block.gather(begin.a, i));

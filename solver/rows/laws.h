@@ -88,16 +88,25 @@ bool opens(const Block& block, std::size_t i) {
   return (bias > 0 && block.bounds[i].lower == 0) || (bias < 0 && block.bounds[i].upper == 0);
 }
 
-/// The part of a change of constraint i's impulse from p that its bounds and this law of friction allow.
+/// The part of a change of constraint i's impulse from p that its bounds and this law of friction allow. What
+/// is lost beside p in their sum is no less asked for: limits that exclude each other raise p without end.
 template <class Block>
 typename Block::Value allowed(const Block& block, Friction law, std::size_t i, const typename Block::Value& p,
                               const typename Block::Value& change) {
   if (!block.bounded() || block.bounds[i].freedom == Freedom::free) return change;
   if (block.bounds[i].freedom == Freedom::held) return -p;
-  if constexpr (Block::rows == 1)
-    return typename Block::Value(std::clamp(p[0] + change[0], block.bounds[i].lower, block.bounds[i].upper) -
-                                 p[0]);
-  if constexpr (Block::rows == 3) return project(law, block.friction[i], p, change) - p;
+  const bool lost = p + change == p;
+  if constexpr (Block::rows == 1) {
+    const auto& [lower, upper, freedom] = block.bounds[i];
+    const double to = lost ? std::clamp(change[0], lower - p[0], upper - p[0])
+                           : std::clamp(p[0] + change[0], lower, upper) - p[0];
+    return typename Block::Value(to);
+  }
+  if constexpr (Block::rows == 3) {
+    constexpr double inside = 1 - 1e-8;  // of the cone: beside it all digits of the friction count
+    if (lost && length_of(p[1], p[2]) < inside * block.friction[i] * p[0]) return change;
+    return project(law, block.friction[i], p, change) - p;
+  }
   return change;
 }
 

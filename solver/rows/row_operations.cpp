@@ -1,7 +1,6 @@
 #include "rows/row_operations.h"
 
 #include "rows/invert.h"
-#include "rows/moving_squares.h"
 
 namespace pbd {
 
@@ -23,6 +22,16 @@ bool RowOperations<R, K>::invert_diagonal(Block& block, const std::vector<double
     block.inverse_diagonal[i] = invert(n, singular);
   }
   return singular;
+}
+
+template <int R, int K>
+auto RowOperations<R, K>::moving_squares(const Block& block, std::size_t i,
+                                         const std::vector<double>& inverse_mass) -> Value {
+  Value sum = Value::Zero();
+  for (int a = 0; a < K; ++a)
+    if (inverse_mass[block.node[i][a]] > 0)
+      sum += block.jacobian[i].template middleCols<3>(3 * a).rowwise().squaredNorm();
+  return sum;
 }
 
 template <int R, int K>

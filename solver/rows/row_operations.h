@@ -18,6 +18,10 @@ struct RowOperations {
   /// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.
   static bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i);
 
+  /// Of each row of J_i, the sum of squares over the columns that move: what is fixed rounds nothing, however
+  /// far from its centre a row acts on it.
+  static Value moving_squares(const Block& block, std::size_t i, const std::vector<double>& inverse_mass);
+
   /// Sets bias and N_ii^-1 by the value c (less its offset), J and Sigma that the block has, and adds to
   /// `sums`. `size` (m) is the constraint's largest coordinate.
   static void linearise(const RowPlace& place, const Value& value, double size, Block& block, std::size_t i,

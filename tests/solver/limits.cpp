@@ -90,6 +90,43 @@ TEST_CASE("limits nearly half a turn apart hold a bar that meets them at any spe
   }
 }
 
+TEST_CASE("limits that exclude each other are not met, by any solver, however large their forces grow") {
+  const auto outer = GENERATE(as<std::string>(), "auto", "plain", "proximal");
+  const auto relaxation = GENERATE(as<std::string>(), "gauss_seidel", "jacobi", "nesterov_jacobi",
+                                   "conjugate_gradients", "direct");
+  const bool turns = GENERATE(false, true);
+  Scene scene;
+  const int world = add_world(scene), body = add_body(scene, Vec3(0.3, 0.1, 0), 1, Vec3::Constant(0.1));
+  const std::vector<ForceBounds> bounds{{-infinity, 0}, {0, infinity}};  // at most -1 and at least 1
+  const std::vector<std::array<int, 2>> both(2, {world, body});
+  if (turns)
+    scene.effects.emplace_back(AngleJoint{.body = both,
+                                          .axis = {Vec3::UnitY(), Vec3::UnitY()},
+                                          .reference = {2, {Vec3::UnitX(), Vec3::UnitX()}},
+                                          .rest_angle = {-1, 1},
+                                          .rate = {0, 0},
+                                          .compliance = {0, 0},
+                                          .bounds = bounds});
+  else
+    scene.effects.emplace_back(SlideJoint{.body = both,
+                                          .point = {2, {Vec3::Zero(), Vec3::Zero()}},
+                                          .axis = {Vec3::UnitX(), Vec3::UnitX()},
+                                          .rest_position = {-1, 1},
+                                          .rate = {0, 0},
+                                          .compliance = {0, 0},
+                                          .bounds = bounds});
+  Method method;
+  method.outer = outer;
+  method.relaxation = relaxation;
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  INFO(outer << " " << relaxation << (turns ? " angle" : " slide"));
+  for (int k = 0; k < 20; ++k) {
+    CHECK(step(workspace, 0.01, state).status != Status::ok);
+    if (!turns) CHECK(std::abs(state.x(0, 1)) <= 1 + 1e-9);  // it began between them
+  }
+}
+
 TEST_CASE("a motor of limited torque works on an arm that rests on its limit, by every linear solver") {
   constexpr double h = 0.005, most_torque = 1, most_angle = 0.3;  // s, N m, rad
   Scene scene;

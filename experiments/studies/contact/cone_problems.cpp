@@ -79,9 +79,20 @@ std::vector<std::string> cone_columns() {
           "sweeps",    "wall_s",           "status",   "reason"};
 }
 
+/// Problems that a judge takes, and those that it leaves.
+struct Judged {
+  int taken = 0, unsolved = 0;
+
+  void add(bool solved) {
+    ++taken;
+    unsolved += solved ? 0 : 1;
+  }
+  /// NaN if it took none.
+  double left() const { return taken > 0 ? unsolved : std::nan(""); }
+};
+
 struct Found {
-  int judged = 0, left = 0;                // problems of the first judge, those that it does not solve
-  double missed = 0;                       // problems that the second judge does not solve
+  Judged interior_point, ipopt_taken;
   Worst planted, ipopt, relaxed;           // velocities' shares: judge, second judge, relaxations
   std::map<std::string, double> unsolved;  // problems demanded and not solved, of each relaxation
 };
@@ -111,11 +122,8 @@ class Solves {
       const bool first = solver.name == "cone_interior_point";
       const ConeSolution last =
           add(p, law, solver, {p.planted.problem, law, first ? certain : tightest, sweeps});
-      if (first) {
-        ++found.judged;
-        found.left += !(last.measures.natural_residual <= certain);
-      }
-      if (solver.name == "cone_ipopt") found.missed += !(last.measures.natural_residual <= tightest);
+      if (first) found.interior_point.add(last.measures.natural_residual <= certain);
+      if (solver.name == "cone_ipopt") found.ipopt_taken.add(last.measures.natural_residual <= tightest);
       if (solver.kind == ConeSolverKind::relaxation && p.demanded)
         found.unsolved[solver.name] += !(last.measures.natural_residual <= tightest);
       if (law == FrictionLaw::cone && !p.large()) compare(p, solver, last);
@@ -123,9 +131,6 @@ class Solves {
     context_.advance(fmt::format("{} {}", p.family, friction_law_names[static_cast<std::size_t>(law)]));
   }
   void close() { table_.close(); }
-
-  /// Problems that the first judge leaves; NaN if it had none.
-  double left() const { return found.judged > 0 ? found.left : std::nan(""); }
 
   Found found;
 
@@ -188,13 +193,14 @@ void cone_problems(Context& context) {
     const char* of = convex ? "of the convex law" : "of Coulomb's law";
     context.verdict(Basis::robustness, "cone_problems." + name,
                     fmt::format("cone_interior_point solves every planted problem {}", of), left,
-                    small.left(), 0);
+                    small.found.interior_point.left(), 0);
     unsolved(context, "cone_problems.unsolved." + name, "well-conditioned", of, small.found);
     unsolved(context, "cone_problems.large.unsolved." + name, "large regular", of, large.found);
     if (!convex) continue;
     context.verdict(Basis::robustness, "cone_problems.ipopt_solves",
                     "cone_ipopt solves every planted problem that it takes (convex law)",
-                    fmt::format("problems left above {:g} of |q|", tightest), small.found.missed, 0);
+                    fmt::format("problems left above {:g} of |q|", tightest), small.found.ipopt_taken.left(),
+                    0);
     const char* share = "largest |du|^2 over what the residuals asked for allow";
     context.verdict(Basis::theory, "cone_problems.velocity",
                     "cone_interior_point finds the planted velocity (convex law)", share,
@@ -206,8 +212,8 @@ void cone_problems(Context& context) {
                     fmt::format("{} ({})", share, small.found.relaxed.owner()), small.found.relaxed.value(),
                     1);
     context.verdict(Basis::robustness, "cone_problems.large",
-                    "cone_interior_point solves every large problem of the convex law", left, large.left(),
-                    0);
+                    "cone_interior_point solves every large problem of the convex law", left,
+                    large.found.interior_point.left(), 0);
   }
   small.close();
   large.close();

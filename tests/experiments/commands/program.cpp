@@ -102,6 +102,20 @@ TEST_CASE("VTK frames hold the scene's cells and the collection names every fram
   CHECK_THAT(read_text(folder.path / "simulation.pvd"), Catch::Contains("frames/frame_000003.vtu"));
 }
 
+TEST_CASE("a simulation leaves nothing of an earlier one beside its record, and what is not its own") {
+  const TemporaryFolder folder;
+  const auto pendulum = scenes / "pendulum.toml";
+  CHECK(run_program({"simulate", pendulum, "--set", "step.duration_s=0.05", "--check", "--export", "vtk",
+                     "-o", folder.path})
+            .exit_code == 0);
+  folder.write("notes.csv", "mine");
+  folder.write("frames/mine.vtu", "mine");
+  CHECK(run_program({"simulate", pendulum, "--set", "step.duration_s=0.02", "-o", folder.path}).exit_code ==
+        0);
+  CHECK(files_in(folder.path) == std::vector<std::string>{"frames", "notes.csv", "probes.csv", "run.json"});
+  CHECK(files_in(folder.path / "frames") == std::vector<std::string>{"mine.vtu"});
+}
+
 TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");

@@ -124,9 +124,13 @@ TEST_CASE("results that are none are refused by --resume") {
   CountedRows counted;
   VerifyOptions options{.directory = folder.path};
   verify(options, counted.rows);
-  std::ofstream(folder.path / "verify" / "ledger.json") << "[{\"id\": 3}]";
+  const std::string row = R"({"id": "a.first", "verdict": "perhaps", "expected": 1, "measured": 1, "bound": 1,
+    "reason": "", "wall_s": 0})";
   options.resume = true;
-  CHECK_THROWS_AS(verify(options, counted.rows), pbd::SetupError);
+  for (const std::string& wrong : {std::string("[{\"id\": 3}]"), "[" + row + "]"}) {
+    const auto file = folder.write("verify/ledger.json", wrong);
+    CHECK_THROWS_WITH(verify(options, counted.rows), Catch::StartsWith(file.string() + ": got "));
+  }
 }
 
 TEST_CASE("a row that fails makes verify's exit code 1") {

@@ -18,14 +18,6 @@ nlohmann::json run_record(const std::filesystem::path& directory) {
   return nlohmann::json::parse(read_text(directory / "run.json"));
 }
 
-std::vector<std::string> files_in(const std::filesystem::path& directory) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 int times_counted = 0;
 
 const std::vector<Experiment> samples{

@@ -58,7 +58,7 @@ test-report: ## test the report's page in a browser, without a window
 
 # A failed verdict (exit code 1) is a result: it goes into the report, and make fails at the end.
 reproduce: ## run every experiment, draw the figures, write the report
-	@$(INSTALL) build plots paper
+	@$(INSTALL) build plots pictures paper
 	@$(MAKE) --no-print-directory build
 	@status=0; $(PBDCHECK) run --all --tier $(TIER) -o $(RESULTS) || status=$$?; \
 	if [ $$status -gt 1 ]; then exit $$status; fi; \
@@ -67,6 +67,7 @@ reproduce: ## run every experiment, draw the figures, write the report
 
 plots: ## draw the figures of RESULTS
 	@$(INSTALL) plots
+	$(PYTHON) plots/render.py $(RESULTS)
 	$(PYTHON) plots/make.py $(RESULTS)
 
 report: plots ## write RESULTS/report.html and RESULTS/report.pdf

@@ -14,6 +14,7 @@ import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
+import figure_1  # noqa: F401
 import first_page  # noqa: F401
 import friction  # noqa: F401
 import friction_cone  # noqa: F401
@@ -60,6 +61,7 @@ def draw(entry, directory):
         say(f"skipped: {name}: {path.parent}: {shortfall(run)}")
         return False
     frame = literal(read_table(path, columns(entry.experiment, entry.table)))
+    frame.attrs["folder"] = path.parent
     drawn = entry.draw(frame) if len(frame) else None
     if drawn is None:
         say(f"skipped: {name}: nothing to draw in {path}")

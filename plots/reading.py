@@ -20,7 +20,8 @@ COMPLETE = "complete"  # the status of a run that came to its end
 LARGEST = 1e100  # what is larger is no more a result than infinity, and would overflow on an axis
 SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m", "rows", "nodes", "iteration", "sweep",
             "sweeps", "outer_iterations", "row_updates", "memory", "error_target", "inner_tolerance",
-            "disturbance_rad_s", "bodies", "redundant_joints", "contacts", "budget"}  # chosen or counted: numbers
+            "disturbance_rad_s", "bodies", "redundant_joints", "contacts", "budget", "most_contacts",
+            "most_rows"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
 TEXT = {"benchmark", "solver", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",

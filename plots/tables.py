@@ -78,6 +78,11 @@ TABLES = {
     ("joints", "accuracy"): "mechanism integrator alpha outer relaxation step_s error order joint_error missed_steps wall_s status "
                             "reason",
     ("joints", "lengths"): "relaxation bodies cpu_s_per_step cpu_s_per_sweep exponent_step exponent_sweep status reason",
+    ("figure_1", "scenes"): "scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations "
+                            "sweeps frame_wall_s overlap_share overlap_share_at_end bilateral_error_m excess_share rest_share "
+                            "judged_steps refuted_steps status reason",
+    ("figure_1", "series"): "scene step_s time_s kinetic_energy_j energy_change_j pressing_contacts overlap_m bilateral_error_m "
+                            "outer_iterations sweeps residual wall_s status reason",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "

@@ -14,14 +14,15 @@
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (`round` of support.h), whichever is more, and (1 + mu) s h. Convex shapes
-//            and half spaces alone (support.h)
+//            and half spaces alone (support.h), with each other and in triangles of surfaces, which keep half
+//            a thickness free on both sides
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
 // step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, what bounces under
-// newmark, which places it by the mean of two velocities, closed meshes beside other than half spaces, and
-// surfaces.
+// newmark, which places it by the mean of two velocities, closed meshes beside other than half spaces,
+// surfaces in each other, and triangles that a body cuts as a step begins.
 #pragma once
 
 #include "step_claim.h"
@@ -30,7 +31,7 @@ namespace pbd::reference {
 
 void check_contacts(const StepClaim& claim, const Contact& contact, double level, Findings& findings);
 
-/// Depth of all pairs of colliders, and of nodes in colliders.
+/// Depth of all pairs of colliders, and of nodes and triangles in colliders (depth_check.cpp).
 void check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings);
 
 }  // namespace pbd::reference

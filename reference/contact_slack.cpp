@@ -9,7 +9,7 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
   const auto& [a, b] = contact.collider;
   const ContactLaw& law = sides.law(a, b);
   const double normal = contact.force.dot(contact.normal);
-  const double centres = sides.inverse_mass(a, 0) + sides.inverse_mass(b, 0);
+  const double centres = sides.least_inverse_mass(a) + sides.least_inverse_mass(b);
   const auto inverse = [&](int k, int other) {
     return sides.inverse_mass(
         k, explicit_forces(claim) ? sides.longest_lever(k, other) : sides.lever(k, contact.point));
@@ -19,7 +19,7 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
   if (a < sides.count() && b < sides.count())
     slip = sides.velocity(a, contact.point, claim.end) - sides.velocity(b, contact.point, claim.end);
   slip -= contact.normal.dot(slip) * contact.normal;
-  // Least weights of a surface's nodes: their squares sum to a third of those that `inverse_mass` counts.
+  // The squares of a triangle's three weights sum to a third at least.
   constexpr double share = 1.0 / 3;
   return {law,
           normal,

@@ -146,6 +146,8 @@ void Balance::add_contacts(const Contact& contact, Findings& findings) {
       const Vec3 force = side == 0 ? claimed.force : Vec3(-claimed.force);
       if (k >= nodes) {
         surface = surface || !force.isZero(0);
+        surface_rest_ -= claim_.h * force;  // of two sides on surfaces they cancel
+        surface_terms_ += claim_.h * force.cwiseAbs();
         continue;
       }
       const int body = k < colliders ? contact.collider[static_cast<std::size_t>(k)].body : -1;

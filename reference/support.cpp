@@ -113,6 +113,11 @@ bool parts(const PlacedShape& a, const PlacedShape& b, const Vec3& shift, Vec3& 
   return false;
 }
 
+Vec3 farthest_corner(const std::array<Vec3, 3>& triangle, const Vec3& u) {
+  return *std::max_element(triangle.begin(), triangle.end(),
+                           [&](const Vec3& x, const Vec3& y) { return u.dot(x) < u.dot(y); });
+}
+
 void add_normals(const PlacedShape& placed, double sign, std::vector<Vec3>& ways) {
   const Eigen::Matrix3d& turn = placed.frame.rotation;
   if (const auto* hull = std::get_if<ConvexHull>(placed.shape)) {
@@ -182,6 +187,28 @@ bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const
     if (apart) return false;
   }
   return true;
+}
+
+DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle) {
+  const auto point = [&](const Vec3& n) -> Vec3 {
+    return farthest_point(a, -n) - farthest_corner(triangle, n);
+  };
+  Simplex simplex;
+  simplex.point[0] = point(Vec3::UnitX());
+  simplex.count = 1;
+  Vec3 nearest = simplex.point[0];
+  DistanceBounds bounds{0, nearest.norm()};
+  constexpr int most = 200;  // as of `parts`; the bounds hold wherever it ends
+  for (int step = 0; step < most && bounds.proved < bounds.found; ++step) {
+    const Vec3 n = nearest / bounds.found, next = point(n);
+    bounds.proved = std::max(bounds.proved, n.dot(next));
+    simplex.point[simplex.count++] = next;
+    nearest = reduce(simplex);
+    if (simplex.count == 4) return {0, 0};
+    if (!(nearest.norm() < bounds.found)) break;
+    bounds.found = nearest.norm();
+  }
+  return bounds;
 }
 
 Size size_of(const Shape& shape) {

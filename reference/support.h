@@ -13,6 +13,7 @@
 // is sure of these ways alone; its no is a proof.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "geometry.h"
@@ -43,6 +44,12 @@ double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<
 /// largest sep(n) that was seen.
 bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
                  double& nearest);
+
+/// Two bounds of how far a convex shape with an end is from a triangle (m): both 0 where they meet.
+struct DistanceBounds {
+  double proved, found;  // at least, at most
+};
+DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle);
 
 /// No point is farther from the frame's origin than `outer` (infinite for a half space); `round` is the
 /// radius of what is round of the shape, half the least side of a box, and of other polyhedra half the

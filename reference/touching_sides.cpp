@@ -9,9 +9,11 @@ Sides::Sides(const StepClaim& claim, const Contact& contact) : claim_(claim), co
   for (const Collider& collider : contact.collider) shapes_.push_back(collider.shape);
   for (const double radius : contact.radius) shapes_.emplace_back(Sphere{radius});
   for (const auto& triangle : contact.triangle)
-    for (const int node : triangle)
-      surface_inverse_mass_ =
-          std::max(surface_inverse_mass_, 1 / claim.scene.mass[static_cast<std::size_t>(node)]);
+    for (const int node : triangle) {
+      const double inverse = 1 / claim.scene.mass[static_cast<std::size_t>(node)];
+      surface_inverse_mass_ = std::max(surface_inverse_mass_, inverse);
+      least_surface_inverse_mass_ = std::min(least_surface_inverse_mass_, inverse);
+    }
 }
 
 Side Sides::side(int k) const {
@@ -51,7 +53,12 @@ double Sides::longest_lever(int k, int other) const {
   const Side own = side(k);
   if (own.body < 0) return 0;
   double longest = 0;
+  if (other >= count())  // a surface: any of its nodes
+    for (const auto& triangle : contact_.triangle)
+      for (const int node : triangle)
+        longest = std::max(longest, (claim_.start.x.col(node) - claim_.start.x.col(own.node)).norm());
   for (const int each : {k, other}) {
+    if (each >= count()) continue;
     const PlacedShape shape = placed(each, claim_.start);
     const double outer = size_of(*shape.shape).outer;
     if (std::isfinite(outer))
@@ -67,6 +74,10 @@ double Sides::inverse_mass(int k, double lever) const {
   if (own.body >= 0 && lever > 0)
     inverse += lever * lever / claim_.scene.bodies[static_cast<std::size_t>(own.body)].inertia.minCoeff();
   return inverse;
+}
+
+double Sides::least_inverse_mass(int k) const {
+  return side(k).of_surface() ? least_surface_inverse_mass_ : inverse_mass(k, 0);
 }
 
 const ContactLaw& Sides::law(int a, int b) const {

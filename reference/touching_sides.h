@@ -13,6 +13,11 @@ struct Side {
   bool of_surface() const { return node < 0; }
 };
 
+/// What a finding calls a pair.
+inline std::string name_of(int a, int b) {
+  return "contact of " + std::to_string(a) + " and " + std::to_string(b);
+}
+
 class Sides {
  public:
   Sides(const StepClaim& claim, const Contact& contact);
@@ -27,6 +32,9 @@ class Sides {
   Vec3 velocity(int k, const Vec3& point, const State& state) const;
   /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
   double inverse_mass(int k, double lever) const;
+  /// Least change of the normal velocity by an impulse of 1 N s, times 3 of a surface, whose three weights
+  /// may be equal.
+  double least_inverse_mass(int k) const;
   double lever(int k, const Vec3& point) const;
   /// The longest lever of k (m) at which a contact of both acts where the step begins: at one of their points
   /// nearest to each other or between them; against a half space at the other's point.
@@ -37,7 +45,7 @@ class Sides {
   const StepClaim& claim_;
   const Contact& contact_;
   std::vector<Shape> shapes_;
-  double surface_inverse_mass_ = 0;  // 1/kg
+  double surface_inverse_mass_ = 0, least_surface_inverse_mass_ = infinity;  // 1/kg, of its nodes
 };
 
 }  // namespace pbd::reference

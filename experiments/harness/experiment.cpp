@@ -42,6 +42,10 @@ Context::Context(std::filesystem::path directory, Tier tier, int threads) : data
   data_->threads = threads;
 }
 
+const std::filesystem::path& Context::directory() const {
+  return data_->directory;
+}
+
 Tier Context::tier() const {
   return data_->tier;
 }

@@ -29,6 +29,7 @@ class Context {
  public:
   Context(std::filesystem::path directory, Tier tier, int threads);
 
+  const std::filesystem::path& directory() const;
   Tier tier() const;
   bool full() const { return tier() == Tier::full; }
   int threads() const;

@@ -51,6 +51,11 @@ VtkCells node_cells(const pbd::Scene& scene) {
     add_all.operator()<pbd::TetStrain>(effect, vtk_tetrahedron);
     add_all.operator()<pbd::TriangleStrain>(effect, vtk_triangle);
     add_all.operator()<pbd::Distance>(effect, vtk_line);
+    if (const auto* contact = std::get_if<pbd::Contact>(&effect))
+      for (const auto& nodes : contact->triangle) {
+        add_cell(cells, nodes, vtk_triangle);
+        for (const int node : nodes) used[static_cast<std::size_t>(node)] = true;
+      }
   }
   for (int node = 0; node < scene.nodes(); ++node)
     if (!used[static_cast<std::size_t>(node)]) add_cell(cells, std::array{node}, vtk_vertex);

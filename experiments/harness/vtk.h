@@ -19,8 +19,8 @@ struct VtkCells {
   std::size_t count = 0;
 };
 
-/// Of the nodes: the tetrahedra (type 10) of TetStrain, the triangles (5) of TriangleStrain, the links as
-/// lines (3), and a vertex (1) for each node none of them uses.
+/// Of the nodes: the tetrahedra (type 10) of TetStrain, the triangles (5) of TriangleStrain and of surfaces
+/// in contact, the links as lines (3), and a vertex (1) for each node none of them uses.
 VtkCells node_cells(const pbd::Scene& scene);
 
 class VtkSeries {

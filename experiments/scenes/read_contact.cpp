@@ -102,10 +102,13 @@ void read_node_contact(Keys& owner, Builder& builder, const NodeRange& range,
   if (!table) return;
   Keys& keys = *table;
   pbd::Contact& effect = builder.contact.effect;
-  const double radius = keys.number_or("radius_m", 0, Range::not_negative);
   const int material = builder.material(keys);
-  if (!surface.empty() && keys.flag_or("surface", false))
+  builder.contact.mentioned = keys.where();
+  if (!surface.empty() && keys.flag_or("surface", false)) {  // its nodes take part by their triangles
     add_surface(keys, effect, material, range.first, surface);
+    return keys.refuse_unknown();
+  }
+  const double radius = keys.number_or("radius_m", 0, Range::not_negative);
   const auto nodes =
       chooses_nodes(keys) ? select_nodes(keys, builder.scene, range) : outer_nodes(range, surface);
   for (const int node : nodes) {
@@ -113,7 +116,6 @@ void read_node_contact(Keys& owner, Builder& builder, const NodeRange& range,
     effect.radius.push_back(radius);
     effect.node_material.push_back(material);
   }
-  builder.contact.mentioned = keys.where();
   keys.refuse_unknown();
 }
 
@@ -128,12 +130,16 @@ void read_contact(Keys& root, Builder& builder) {
   }
   Keys& keys = *table;
   pbd::Contact& effect = parts.effect;
-  if (parts.bodies.empty() && effect.node.empty())
+  if (parts.bodies.empty() && effect.node.empty() && effect.triangle.empty())
     throw pbd::SetupError(keys.where(), "contact in a scene where nothing touches",
                           "a rigid body with a shape, or nodes with a sub-table `contact`");
   effect.margin = keys.number_or("margin_m", effect.margin, Range::not_negative);
   if (keys.has("recovery_m_s")) effect.recovery = keys.number("recovery_m_s", Range::not_negative);
   effect.thickness = keys.number_or("thickness_m", effect.thickness, Range::not_negative);
+  if (effect.thickness == 0 && !effect.triangle.empty() && !parts.bodies.empty())
+    keys.refuse("thickness_m", "a number > 0 where surfaces and bodies take part: a point has no side");
+  effect.surfaces_touch = keys.flag_or("surfaces_touch", effect.surfaces_touch);
+  effect.continuous = keys.flag_or("continuous", effect.continuous);
   const auto law = read_law(keys, {});
   effect.materials = static_cast<int>(parts.materials.size());
   effect.law.assign(parts.materials.size() * parts.materials.size(), law);

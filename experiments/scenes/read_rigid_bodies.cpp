@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <random>
 
 #include "scenes/builder.h"
 #include "scenes/choices.h"
@@ -102,13 +103,68 @@ Inertia read_given_inertia(Keys& keys, bool held) {
   return inertia;
 }
 
-std::string read_body_name(Keys& keys, const Builder& builder) {
-  auto name = read_name(keys);
+void require_new_name(Keys& keys, const Builder& builder, const std::string& name) {
   if (name == "world") keys.refuse("name", "`world`, the fixed body that joints may name", "another name");
   for (const auto& body : builder.bodies)
     if (body.name == name) keys.refuse("name", "`" + name + "` twice", "a name of its own for each body");
-  return name;
 }
+
+/// A grid of bodies alike, each shifted and turned a little, the same in every run.
+class Copies {
+ public:
+  Copies(Keys& keys, const Builder& builder) : name_(read_name(keys)) {
+    if (!keys.has("copies")) {
+      for (const auto* key : {"spacing_m", "scatter_m", "scatter_rad"})
+        if (keys.has(key)) keys.refuse(key, "a place among copies of one body", "`copies`, too");
+      require_new_name(keys, builder, name_);
+      return;
+    }
+    copied_ = true;
+    const auto counts = keys.integers("copies", 1);
+    constexpr std::int64_t most = 100000;
+    const std::string allowed = fmt::format("three numbers >= 1 whose product is at most {}", most);
+    if (counts.size() != 3) keys.refuse("copies", allowed);
+    count_ = {counts[0], counts[1], counts[2]};
+    if (count_[0] > most / count_[1] / count_[2]) keys.refuse("copies", allowed);
+    spacing_ = keys.vector("spacing_m");
+    scatter_ = keys.number_or("scatter_m", 0, Range::not_negative);
+    turn_ = keys.number_or("scatter_rad", 0, Range::not_negative);
+    for (std::int64_t i = 0; i < size(); ++i) require_new_name(keys, builder, name(i));
+  }
+
+  std::int64_t size() const { return count_[0] * count_[1] * count_[2]; }
+  bool copied() const { return copied_; }
+  std::string name(std::int64_t i) const { return copied_ ? fmt::format("{}_{}", name_, i) : name_; }
+
+  /// Of copy i in the place of the first one; asked for one after the other. x runs first, z last.
+  Eigen::Isometry3d moved(std::int64_t i, const Eigen::Isometry3d& first) {
+    if (!copied_) return first;
+    const std::int64_t row = i / count_[0], layer = row / count_[1];
+    const pbd::Vec3 cell(static_cast<double>(i % count_[0]), static_cast<double>(row % count_[1]),
+                         static_cast<double>(layer));
+    Eigen::Isometry3d placed = first;
+    placed.translation() += cell.cwiseProduct(spacing_) + scatter_ * random_vector();
+    const pbd::Vec3 turn = turn_ * random_vector();
+    if (turn.norm() > 0)
+      placed.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * first.linear();
+    return placed;
+  }
+
+ private:
+  /// Each entry from -1 to 1: 53 bits of a generator whose numbers the standard fixes.
+  pbd::Vec3 random_vector() {
+    const auto draw = [&] { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1; };
+    const double x = draw(), y = draw(), z = draw();
+    return {x, y, z};
+  }
+
+  std::string name_;
+  bool copied_ = false;
+  std::array<std::int64_t, 3> count_{1, 1, 1};
+  pbd::Vec3 spacing_ = pbd::Vec3::Zero();
+  double scatter_ = 0, turn_ = 0;  // m, rad
+  std::mt19937_64 engine_;
+};
 
 BodyMotion read_motion(Keys& keys, const std::string& hold) {
   for (const auto* key : {"velocity_m_s", "angular_velocity_rad_s"})
@@ -119,17 +175,18 @@ BodyMotion read_motion(Keys& keys, const std::string& hold) {
 }
 
 /// What touches others is the shape; `contact = false` keeps it out.
-void read_body_contact(Keys& keys, Builder& builder, bool shaped) {
+void read_body_contact(Keys& keys, Builder& builder, bool shaped, std::int64_t copies) {
   for (const auto* key : {"material", "contact"})
     if (!shaped && keys.has(key)) keys.refuse(key, "contact without a shape", "a body with a shape");
   const int material = builder.material(keys);
   if (keys.has("contact")) builder.contact.mentioned = keys.where();
-  if (shaped && keys.flag_or("contact", true))
-    builder.contact.bodies.push_back({static_cast<int>(builder.bodies.size()), material});
+  if (!shaped || !keys.flag_or("contact", true)) return;
+  for (std::int64_t i = 0; i < copies; ++i)
+    builder.contact.bodies.push_back({static_cast<int>(builder.bodies.size() + i), material});
 }
 
 void read_rigid_body(Keys& keys, Builder& builder) {
-  const auto name = read_body_name(keys, builder);
+  Copies copies(keys, builder);
   Shape shape = read_shape(keys, builder);
   const bool shaped = shape.index() != 0, endless = std::holds_alternative<HalfSpace>(shape);
   const auto hold = keys.choice_or("held", endless ? "fixed" : "free", {"free", "fixed", "moving"});
@@ -138,9 +195,13 @@ void read_rigid_body(Keys& keys, Builder& builder) {
   Inertia inertia = endless  ? read_no_inertia(keys)
                     : shaped ? read_shape_inertia(keys, shape, held)
                              : read_given_inertia(keys, held);
-  read_body_contact(keys, builder, shaped);
+  read_body_contact(keys, builder, shaped, copies.size());
+  if (const auto* mesh = std::get_if<ClosedMesh>(&shape))
+    builder.reserve(keys, "copies",
+                    static_cast<double>((copies.size() - 1) * std::ssize(mesh->surface.triangles)));
   const BodyMotion motion = read_motion(keys, hold);
   if (const auto course = read_course(keys)) {
+    if (copies.copied()) keys.refuse("over_time", "a course of copies", "a body of its own for each course");
     if (hold != "moving")
       keys.refuse("over_time", fmt::format("a course of a body with held = \"{}\"", hold),
                   "held = \"moving\", or a [[force]] or a [[joint]] with over_time");
@@ -154,17 +215,20 @@ void read_rigid_body(Keys& keys, Builder& builder) {
   Eigen::Isometry3d principal = Eigen::Isometry3d::Identity();  // body to shape's frame
   principal.linear() = inertia.principal.axes.toRotationMatrix();
   principal.translation() = inertia.centre;
-  const Eigen::Isometry3d pose = placed * principal;
-  if (!(pose.translation().cwiseAbs().maxCoeff() <= largest_number))
-    throw pbd::SetupError(keys.where(), "a centre of mass beyond 1e100 m", "positions up to 1e100 m in size");
   if (held) {
     inertia.mass = pbd::infinity;
     inertia.principal.moments.setConstant(pbd::infinity);
   }
-  const Eigen::Quaterniond orientation = Eigen::Quaterniond(pose.linear()).normalized();
-  pbd::add_body(builder.scene, pose.translation(), inertia.mass, inertia.principal.moments, orientation,
-                motion.velocity, orientation.conjugate() * motion.angular_velocity);
-  builder.bodies.push_back({name, std::move(shape), principal.inverse()});
+  for (std::int64_t i = 0; i < copies.size(); ++i) {
+    const Eigen::Isometry3d pose = copies.moved(i, placed) * principal;
+    if (!(pose.translation().cwiseAbs().maxCoeff() <= largest_number))
+      throw pbd::SetupError(keys.where(), "a centre of mass beyond 1e100 m",
+                            "positions up to 1e100 m in size");
+    const Eigen::Quaterniond orientation = Eigen::Quaterniond(pose.linear()).normalized();
+    pbd::add_body(builder.scene, pose.translation(), inertia.mass, inertia.principal.moments, orientation,
+                  motion.velocity, orientation.conjugate() * motion.angular_velocity);
+    builder.bodies.push_back({copies.name(i), shape, principal.inverse()});
+  }
 }
 
 }  // namespace

@@ -5,6 +5,9 @@ namespace pbdcheck {
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list{
+      {"figure_1",
+       "Do boxes on the ground, bunnies on cloth and a flexible cow fall and come to rest by one solver?",
+       figure_1},
       {"judges", "Do the two reference solvers agree on every scene used below?", judges},
       {"outer_convergence",
        "How fast do the outer iterations approach the implicit Euler step, and when do they fail?",

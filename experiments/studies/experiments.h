@@ -24,6 +24,7 @@ void softness(Context& context);
 void mesh_refinement(Context& context);
 void time_order(Context& context);
 void energy(Context& context);
+void figure_1(Context& context);
 void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);

@@ -5,12 +5,12 @@
 namespace pbd {
 namespace {
 
-/// Of features of the shape asked for first and of the second one.
-std::uint64_t named(Feature first, int i, Feature second, int j) {
-  constexpr int kind_bits = 3, number_bits = 29;
-  std::uint64_t key = static_cast<std::uint64_t>(first) << kind_bits | static_cast<std::uint64_t>(second);
-  key = key << number_bits | static_cast<std::uint64_t>(i);
-  return key << number_bits | static_cast<std::uint64_t>(j);
+constexpr int kind_bits = 3, number_bits = 29;
+
+FeatureName name_in(std::uint64_t kind, std::uint64_t number) {
+  constexpr std::uint64_t one = 1;
+  return {static_cast<Feature>(kind & ((one << kind_bits) - 1)),
+          static_cast<int>(number & ((one << number_bits) - 1))};
 }
 
 ContactPoint contact_point(ContactPoint::Kind kind, const Vec3& point_a, double radius_a, const Vec3& point_b,
@@ -26,8 +26,23 @@ ContactPoint contact_point(ContactPoint::Kind kind, const Vec3& point_a, double 
 
 }  // namespace
 
+std::uint64_t key_of(const FeatureName& first, const FeatureName& second) {
+  std::uint64_t key =
+      static_cast<std::uint64_t>(first.of) << kind_bits | static_cast<std::uint64_t>(second.of);
+  key = key << number_bits | static_cast<std::uint64_t>(first.i);
+  return key << number_bits | static_cast<std::uint64_t>(second.i);
+}
+
+FeatureName first_of(std::uint64_t key) {
+  return name_in(key >> (2 * number_bits + kind_bits), key >> number_bits);
+}
+
+FeatureName second_of(std::uint64_t key) {
+  return name_in(key >> 2 * number_bits, key);
+}
+
 std::uint64_t ContactWriter::key(Feature of_a, int i, Feature of_b, int j) const {
-  return swapped ? named(of_b, j, of_a, i) : named(of_a, i, of_b, j);
+  return swapped ? key_of({of_b, j}, {of_a, i}) : key_of({of_a, i}, {of_b, j});
 }
 
 void ContactWriter::write(ContactPoint contact, std::uint64_t key, double gap) const {

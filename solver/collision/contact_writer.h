@@ -9,6 +9,18 @@ namespace pbd {
 /// What a feature is.
 enum class Feature : std::uint8_t { node, edge, face, rim, axis, cap };
 
+/// A feature of a shape by its number.
+struct FeatureName {
+  Feature of;
+  int i;
+};
+
+/// What two features that touch are called, of the shape asked for first and of the second one: another
+/// number for each pair of numbers i below 2^29.
+std::uint64_t key_of(const FeatureName& first, const FeatureName& second);
+FeatureName first_of(std::uint64_t key);
+FeatureName second_of(std::uint64_t key);
+
 /// How far shapes may come to meet: gaps below `margin` count, and what lies lowest when they have turned
 /// against each other by `turn`.
 struct Reach {
@@ -27,8 +39,7 @@ struct ContactWriter {
 
   ContactWriter exchanged() const { return {frame_b, frame_a, !swapped, reach, out, begin}; }
 
-  /// The same number for the same pair of features, whichever shape is a, and another one for each pair of
-  /// numbers i and j below 2^29.
+  /// The same number for the same pair of features, whichever shape is a.
   std::uint64_t key(Feature of_a, int i, Feature of_b, int j) const;
 
   /// Features in the frame that the writer's frames are placed in. Nothing is written twice, nor what is not

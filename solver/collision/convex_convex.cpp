@@ -36,6 +36,13 @@ void slopes(const RoundedPolyhedron& of_edges, const RoundedPolyhedron& of_faces
     for (const Vec3& normal : of_faces.normal) table.push_back(along.dot(normal));
 }
 
+/// Along what is half way between the faces' normals, which of a triangle's edge cancel.
+Vec3 outward(const RoundedPolyhedron& core, int e) {
+  const Vec3 &first = core.face_normal(core.edge(e).face[0]),
+             &second = core.face_normal(core.edge(e).face[1]);
+  return first + second + (second - first).cross(core.along[e]);
+}
+
 /// Of pairs of edges whose planes of support meet: the arcs between the faces' normals, b's turned round,
 /// cross. An edge without faces has the whole circle across it.
 PolyhedronAxis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b, CollisionScratch& scratch) {
@@ -60,9 +67,8 @@ PolyhedronAxis edge_axis(const RoundedPolyhedron& a, const RoundedPolyhedron& b,
       if (!(normal.squaredNorm() > parallel)) continue;
       normal.normalize();
       const Vec3 apart = a.node(a.edge(i).node[0]) - b.node(b.edge(j).node[0]);
-      const double outward = solid_b ? normal.dot(b.face_normal(of_b[0]) + b.face_normal(of_b[1]))
-                                     : -normal.dot(a.face_normal(of_a[0]) + a.face_normal(of_a[1]));
-      if (outward < 0) normal = -normal;
+      const double outwards = solid_b ? normal.dot(outward(b, j)) : -normal.dot(outward(a, i));
+      if (outwards < 0) normal = -normal;
       const double distance = normal.dot(apart);
       if (distance > best.apart) best = {distance, i, j, normal};
     }

@@ -99,4 +99,15 @@ void generate(const Shape& shape_a, const Frame& at_a, const Shape& shape_b, con
       shape_a, shape_b);
 }
 
+void generate(const RoundedTriangle& a, const Shape& shape_b, const Frame& at_b, const Reach& reach,
+              CollisionScratch& scratch, std::vector<ContactPoint>& found) {
+  const Frame world;
+  std::visit(
+      [&]<class B>(const B& b) {
+        if constexpr (!std::same_as<B, std::monostate>)
+          Pairs{world, at_b, false, reach, scratch, found}(a, b);
+      },
+      shape_b);
+}
+
 }  // namespace pbd

@@ -33,4 +33,9 @@ namespace pbd {
 void generate(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at_b, const Reach& reach,
               CollisionScratch& scratch, std::vector<ContactPoint>& found);
 
+/// The same of a triangle in the world, the shape asked for first, and a shape. A triangle without a radius
+/// is an overlap at best where it touches.
+void generate(const RoundedTriangle& a, const Shape& b, const Frame& at_b, const Reach& reach,
+              CollisionScratch& scratch, std::vector<ContactPoint>& found);
+
 }  // namespace pbd

@@ -38,6 +38,10 @@ void RoundedPolyhedron::place(const ClosedMesh& shape, const Frame& at) {
   place(shape.solid, Vec3::Ones(), 0, at);
 }
 
+void RoundedPolyhedron::place(const RoundedTriangle& shape, const Frame& at) {
+  place(shape.solid, Vec3::Ones(), shape.radius, at);
+}
+
 void RoundedPolyhedron::place(const Polyhedron& polyhedron, const Vec3& scale, double rounded,
                               const Frame& at) {
   solid = &polyhedron;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "collision/rounded_triangle.h"
 #include "shapes.h"
 
 namespace pbd {
@@ -19,6 +20,8 @@ struct RoundedPolyhedron {
   void place(const Box& shape, const Frame& at);
   void place(const ConvexHull& shape, const Frame& at);
   void place(const ClosedMesh& shape, const Frame& at);  // its edges may be inward ones
+
+  void place(const RoundedTriangle& shape, const Frame& at);
 
   /// What is within `rounded` of the polyhedron, stretched along its axes, none of whose faces turns.
   void place(const Polyhedron& polyhedron, const Vec3& scale, double rounded, const Frame& at);

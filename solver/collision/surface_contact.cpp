@@ -95,6 +95,28 @@ SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) :
   }
   keep_each_once(nodes_);
   keep_each_once(edges_);
+  std::vector<std::array<int, 2>> across, neighbours;
+  for (const auto& nodes : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      across.push_back({edge(nodes[k], nodes[(k + 1) % 3]), nodes[(k + 2) % 3]});
+  for (const auto& [a, b] : edges_) neighbours.insert(neighbours.end(), {{a, b}, {b, a}});
+  across_ = Lists(std::move(across));
+  neighbours_ = Lists(std::move(neighbours));
+}
+
+SurfaceSearch::Lists::Lists(std::vector<std::array<int, 2>> pairs) {
+  keep_each_once(pairs);
+  first.push_back(0);
+  for (const auto& [list, entry] : pairs) {
+    first.resize(static_cast<std::size_t>(list) + 1, static_cast<int>(all.size()));
+    all.push_back(entry);
+  }
+  first.push_back(static_cast<int>(all.size()));
+}
+
+int SurfaceSearch::edge(int from, int to) const {
+  const std::array<int, 2> ends{std::min(from, to), std::max(from, to)};
+  return static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), ends) - edges_.begin());
 }
 
 void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach, double thickness,

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "box_tree.h"
@@ -38,6 +39,14 @@ class SurfaceSearch {
 
   const std::vector<int>& nodes() const { return nodes_; }
 
+  /// The number of the triangles' edge between two nodes.
+  int edge(int from, int to) const;
+  const std::array<int, 2>& ends(int edge) const { return edges_[edge]; }
+  /// Of each triangle about an edge, the node across.
+  std::span<const int> across(int edge) const { return across_.of(edge); }
+  /// The nodes at the other ends of a node's edges.
+  std::span<const int> neighbours(int node) const { return neighbours_.of(node); }
+
   /// Appends node-triangle and edge-edge pairs without a common node whose gap at x is below what their nodes
   /// move by together (`reach`, m, one a node of the scene), and whose nearest points lie on them. Edges that
   /// are parallel are left to their nodes.
@@ -50,8 +59,20 @@ class SurfaceSearch {
   void find_edges(const Points& x, const std::vector<double>& reach, double thickness,
                   std::vector<SurfaceContact>& out);
 
+  /// Lists of numbers, one after the other.
+  struct Lists {
+    std::vector<int> first, all;
+
+    explicit Lists(std::vector<std::array<int, 2>> pairs);  // list and entry, each once
+    std::span<const int> of(int list) const {
+      return std::span(all).subspan(static_cast<std::size_t>(first[list]),
+                                    static_cast<std::size_t>(first[list + 1] - first[list]));
+    }
+  };
+
   std::vector<std::array<int, 3>> triangles_;
   std::vector<std::array<int, 2>> edges_;
+  Lists across_{{}}, neighbours_{{}};
   std::vector<int> nodes_;
   std::vector<AxisBox> boxes_;
   BoxTree tree_;

@@ -1,6 +1,7 @@
 // One contact of a step: its features, its directions (normal n and two tangents) and its columns. Impulses
 // push along n and t at x, both bodies at one place: those of a face on one plane, through the point of the
-// other body that is nearest to it; else in the middle of the gap.
+// other body that is nearest to it; of a deformable triangle where its nodes take them up; else in the middle
+// of the gap.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "collision/contact_point.h"
+#include "collision/rounded_triangle.h"
 #include "collision/surface_contact.h"
 #include "rows/bodies.h"
 #include "scene.h"
@@ -17,11 +19,13 @@ namespace pbd {
 /// One contact of a step.
 struct ActiveContact {
   ContactPoint features;        // in the frames of its carriers
-  std::array<int, 2> carrier;   // body or node of a and b
-  std::array<int, 2> collider;  // as the effect counts them, nodes behind the shapes; of surfaces the
-                                // node and a triangle's first one, or the edges' first ones
+  std::array<int, 2> carrier;   // body, node or triangle of a and b
+  std::array<int, 2> collider;  // as the effect counts them, nodes behind the shapes, triangles behind these;
+                                // of surfaces the node and a triangle's first one, or the edges' first ones
   int node_side = -1;           // 0 or 1 where a or b is a node
-  bool of_surfaces = false;     // then `surface` is it, and there are no features
+  int triangle_side = -1;       // 0 or 1 where a or b is a triangle; `triangle` then tells what of it
+  TriangleFeature triangle;
+  bool of_surfaces = false;  // then `surface` is it, and there are no features
   SurfaceContact surface;
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
   double nearest = 0;              // m, smallest gap of its pair
@@ -62,33 +66,45 @@ inline Vec3 reference_for(const Vec3& normal) {
 
 inline Frame frame_of(const ActiveContact& contact, int side, const Configuration& at) {
   const int carrier = contact.carrier[side];
+  if (side == contact.triangle_side) return {};
   if (side == contact.node_side) return {at.x.col(carrier), Eigen::Matrix3d::Identity()};
   const Pose& pose = at.pose[carrier];
   return {pose.x, pose.rotation};
 }
 
-/// Sets `nearest` of contacts of bodies, a pair's in a row.
+/// Of what has features.
+inline Touching touching_at(const ActiveContact& contact, const Configuration& at) {
+  const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
+  if (contact.triangle_side < 0) return touching(contact.features, a, b);
+  ContactPoint features = contact.features;
+  follow(contact.triangle, at.x, contact.triangle_side, features);
+  return touching(features, a, b);
+}
+
+/// Sets `nearest` of contacts of bodies and nodes, a pair's in a row.
 inline void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
   for (auto first = contacts.begin(); first != contacts.end();) {
     auto last = first;
     double nearest = infinity;
     for (; last != contacts.end() && last->pair() == first->pair(); ++last)
-      nearest =
-          std::min(nearest, touching(last->features, frame_of(*last, 0, at), frame_of(*last, 1, at)).gap);
+      nearest = std::min(nearest, touching_at(*last, at).gap);
     for (; first != last; ++first) first->nearest = nearest;
   }
 }
 
-/// First of a side's columns among the row's K: a node's stands in front of its body's.
+/// First of a side's columns among the row's K: a node's and a triangle's stand in front of their body's.
 template <class Block>
 int column_of(const ActiveContact& contact, int side) {
   if (Block::nodes == 4) return 2 * side;
+  if (Block::nodes == 5) return side == contact.triangle_side ? 0 : 3;
   return side == contact.node_side ? 0 : 1;
 }
 
 /// Where impulses act, m: at one place of both, so that together they turn nothing; those of a face on one
 /// plane, so that all its points can stick at once, however far from it each is.
 inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
+  if (contact.triangle_side == 0) return found.point_a + contact.features.radius_a * found.normal;
+  if (contact.triangle_side == 1) return found.point_b - contact.features.radius_b * found.normal;
   const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
   return on_face ? Vec3(found.point_b + contact.nearest * found.normal)
                  : Vec3((found.point_a + found.point_b) / 2);
@@ -114,12 +130,18 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
       for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
       return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
     }
-  Touching found = touching(contact.features, frame_of(contact, 0, at), frame_of(contact, 1, at));
+  Touching found = touching_at(contact, at);
   const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
   const Vec3 place = place_of(contact, found);
   for (const int side : {0, 1}) {
     const int column = 3 * column_of<Block>(contact, side);
     const double sign = side == 0 ? 1 : -1;
+    if constexpr (Block::nodes == 5)
+      if (side == contact.triangle_side) {
+        const Vec3 weight = weights_at(contact.triangle, at.x, place);
+        for (int k = 0; k < 3; ++k) jacobian.template middleCols<3>(3 * k) = sign * weight[k] * directions;
+        continue;
+      }
     jacobian.template middleCols<3>(column) = sign * directions;
     if (side == contact.node_side) continue;
     const Pose& pose = at.pose[contact.carrier[side]];
@@ -133,6 +155,7 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
 template <class Block>
 Directions<Block::rows> directions_in(const ActiveContact& contact,
                                       const typename Block::Jacobian& jacobian) {
+  if (contact.triangle_side == 0) return -jacobian.template middleCols<3>(3 * column_of<Block>(contact, 1));
   const int column = contact.of_surfaces ? 0 : 3 * column_of<Block>(contact, 0);
   Directions<Block::rows> directions = jacobian.template middleCols<3>(column);
   if (contact.of_surfaces && contact.surface.edges) directions += jacobian.template middleCols<3>(3);
@@ -148,6 +171,10 @@ typename Block::Nodes columns_of_contact(const ActiveContact& contact, const Bod
   for (const int side : {0, 1}) {
     const auto column = static_cast<std::size_t>(column_of<Block>(contact, side));
     const int carrier = contact.carrier[side];
+    if (side == contact.triangle_side) {
+      std::copy(contact.triangle.node.begin(), contact.triangle.node.end(), columns.begin());
+      continue;
+    }
     columns[column] = side == contact.node_side ? carrier : bodies.node(carrier);
     if (side != contact.node_side) columns[column + 1] = static_cast<int>(bodies.column(carrier));
   }

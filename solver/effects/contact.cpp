@@ -15,7 +15,7 @@ void with_contacts(Blocks&& blocks, Lists& contacts, F&& f) {
   for (std::size_t group = 0; group < blocks.size(); ++group)
     std::visit(
         [&]<class Block>(Block& block) {
-          if constexpr ((Block::rows == 1 || Block::rows == 3) && (Block::nodes == 3 || Block::nodes == 4))
+          if constexpr ((Block::rows == 1 || Block::rows == 3) && Block::nodes >= 3 && Block::nodes <= 5)
             f(block, contacts[group]);
         },
         blocks[group]);
@@ -68,7 +68,8 @@ void ContactRows::allocate(bool, BlockList& blocks) {
   if (effect_.collider.empty() && effect_.triangle.empty()) return;
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
-  of_bodies.law = of_nodes.law = law_;
+  RowBlock<3, 5> of_triangles;
+  of_bodies.law = of_nodes.law = of_triangles.law = law_;
   // In the order of ContactGroup; surfaces have four nodes, as bodies have four columns.
   blocks.add(RowBlock<3, 4>(of_bodies));
   blocks.add(RowBlock<1, 4>{});
@@ -76,6 +77,8 @@ void ContactRows::allocate(bool, BlockList& blocks) {
   blocks.add(RowBlock<1, 3>{});
   blocks.add(std::move(of_bodies));
   blocks.add(RowBlock<1, 4>{});
+  blocks.add(std::move(of_triangles));
+  blocks.add(RowBlock<1, 5>{});
 }
 
 bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
@@ -116,8 +119,8 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
 }
 
 void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
-  with_contacts(blocks, contacts_, [&](auto& block, auto& contacts) {
-    if (!contacts.empty() && !contacts[0].of_surfaces)
+  with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
+    if (Block::nodes != 5 && !contacts.empty() && !contacts[0].of_surfaces)
       find_nearest(place.directions != nullptr ? *place.directions : place.at, contacts);
     for (std::size_t i = 0; i < block.size(); ++i)
       linearise_contact(place, start_v_, contacts[i], block, i, sums);
@@ -159,7 +162,10 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       typename Full::Jacobian jacobian = Full::Jacobian::Zero();
       const Touching found = evaluate<Full>(contacts[i], at, jacobian);
       std::array<int, 2> collider = contacts[i].collider;
-      for (int& own : collider) own += contacts[i].of_surfaces ? first_node : 0;
+      for (const int side : {0, 1}) {
+        if (side == contacts[i].triangle_side) collider[side] = first_node + contacts[i].triangle.node[0];
+        if (contacts[i].of_surfaces) collider[side] += first_node;
+      }
       const auto acting = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
       const Vec3 normal = acting.row(0);
       Vec3 slip = directions_in<Full>(contacts[i], jacobian).transpose() * (jacobian * block.gather(v, i));

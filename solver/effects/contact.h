@@ -14,9 +14,11 @@
 // Limits: features stay those of the step's beginning, and of its end where something overlaps there, so that
 // a face goes on as its plane within a step. Impulses act at a step's end alone, under newmark, too, on both
 // bodies at one place, so that they turn nothing together. Nodes do not touch nodes. Deformable surfaces
-// touch by nodes over triangles and edges that cross, where the nearest points lie on them as the step
-// begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side; a
-// node that comes over an edge or a corner within a step is held by whatever else is near. `thickness` should
+// touch each other by nodes over triangles and edges that cross, where the nearest points lie on them as the
+// step begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side;
+// a node that comes over an edge or a corner within a step is held by whatever else is near. Bodies touch
+// each triangle half a thickness from it, by all features of both; features that triangles share count
+// once, and where a body is nearer to a triangle beside them, not at all. `thickness` should
 // be well below the shortest edge; a crease so sharp that its triangles are nearer than that parts them by
 // force, and such steps may not converge.
 //

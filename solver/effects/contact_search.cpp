@@ -6,13 +6,22 @@
 namespace pbd {
 
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
-    : effect_(effect), allowed_(scene, effect), motions_(effect.collider.size() + effect.node.size()) {
+    : effect_(effect),
+      allowed_(scene, effect),
+      motions_(effect.collider.size() + effect.node.size() +
+               (effect.collider.empty() ? 0 : effect.triangle.size())) {
+  triangle_.radius = effect.thickness / 2;
   if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];
-    motion.is_node = k >= effect.collider.size();
-    if (motion.is_node) {
+    if (k >= effect.collider.size() + effect.node.size()) {
+      motion.kind = Carrier::triangle;
+      motion.carrier = static_cast<int>(k - effect.collider.size() - effect.node.size());
+      continue;
+    }
+    if (k >= effect.collider.size()) {
       const std::size_t node = k - effect.collider.size();
+      motion.kind = Carrier::node;
       motion.node_shape = Sphere{effect.radius[node]};
       motion.carrier = effect.node[node];
       motion.radius = effect.radius[node];
@@ -26,9 +35,10 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
 }
 
 ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
-                                                        const Configuration& start, const Points& to) {
+                                                        const Configuration& start, const Points& to) const {
+  if (motion.kind == Carrier::triangle) return triangle_displacement(motion, start.x, to);
   const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
-  if (motion.is_node) return {shift(motion.carrier).norm(), 0};
+  if (motion.kind == Carrier::node) return {shift(motion.carrier).norm(), 0};
   const Pose& pose = start.pose[motion.carrier];
   return {shift(bodies.node(motion.carrier)).norm(),
           (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm()};
@@ -36,6 +46,7 @@ ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, co
 
 /// Of the points of the collider; of a half space, of its body's centre.
 double ContactSearch::farthest_travel(const Motion& motion, const Displacement& moved) {
+  if (motion.kind == Carrier::triangle) return moved.shift;
   return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
 }
 
@@ -47,7 +58,8 @@ double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
 
 Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {
   const Motion& motion = motions_[collider];
-  if (motion.is_node) return {at.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
+  if (motion.kind == Carrier::triangle) return {};
+  if (motion.kind == Carrier::node) return {at.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
   const Pose& pose = at.pose[motion.carrier];
   const Frame& own = effect_.collider[collider].frame;
   return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
@@ -58,12 +70,16 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
   const auto moves = [&](Eigen::Index column) { return inverse_mass[column] > 0; };
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];
+    if (motion.kind == Carrier::triangle) {
+      place_triangle(start.x, inverse_mass, motion);
+      continue;
+    }
     const int carrier = motion.carrier;
-    motion.shape = motion.is_node ? &motion.node_shape : &effect_.collider[k].shape;
+    const bool is_node = motion.kind == Carrier::node;
+    motion.shape = is_node ? &motion.node_shape : &effect_.collider[k].shape;
     motion.frame = placed_frame(static_cast<int>(k), start);
-    motion.centre = motion.is_node ? motion.frame.origin : start.pose[carrier].x;
-    motion.moves =
-        motion.is_node ? moves(carrier) : moves(bodies.node(carrier)) || moves(bodies.column(carrier));
+    motion.centre = is_node ? motion.frame.origin : start.pose[carrier].x;
+    motion.moves = is_node ? moves(carrier) : moves(bodies.node(carrier)) || moves(bodies.column(carrier));
   }
 }
 
@@ -89,16 +105,19 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
 }
 
 bool ContactSearch::may_touch(int first, int second) const {
-  const Motion &one = motions_[first], &two = motions_[second];
-  if (!one.is_node && !two.is_node) return allowed_.bodies(one.carrier, two.carrier);
-  return one.is_node ? allowed_.node_and_body(one.carrier, two.carrier)
-                     : allowed_.node_and_body(two.carrier, one.carrier);
+  const int body = motions_[first].carrier;  // nodes and triangles stand behind bodies
+  const Motion& two = motions_[second];
+  if (two.kind == Carrier::body) return allowed_.bodies(body, two.carrier);
+  if (two.kind == Carrier::node) return allowed_.node_and_body(two.carrier, body);
+  const auto& nodes = effect_.triangle[two.carrier];
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](int node) { return allowed_.node_and_body(node, body); });
 }
 
 ActiveContact ContactSearch::active(const ContactPoint& point, int first, int second) const {
   const std::array<int, 2> sides = point.swapped ? std::array{second, first} : std::array{first, second};
   const auto local = [&](int collider) {
-    return motions_[collider].is_node ? Frame{} : effect_.collider[collider].frame;
+    return motions_[collider].kind == Carrier::body ? effect_.collider[collider].frame : Frame{};
   };
   ActiveContact contact;
   contact.features = placed(point, local(sides[0]), local(sides[1]));
@@ -106,18 +125,23 @@ ActiveContact ContactSearch::active(const ContactPoint& point, int first, int se
   for (const int side : {0, 1}) {
     const Motion& own = motions_[sides[side]];
     contact.carrier[side] = own.carrier;
-    if (own.is_node) contact.node_side = side;
+    if (own.kind == Carrier::node) contact.node_side = side;
+    if (own.kind != Carrier::triangle) continue;
+    contact.triangle_side = side;
+    contact.triangle = feature_of(point, side, triangle_, effect_.triangle[own.carrier]);
+    name_by_scene(own, contact);
   }
   contact.law = effect_.between(first, second);
   return contact;
 }
 
-/// The smaller one, m; nodes touch by planes, and have none that counts.
+/// The smaller one, m; nodes touch by planes, and have none that counts, nor do triangles.
 double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
-  return std::min(one.is_node ? infinity : one.round, two.is_node ? infinity : two.round);
+  const auto round = [](const Motion& own) { return own.kind == Carrier::body ? own.round : infinity; };
+  return std::min(round(one), round(two));
 }
 
-/// The late contact of a pair (lower collider first) and a key, if there is one.
+/// The late contact of a pair (lower collider first) and a key as `active` gives it, if there is one.
 std::vector<ActiveContact>::iterator ContactSearch::late_contact(const std::array<int, 2>& pair,
                                                                  std::uint64_t key) {
   return std::find_if(late_.begin(), late_.end(), [&](const ActiveContact& contact) {
@@ -125,28 +149,41 @@ std::vector<ActiveContact>::iterator ContactSearch::late_contact(const std::arra
   });
 }
 
-void ContactSearch::add_pair(int first, int second, ContactLists& contacts) {
+void ContactSearch::add_pair(int first, int second, const Configuration& start, ContactLists& contacts) {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
   const double travel = travel_near(one, two) + travel_near(two, one);
-  found_.clear();
-  const Reach reach{effect_.margin + travel, one.turn + two.turn};
-  generate(*one.shape, one.frame, *two.shape, two.frame, reach, scratch_, found_);
+  if (two.kind == Carrier::triangle) triangle_.place(corners(two, start.x));
+  find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn});
   const auto add = [&](const ActiveContact& contact) {
-    const std::size_t group = contact.node_side < 0 ? bodies_rough : nodes_rough;
+    const std::size_t group = two.kind == Carrier::body   ? bodies_rough
+                              : two.kind == Carrier::node ? nodes_rough
+                                                          : triangles_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
   };
-  double deepest = 0;
+  double nearest = infinity;
   for (const ContactPoint& point : found_) {
-    deepest = std::min(deepest, gap_of(point, one.frame, two.frame));
-    if (late_contact({first, second}, point.key) == late_.end()) add(active(point, first, second));
+    nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
+    const ActiveContact contact = active(point, first, second);
+    if (late_contact({first, second}, contact.features.key) != late_.end()) continue;
+    if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) add(contact);
   }
   for (const ActiveContact& contact : late_)
     if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
-  const double round = round_radius_of(one, two);
+  const double round = round_radius_of(one, two), deepest = std::min(nearest, 0.0);
   if (bounded && wary * travel * travel > 8 * round * (overlooked * round + deepest))
-    far_.push_back({{first, second}, deepest});
+    far_.push_back({{first, second}, nearest, deepest});
+}
+
+void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
+                                const Reach& reach) {
+  found_.clear();
+  const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
+  if (two.kind != Carrier::triangle)
+    return generate(*one.shape, at_first, *two.shape, at_second, reach, scratch_, found_);
+  generate(triangle_, *one.shape, at_first, reach, scratch_, found_);
+  for (ContactPoint& point : found_) point.swapped = !point.swapped;
 }
 
 void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,
@@ -157,7 +194,7 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = farthest_travel(motion, moved);
     motion.turn = moved.turn;
-    if (!motion.is_node && motion.radius > 0)
+    if (motion.kind == Carrier::body && motion.radius > 0)
       motion.turn = std::max(moved.turn, motion.travel / motion.radius);
   }
   if (!surfaces_) return;
@@ -189,13 +226,16 @@ void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
   far_.clear();
   boxes_.clear();
   for (const Motion& motion : motions_) {
-    const Eigen::AlignedBox3d box = bounds_of(*motion.shape, motion.frame);
+    const AxisBox box = box_of(motion, start.x);
     const Vec3 slack = Vec3::Constant(motion.travel + effect_.margin);
-    const int group = motion.is_node ? -1 : motion.carrier;  // nodes touch no nodes, bodies not themselves
+    // Nodes and triangles are not paired with each other here, nor bodies with themselves.
+    const int group = motion.kind == Carrier::body ? motion.carrier : -1;
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
-  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, contacts);
-  if (surfaces_) add_surfaces(start.x, contacts);
+  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, start, contacts);
+  keep_each_once(contacts[triangles_rough]);
+  keep_each_once(contacts[triangles_smooth]);
+  if (surfaces_ && effect_.surfaces_touch) add_surfaces(start.x, contacts);
 }
 
 }  // namespace pbd

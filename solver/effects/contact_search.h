@@ -22,6 +22,7 @@
 
 #include <array>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "collision/bounds.h"
@@ -32,7 +33,7 @@
 
 namespace pbd {
 
-/// Contacts of bodies with friction and without, of nodes with bodies, of surfaces.
+/// Contacts of bodies with friction and without, of nodes with bodies, of surfaces, of triangles with bodies.
 enum ContactGroup : std::size_t {
   bodies_rough,
   bodies_smooth,
@@ -40,6 +41,8 @@ enum ContactGroup : std::size_t {
   nodes_smooth,
   surfaces_rough,
   surfaces_smooth,
+  triangles_rough,
+  triangles_smooth,
   contact_groups
 };
 using ContactLists = std::array<std::vector<ActiveContact>, contact_groups>;
@@ -66,23 +69,37 @@ class ContactSearch {
   static constexpr double overlooked = 1e-4;
   static constexpr double wary = 16;  // times what a ball makes of its travel: measured, see above
 
+  enum class Carrier : std::uint8_t { body, node, triangle };
+
   struct Motion {        // of a collider in this step
     Shape node_shape;    // of a node
-    const Shape* shape;  // in `frame`
+    const Shape* shape;  // in `frame`; of a triangle none
     Frame frame;         // in the world
-    int carrier = -1;    // body or node
-    bool is_node = false;
+    Carrier kind = Carrier::body;
+    int carrier = -1;    // body, node or triangle
     bool moves = false;  // by impulses
-    Vec3 centre;         // m, of the body
+    Vec3 centre;         // m, of the body; of a triangle the mean of its nodes
     double radius = 0;   // m, of the farthest point about it; infinite for a half space
     double round = 0;    // m, radius of what is round of the shape
     double travel = 0;   // m, that its points move at most; of a half space, its centre
     double turn = 0;     // rad, that it turns at most
+    double height = 0;   // m, the least one of a triangle
   };
   struct Pair {
     std::array<int, 2> collider;
-    double deepest = 0;           // m, gap as it begins, at most 0: what overlaps gets no deeper
+    double nearest = infinity;    // m, gap as it begins
+    double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
     double least_end = infinity;  // m, gap that its contacts tell of
+  };
+  struct TriangleName {  // of a contact: the same for all triangles that share the feature
+    int body;            // as the effect counts colliders
+    std::uint64_t key;
+    bool early;     // not late: late ones are kept before others
+    std::size_t i;  // in its list
+
+    bool operator<(const TriangleName& other) const {
+      return std::tie(body, key, early, i) < std::tie(other.body, other.key, other.early, other.i);
+    }
   };
   struct Displacement {
     double shift, turn;  // m, rad
@@ -90,27 +107,42 @@ class ContactSearch {
 
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
-  static Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
-                                   const Points& to);
+  Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
+                            const Points& to) const;
   static double farthest_travel(const Motion& motion, const Displacement& moved);
   static double travel_near(const Motion& motion, const Motion& other);
   void add_surfaces(const Points& x, ContactLists& contacts);
   static double round_radius_of(const Motion& one, const Motion& two);
   bool may_touch(int first, int second) const;
-  void add_pair(int first, int second, ContactLists& contacts);
+  AxisBox box_of(const Motion& motion, const Points& x) const;
+  void add_pair(int first, int second, const Configuration& start, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;
   std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
   Frame placed_frame(int collider, const Configuration& at) const;
+  /// Sets `found_`; a triangle is the one that was placed last.
+  void find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
+                   const Reach& reach);
 
   /// m, with the frames of the pair in the order of the colliders.
   static double gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second);
 
-  // Late contacts: late_contacts.cpp. The way between is that of turns below pi.
+  // Triangles of deformable surfaces, the second ones of their pairs: triangle_contacts.cpp.
+  void place_triangle(const Points& x, const std::vector<double>& inverse_mass, Motion& motion) const;
+  Displacement triangle_displacement(const Motion& motion, const Points& from, const Points& to) const;
+  std::array<Vec3, 3> corners(const Motion& motion, const Points& x) const;
+  void name_by_scene(const Motion& triangle, ActiveContact& contact) const;
+  bool nearest_of_surface(const ActiveContact& contact, const Configuration& at) const;
+  void keep_each_once(std::vector<ActiveContact>& contacts);
+
+  // Late contacts: late_contacts.cpp. The way between is that of turns below pi, and straight for nodes.
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                           double share, double reach);
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
+  bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
+  double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,
+                  double apart, double& overlapping);
   bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
 
   const Contact& effect_;
@@ -119,9 +151,12 @@ class ContactSearch {
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
   std::vector<ContactPoint> found_;
+  std::vector<ActiveContact> overlapping_;
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;
   CollisionScratch scratch_;
+  RoundedTriangle triangle_;  // the one that was placed last
+  std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<double> node_travel_;  // m, of each node, where there are surfaces

@@ -18,6 +18,17 @@ double surface_bound(const SurfaceContact& contact, const Points& x, double impu
   return length > 0 ? 2 * std::abs(impulse) / length : 0.0;
 }
 
+/// Likewise; of a point the shares of the nodes do not change.
+double triangle_bound(const TriangleFeature& triangle, const Points& x, double impulse) {
+  if (triangle.kind == TriangleFeature::Kind::point) return 0;
+  const auto at = [&](int k) -> Vec3 { return x.col(triangle.node[k]); };
+  const Vec3 u = at(1) - at(0), v = at(2) - at(0), w = at(2) - at(1);
+  const double length = triangle.kind == TriangleFeature::Kind::edge
+                            ? (at(triangle.ends[1]) - at(triangle.ends[0])).norm()
+                            : u.cross(v).norm() / std::max({u.norm(), v.norm(), w.norm()});
+  return length > 0 ? 2 * impulse / length : 0.0;
+}
+
 }  // namespace
 
 template <class Block>
@@ -32,7 +43,7 @@ void add_contact_stiffness(const ActiveContact& contact, const StepMap& map, con
     }
   const ContactPoint& features = contact.features;
   const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
-  const Touching found = touching(features, a, b);
+  const Touching found = touching_at(contact, at);
   const double normal = factor * block.impulse[i][0];
   Vec3 tangential = Vec3::Zero();
   if constexpr (Block::rows == 3)
@@ -44,6 +55,11 @@ void add_contact_stiffness(const ActiveContact& contact, const StepMap& map, con
   const double apart = turns && distance > 0 ? std::max(0.0, -normal) * 2 / distance : 0.0;
   for (const int side : {0, 1}) {
     const int column = column_of<Block>(contact, side);
+    if (side == contact.triangle_side) {
+      const double bound = apart + triangle_bound(contact.triangle, at.x, factor * block.impulse[i].norm());
+      for (std::size_t k = 0; k < 3; ++k) added_mass[block.node[i][k]] += map.d / 2 * bound;
+      continue;
+    }
     const auto node = [&](int k) {
       return static_cast<std::size_t>(
           block.node[i][static_cast<std::size_t>(column) + static_cast<std::size_t>(k)]);
@@ -70,5 +86,9 @@ template void add_contact_stiffness(const ActiveContact&, const StepMap&, const 
                                     const RowBlock<3, 3>&, std::size_t, std::vector<double>&);
 template void add_contact_stiffness(const ActiveContact&, const StepMap&, const Configuration&, double,
                                     const RowBlock<1, 3>&, std::size_t, std::vector<double>&);
+template void add_contact_stiffness(const ActiveContact&, const StepMap&, const Configuration&, double,
+                                    const RowBlock<3, 5>&, std::size_t, std::vector<double>&);
+template void add_contact_stiffness(const ActiveContact&, const StepMap&, const Configuration&, double,
+                                    const RowBlock<1, 5>&, std::size_t, std::vector<double>&);
 
 }  // namespace pbd

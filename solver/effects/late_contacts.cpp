@@ -23,48 +23,92 @@ double ContactSearch::generate_between(const Pair& pair, const Configuration& st
   const auto [first, second] = pair.collider;
   const Frame at_first = frame_between(first, start, end, share),
               at_second = frame_between(second, start, end, share);
-  found_.clear();
-  generate(*motions_[first].shape, at_first, *motions_[second].shape, at_second, Reach{reach}, scratch_,
-           found_);
+  if (motions_[second].kind == Carrier::triangle) {
+    auto corner = corners(motions_[second], start.x);
+    const auto to = corners(motions_[second], end.x);
+    for (std::size_t k = 0; k < 3; ++k) corner[k] += share * (to[k] - corner[k]);
+    triangle_.place(corner);
+  }
+  find_points(pair.collider, at_first, at_second, Reach{reach});
   double least = infinity;
   for (const ContactPoint& point : found_) least = std::min(least, gap_of(point, at_first, at_second));
   return least;
 }
 
-/// Keeps of `found_` what overlaps at `end` by more than `allowed`, but not what lies behind where `start`
-/// was.
+/// Sets `overlapping_` to what of `found_` overlaps at `end` by more than `allowed`, but not what lies behind
+/// where `start` was.
 void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                                      double allowed, double behind) {
-  const auto [first, second] = pair.collider;
-  const Frame first_start = placed_frame(first, start), second_start = placed_frame(second, start),
-              first_end = placed_frame(first, end), second_end = placed_frame(second, end);
-  std::erase_if(found_, [&](const ContactPoint& point) {
-    return !(gap_of(point, first_end, second_end) < allowed) ||
-           gap_of(point, first_start, second_start) < behind;
-  });
+  overlapping_.clear();
+  for (const ContactPoint& point : found_) {
+    const ActiveContact contact = active(point, pair.collider[0], pair.collider[1]);
+    if (touching_at(contact, end).gap < allowed && touching_at(contact, start).gap >= behind)
+      overlapping_.push_back(contact);
+  }
 }
 
-/// True if a pair overlaps at `end` as none of the step's contacts tells; sets `found_` to the points by
-/// which it has come to, if any are found: shapes in each other tell how they part, not how they met, and
-/// what has come over an edge would be thrown back across a face. Without any the step cannot be solved.
-bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
+/// Halves the part of the way between two shares, at the second of which a pair is in each other by more than
+/// `behind` (negative, m): sets `overlapping` and returns the last share at which it is not.
+double ContactSearch::entering(const Pair& pair, const Configuration& start, const Configuration& end,
+                               double behind, double apart, double& overlapping) {
   constexpr int halvings = 15;  // of the way: less than `overlooked` of r where a shape goes as far as 3 r
+  const double slack = overlooked * round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (apart + overlapping) / 2;
+    (generate_between(pair, start, end, middle, slack) < behind ? overlapping : apart) = middle;
+  }
+  return apart;
+}
+
+/// Walks the way of a pair that begins apart. True where it touches by features that overlap at `end` by more
+/// than `allowed`, or is in each other by more than that (negative, m); sets `overlapping_` to those
+/// features, if there are any. A gap falls by no more than both travel, so that no smaller share needs to be
+/// looked at; what touches goes on by half a radius at most.
+bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Configuration& end,
+                          double allowed) {
+  constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
+  const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
+  const double travel = travel_near(one, two) + travel_near(two, one), round = round_radius_of(one, two),
+               slack = overlooked * round;
+  double gap = pair.nearest, share = 0, apart = 0, touching_for = 0;
+  for (int k = 0; k < most; ++k) {
+    touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
+    share += std::max(gap, touching_for) / travel;
+    if (!(share < 1)) return false;
+    gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
+    if (gap > slack) {
+      apart = share;
+      continue;
+    }
+    const bool inside = gap < allowed;
+    if (inside) share = entering(pair, start, end, -slack, apart, share);
+    generate_between(pair, start, end, share, 2 * slack);
+    keep_overlapping(pair, start, end, allowed, -slack);
+    if (inside || !overlapping_.empty()) return true;
+  }
+  overlapping_.clear();
+  return true;
+}
+
+/// True if a pair overlaps at `end`, or on the way there where that is to be looked at, as none of the step's
+/// contacts tells; sets `overlapping_` to the points by which it has come to, if any are found: shapes in
+/// each other tell how they part, not how they met, and what has come over an edge would be thrown back
+/// across a face. Without any the step cannot be solved.
+bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double round = round_radius_of(one, two), slack = overlooked * round;
   const double rounded = 1e-12 * (one.radius + one.travel + two.radius + two.travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);
+  if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed)) return true;
   if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
-  double apart = 0, overlapping = 1;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (apart + overlapping) / 2;
-    (generate_between(pair, start, end, middle, slack) < behind ? overlapping : apart) = middle;
-  }
+  double overlapping = 1;
+  const double apart = entering(pair, start, end, behind, 0, overlapping);
   const double left = (overlapping - apart) * (one.travel + two.travel);
-  for (const double share : {apart, 1.0}) {
-    generate_between(pair, start, end, share, slack + left);
+  for (const double at : {apart, 1.0}) {
+    generate_between(pair, start, end, at, slack + left);
     keep_overlapping(pair, start, end, allowed, behind);
-    if (!found_.empty()) break;
+    if (!overlapping_.empty()) break;
   }
   return true;
 }
@@ -79,17 +123,16 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
       if (contact.of_surfaces) continue;
       const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{contact.pair()}, in_order);
       if (pair == far_.end() || pair->collider != contact.pair()) continue;
-      const double gap = touching(contact.features, frame_of(contact, 0, end), frame_of(contact, 1, end)).gap;
-      pair->least_end = std::min(pair->least_end, gap);
+      pair->least_end = std::min(pair->least_end, touching_at(contact, end).gap);
     }
   bool seen = false;
   for (const Pair& pair : far_) {
     if (!find_overlapping(pair, start, end)) continue;
     seen = true;
-    for (const ContactPoint& point : found_) {
-      const auto known = late_contact(pair.collider, point.key);
+    for (const ActiveContact& found : overlapping_) {
+      const auto known = late_contact(pair.collider, found.features.key);
       ActiveContact& contact = known == late_.end() ? late_.emplace_back() : *known;
-      contact = active(point, pair.collider[0], pair.collider[1]);
+      contact = found;
       contact.late = true;
       contact.target = pair.deepest;
     }

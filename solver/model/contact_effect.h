@@ -28,11 +28,14 @@ struct Collider {
 };
 
 /// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
-/// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`.
-/// Two colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch,
-/// nor does a node the body that it is attached to. `law` has an entry for each pair of materials, row by row
-/// of a symmetric table. Gaps g >= 0 at the end of each step; where one begins with overlap, the shapes part
-/// by at most `recovery` (m/s). Pairs take part that are nearer than their motions go, and `margin` (m).
+/// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`,
+/// and with colliders at half of it, which is not 0 then. Two colliders of one body, of bodies that a joint
+/// connects, or of bodies named in `apart` do not touch, nor does a node, or a triangle of it, the body that
+/// it is attached to. `law` has an entry for each pair of materials, row by row of a symmetric table. Gaps g
+/// >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery` (m/s).
+/// Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved step
+/// colliders do not pass through colliders, nodes and triangles that they begin apart from either, on
+/// straight ways and constant turns.
 struct Contact {
   static constexpr std::string_view name = "contact";
   std::vector<Collider> collider;
@@ -47,10 +50,13 @@ struct Contact {
   std::vector<std::array<int, 2>> apart{};
   double margin = 0;
   double recovery = infinity;
+  bool continuous = false;
+  bool surfaces_touch = true;
 
-  /// Of the material of collider or node k, nodes behind the colliders.
+  /// Of the material of collider, node or triangle k, each behind the ones before.
   int material(std::size_t k) const {
-    return k < collider.size() ? collider[k].material : node_material[k - collider.size()];
+    if (k < collider.size()) return collider[k].material;
+    return k - collider.size() < node.size() ? node_material[k - collider.size()] : surface_material;
   }
   const ContactLaw& between(std::size_t first, std::size_t second) const {
     const auto row = static_cast<std::size_t>(material(first));

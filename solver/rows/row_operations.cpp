@@ -95,6 +95,8 @@ template struct RowOperations<6, 4>;
 template struct RowOperations<2, 4>;
 template struct RowOperations<3, 4>;
 template struct RowOperations<1, 3>;
+template struct RowOperations<3, 5>;
+template struct RowOperations<1, 5>;
 
 void refresh_inverse_diagonal(Rows& rows) {
   for_each_block(rows.blocks, [&]<class Block>(Block& block) {

@@ -23,6 +23,8 @@ template void BlockList::add(RowBlock<6, 4>&&);
 template void BlockList::add(RowBlock<2, 4>&&);
 template void BlockList::add(RowBlock<3, 4>&&);
 template void BlockList::add(RowBlock<1, 3>&&);
+template void BlockList::add(RowBlock<3, 5>&&);
+template void BlockList::add(RowBlock<1, 5>&&);
 template void BlockList::add(LocalContacts&&);
 
 double irregular(std::size_t k) {

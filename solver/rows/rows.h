@@ -145,7 +145,8 @@ template <class Block>
 inline constexpr bool is_local = std::is_same_v<Block, LocalContacts>;
 
 using AnyBlock = std::variant<RowBlock<3, 1>, RowBlock<1, 2>, RowBlock<1, 4>, RowBlock<3, 3>, RowBlock<6, 4>,
-                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>, LocalContacts>;
+                              RowBlock<2, 4>, RowBlock<3, 4>, RowBlock<1, 3>, RowBlock<3, 5>, RowBlock<1, 5>,
+                              LocalContacts>;
 
 /// Filled, copied and destroyed in rows.cpp, not in each file that has rows.
 struct BlockList : std::vector<AnyBlock> {

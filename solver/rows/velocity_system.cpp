@@ -70,6 +70,16 @@ template void VelocitySystem::push(const RowBlock<1, 3>&, std::size_t, const Row
                                    Eigen::VectorXd&) const;
 template RowBlock<1, 3>::Value VelocitySystem::along(const RowBlock<1, 3>&, std::size_t,
                                                      const Eigen::VectorXd&) const;
+template void VelocitySystem::add(const RowBlock<3, 5>&, std::size_t, const RowBlock<3, 5>::Square&);
+template void VelocitySystem::push(const RowBlock<3, 5>&, std::size_t, const RowBlock<3, 5>::Value&,
+                                   Eigen::VectorXd&) const;
+template RowBlock<3, 5>::Value VelocitySystem::along(const RowBlock<3, 5>&, std::size_t,
+                                                     const Eigen::VectorXd&) const;
+template void VelocitySystem::add(const RowBlock<1, 5>&, std::size_t, const RowBlock<1, 5>::Square&);
+template void VelocitySystem::push(const RowBlock<1, 5>&, std::size_t, const RowBlock<1, 5>::Value&,
+                                   Eigen::VectorXd&) const;
+template RowBlock<1, 5>::Value VelocitySystem::along(const RowBlock<1, 5>&, std::size_t,
+                                                     const Eigen::VectorXd&) const;
 template void VelocitySystem::add(const LocalContacts&, std::size_t, const LocalContacts::Square&);
 template void VelocitySystem::push(const LocalContacts&, std::size_t, const LocalContacts::Value&,
                                    Eigen::VectorXd&) const;

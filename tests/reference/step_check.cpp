@@ -224,3 +224,52 @@ TEST_CASE("contacts: force, cone, slip, gap and depth") {
   deep.move();
   CHECK(refuted(deep) == Names{"depth"});
 }
+
+TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carries") {
+  constexpr double thickness = 0.01, radius = 0.1, fall = 0.1;  // m, m/s
+  const auto falling = [&](double gap) {
+    Scene scene;
+    add_body(scene, Vec3(0.1, 0.1, radius + thickness / 2 + gap), 2, Vec3::Constant(0.01),
+             Eigen::Quaterniond::Identity(), Vec3(0, 0, -fall));
+    Contact contact;
+    contact.thickness = thickness;
+    contact.collider.push_back({Sphere{radius}, 0});
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) add_node(scene, x, infinity);
+    contact.triangle.push_back({1, 2, 3});
+    scene.effects.emplace_back(contact);
+    Step step(scene);
+    step.move();
+    return step;
+  };
+  CHECK(refuted(falling(Step::h * fall + 1e-9)).empty());
+  CHECK(refuted(falling(Step::h * fall - 2e-4 * radius)) == Names{"depth"});
+
+  Step stopped = falling(Step::h * fall / 2);  // the surface takes half of the speed
+  stopped.end.v.col(0) /= 2;
+  stopped.move();
+  const Vec3 force(0, 0, 2 * fall / 2 / Step::h);
+  stopped.contacts.push_back({{0, 2}, Vec3(0.1, 0.1, 0), Vec3::UnitZ(), force, 0});
+  CHECK(refuted(stopped).empty());
+  stopped.contacts[0].force *= 1.001;
+  CHECK(refuted(stopped) == Names{"momentum"});
+}
+
+TEST_CASE("momentum: what free surfaces and bodies exchange adds up") {
+  Scene scene;
+  add_body(scene, Vec3(0.1, 0.1, 0.2), 2, Vec3::Constant(0.01));
+  Contact contact;
+  contact.collider.push_back({Sphere{0.1}, 0});
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) add_node(scene, x, 1);
+  contact.triangle.push_back({1, 2, 3});
+  scene.effects.emplace_back(contact);
+  Step step(scene);
+  const Vec3 force(0, 0, 3);
+  step.contacts.push_back({{0, 2}, Vec3(0.1, 0.1, 0), Vec3::UnitZ(), force, 0});
+  step.end.v.col(0) = Step::h * force / 2;
+  step.end.v.col(1) = -Step::h * force;  // the shares of its nodes are not told
+  step.move();
+  CHECK(refuted(step).count("momentum") == 0);
+  step.end.v.col(1) *= 1.01;
+  step.move();
+  CHECK(refuted(step).count("momentum") == 1);
+}

@@ -140,6 +140,8 @@ World generated_world(std::int64_t index) {
   World world;
   world.h = random.decades(-3, -1.5);
   world.scene = Building(seed ^ (static_cast<std::uint64_t>(index) << 20)).finish();
+  for (Effect& effect : world.scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect)) contact->continuous = index % 5 == 4;
   world.method = any_method(random, has_contact(world.scene));
   return world;
 }

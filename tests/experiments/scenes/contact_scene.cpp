@@ -119,7 +119,19 @@ mass_kg = 1
 cells = [1, 1]
 size_m = [1, 1]
 area_density_kg_m2 = 1
-contact = { radius_m = 0.5, material = "silk", surface = true }
+contact = { radius_m = 0.5, material = "silk" }
+[[solid]]
+cells = [2, 2, 2]
+size_m = [1, 1, 1]
+density_kg_m3 = 1
+young_pa = 1
+poisson = 0
+contact = { material = "silk" }
+[[cloth]]
+cells = [1, 1]
+size_m = [1, 1]
+area_density_kg_m2 = 1
+contact = { material = "silk", surface = true }
 [[solid]]
 cells = [2, 2, 2]
 size_m = [1, 1, 1]
@@ -132,7 +144,7 @@ contact = { material = "silk", surface = true }
   REQUIRE(contact != nullptr);
   std::vector<int> expected{0, 3, 1, 7, 8, 9, 10};  // the chain has the nodes 4 to 6
   for (int node = 0; node < 27; ++node)
-    if (node != 13) expected.push_back(11 + node);  // all but the middle one
+    if (node != 13) expected.push_back(15 + node);  // all but the middle one
   CHECK(contact->node == expected);
   CHECK(std::vector(contact->radius.begin(), contact->radius.begin() + 8) ==
         std::vector<double>{0, 0.25, 0.25, 0.5, 0.5, 0.5, 0.5, 0});
@@ -141,7 +153,8 @@ contact = { material = "silk", surface = true }
   CHECK(contact->surface_material == 1);
   CHECK(contact->triangle.size() == 2 + 6 * 2 * 4);
   for (const auto& triangle : contact->triangle)
-    for (const int node : triangle) CHECK((node >= 7 && node < 38 && node != 24));
+    for (const int node : triangle)
+      CHECK(((node >= 11 && node < 15) || (node >= 42 && node < 69 && node != 55)));
   CHECK(contact->thickness == 0.02);
   CHECK(contact->recovery == pbd::infinity);
   CHECK(contact->law.size() == 4);

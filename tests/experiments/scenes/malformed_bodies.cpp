@@ -67,6 +67,16 @@ const std::vector<Mistake> body_mistakes{
      {"few.obj: convex hull: got 3 points", "four points"}},
     {"[[joint]]\nbodies = [\"arm\", \"hand\"]\nkind = 1\n",
      {"scene.toml:17: joint.0.kind", "got 1", "one of ball, hinge"}},
+    {body("name = \"a\"\nshape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncopies = [2, 2]\nspacing_m = [1, 1, "
+          "1]\n"),
+     {"scene.toml:20: rigid_body.2.copies", "three numbers >= 1"}},
+    {body("name = \"a\"\nshape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncopies = [1000, 1000, 2]\nspacing_m "
+          "= [1, 1, 1]\n"),
+     {"scene.toml:20: rigid_body.2.copies", "at most 100000"}},
+    {body("name = \"a\"\nshape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nscatter_m = 1\n"),
+     {"scene.toml:20: rigid_body.2.scatter_m", "`copies`, too"}},
+    {body("name = \"a\"\nshape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncopies = [2, 1, 1]\n"),
+     {"rigid_body.2.spacing_m", "got nothing"}},
     {body("name = \"a\"\nshape = 1\n"), {"scene.toml:17: rigid_body.2.shape", "got 1", "one of sphere, box"}},
     {"[method]\nouter = 1\n", {"scene.toml:16: method.outer", "got 1", "one of auto, plain"}},
 };

@@ -46,6 +46,35 @@ TEST_CASE("a mesh and its hull have the mass, place and inertia of the prism tha
   }
 }
 
+TEST_CASE("copies of a body stand on a grid, each shifted and turned a little, the same in every reading") {
+  const std::string copies = R"(
+[[rigid_body]]
+name = "brick"
+shape = "box"
+size_m = [0.2, 0.1, 0.1]
+mass_kg = 1
+position_m = [3, 0, 1]
+copies = [2, 1, 3]
+spacing_m = [0.3, 0, 0.2]
+)";
+  const auto exact = read(copies), scattered = read(copies + "scatter_m = 0.01\nscatter_rad = 0.1\n"),
+             again = read(copies + "scatter_m = 0.01\nscatter_rad = 0.1\n");
+  REQUIRE(exact.bodies.size() == 6);
+  CHECK(exact.bodies[0].name == "brick_0");
+  CHECK(exact.bodies[5].name == "brick_5");
+  CHECK((exact.scene.initial.x.col(1) - Vec3(3.3, 0, 1)).norm() <= 1e-15);
+  CHECK((exact.scene.initial.x.col(4) - Vec3(3, 0, 1.4)).norm() <= 1e-15);
+  const pbd::Points off = scattered.scene.initial.x - exact.scene.initial.x;
+  CHECK(off.cwiseAbs().maxCoeff() <= 0.01);
+  CHECK(off.cwiseAbs().minCoeff() > 0);
+  CHECK(scattered.scene.initial.x == again.scene.initial.x);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double angle =
+        exact.scene.initial.orientation[i].angularDistance(scattered.scene.initial.orientation[i]);
+    CHECK((angle > 0 && angle <= 0.1 * std::sqrt(3.0)));
+  }
+}
+
 TEST_CASE("bodies stand behind all nodes, in the file's order, held or free, and the world behind them") {
   const auto file = read(box + R"(
 [[rigid_body]]

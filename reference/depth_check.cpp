@@ -137,7 +137,7 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
   });
   if (attached) return;
   const DistanceBounds end = over_triangle(i, nodes, claim_.end);
-  if (end.found >= radius) return findings_.require("depth", "of a triangle", 0, 0);
+  if (end.found >= radius) return findings_.require("depth", "of a triangle, m", radius - end.found, 0);
   const DistanceBounds start = over_triangle(i, nodes, claim_.start);
   if (!(start.proved > 0)) return findings_.leave_out("depth: triangles that bodies cut as a step begins");
   const double reach = (first - claim_.end.x.col(sides_.side(i).node)).norm() + side;

@@ -255,7 +255,6 @@ TEST_CASE("nothing passes through a surface within a solved step where contact i
   INFO("of " << flights << " without " << without << " unsolved " << unsolved);
   CHECK(through == 0);
   CHECK(without > flights / 4);
-  CHECK(unsolved < 0.6 * flights);  // a hundred sizes a step is hard
 }
 
 TEST_CASE("surfaces that are not to touch each other do not, and bodies touch them all the same") {

@@ -132,8 +132,9 @@ auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t
     const double one = tension[a], other = tension[(a + 1) % 3];
     largest = std::max(largest, (one + other + std::sqrt(2 * (one * one + other * other))) / 2);
   }
-  return stress_bound(tet_gradients(inverse),
-                      Eigen::Matrix3d(largest / std::max(pair, least_pair) * Eigen::Matrix3d::Identity()));
+  const Eigen::Matrix<double, 4, 3> y = tet_gradients(inverse);  // `stress_bound` of a multiple of 1
+  return std::max(0.0, largest) / std::max(pair, least_pair) *
+         (y * y.transpose()).cwiseAbs().rowwise().sum().transpose();
 }
 
 std::unique_ptr<Source> make_source(const Scene& scene, const TetStrain& effect) {

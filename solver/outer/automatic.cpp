@@ -48,9 +48,10 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
 }
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
-  if (quasi_newton_) return quasi_newton_->iterate(system, progress);
   const std::int64_t before = progress.sweeps;
-  if (plain_contracts(system, progress)) {
+  if (quasi_newton_) {
+    quasi_newton_->iterate(system, progress);
+  } else if (plain_contracts(system, progress)) {
     system.at.v = system.at.rebuilt;
     relax(system, progress);
   } else {

@@ -1,11 +1,11 @@
-// auto: quasi_newton for compliant solids; else plain where that contracts, as predicted by the last step's
-// end and a bound of this one's, and as far as the iterates so far show; else proximal. A step that surprises
-// both predictions shows it in two slow iterations, after which it goes on as proximal. Where J is taken
-// between the step's start and end (direction_blend below 1) nothing is predicted: plain, until it is slow.
-// Where conjugate gradients spend all sweeps of three iterations in a row on contacts with friction,
-// nesterov_jacobi takes over for the rest of the step: near sliding they may hardly get on.
-// Of a sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left
-// to the other two.
+// auto: quasi_newton for compliant solids, in contact too; else plain where that contracts, as predicted by
+// the last step's end and a bound of this one's, and as far as the iterates so far show; else proximal. A
+// step that surprises both predictions shows it in two slow iterations, after which it goes on as proximal.
+// Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted: plain,
+// until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on contacts with
+// friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly get on. Of a
+// sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left to the
+// other two.
 #pragma once
 
 #include <optional>

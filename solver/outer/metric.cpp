@@ -45,12 +45,18 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
     factored_[node] = rotation_of(deformation[node]);
   d_ = map.d;
   s_ = map.s;
+  ++factored_times_;
 }
 
 void Metric::turn(const std::vector<Eigen::Matrix3d>& deformation) {
   if (!turns()) return;
   for (std::size_t node = 0; node < deformation.size(); ++node)
     rotation_[node] = rotation_of(deformation[node]) * factored_[node].transpose();
+}
+
+FactorReach Metric::reach(int node) const {
+  const int column = pattern_.column[static_cast<std::size_t>(node)];
+  return std::visit([&](const auto& factor) { return factor.reach(pattern_, column); }, factor_);
 }
 
 void Metric::solve(const Points& right, Points& result) {

@@ -35,6 +35,14 @@ class Metric {
   /// One over P's diagonal, 1/kg, the mean of its three entries a node; 0 where a node cannot move.
   const std::vector<double>& inverse_diagonal() const { return inverse_diagonal_; }
 
+  /// R of a node.
+  const Eigen::Matrix3d& rotation(int node) const { return rotation_[static_cast<std::size_t>(node)]; }
+
+  /// With P = R L L^T R^T: L^-1 of a unit load on a node of finite mass, as long as `factored` is the same.
+  FactorReach reach(int node) const;
+  int factored() const { return factored_times_; }
+  std::size_t nodes() const { return rotation_.size(); }
+
   /// result = P^-1 right; zero where a node cannot move.
   void solve(const Points& right, Points& result);
 
@@ -42,6 +50,7 @@ class Metric {
   bool turns() const { return factor_.index() > 0; }
 
   double d_ = 0, s_ = 0;  // s, of the steps that P is factored for
+  int factored_times_ = 0;
   FactorPattern pattern_;
   std::variant<MetricFactor<1, double>, MetricFactor<3, float>, MetricFactor<3, double>> factor_;
   std::vector<Eigen::Matrix3d> rotation_, factored_;  // R, and the rotations of the shape factored

@@ -142,6 +142,35 @@ void MetricFactor<B, Real>::solve(const FactorPattern& pattern, Points& x) const
   }
 }
 
+template <int B, class Real>
+FactorReach MetricFactor<B, Real>::reach(const FactorPattern& pattern, int column) const {
+  const std::vector<int>&start = pattern.start, &row = pattern.row;
+  FactorReach found;
+  const auto block = [&](int k) -> Eigen::Matrix3d {
+    if constexpr (B == 1)
+      return static_cast<double>(lower[k](0, 0)) * Eigen::Matrix3d::Identity();
+    else
+      return lower[k].template cast<double>();
+  };
+  // The rows of a column are above it in the tree, and the next of them is its parent.
+  for (int j = column;; j = row[start[j] + 1]) {
+    found.column.push_back(j);
+    if (start[j] + 1 == start[j + 1]) break;
+  }
+  found.part.assign(found.column.size(), Eigen::Matrix3d::Zero());
+  found.part.front().setIdentity();
+  for (std::size_t i = 0; i < found.column.size(); ++i) {
+    const int j = found.column[i];
+    found.part[i] = block(start[j]) * found.part[i];
+    std::size_t above = i;
+    for (int k = start[j] + 1; k < start[j + 1]; ++k) {
+      while (found.column[above] != row[k]) ++above;
+      found.part[above].noalias() -= block(k) * found.part[i];
+    }
+  }
+  return found;
+}
+
 template struct MetricFactor<1, double>;
 template struct MetricFactor<3, float>;
 template struct MetricFactor<3, double>;

@@ -18,6 +18,13 @@ struct FactorPattern {
   double products() const;
 };
 
+/// L^-1 of a unit load on one node's columns: where it is not zero, from the node's column of L up to a root
+/// of the elimination tree.
+struct FactorReach {
+  std::vector<int> column;
+  std::vector<Eigen::Matrix3d> part;
+};
+
 /// L of B x B blocks. With B = 1 the same L serves x, y and z.
 template <int B, class Real>
 struct MetricFactor {
@@ -25,6 +32,8 @@ struct MetricFactor {
 
   /// Solves L L^T x = b in place, one column a block column of L.
   void solve(const FactorPattern& pattern, Points& x) const;
+
+  FactorReach reach(const FactorPattern& pattern, int column) const;
 };
 
 /// Fill-reducing order of the nodes and pattern of L, from the blocks of a matrix.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "error.h"
 
@@ -25,27 +26,38 @@ QuasiNewton::QuasiNewton(StepSystem& system)
   if (system.problem.direction_blend != 1)
     refuse("with directions that are not those at x",
            "direction_blend 1 and an implicit integrator, or another outer iteration");
-  bool any = false, limited = false;
   for (Slot& slot : system.slots) {
     if (slot.count == 0) continue;
+    const Source::Kind& kind = slot.source->kind();
     slot.eliminated = eliminates(slot);
-    all_eliminated_ &= slot.eliminated;
-    any = true;
-    limited |= slot.source->kind().limited && !slot.source->kind().contacts;
     potential_.eliminated.insert(potential_.eliminated.end(), slot.count, slot.eliminated);
+    if (slot.eliminated) continue;
+    if (kind.limited && !kind.contacts)
+      refuse("with limits or motors of limited force", "another outer iteration");
+    const Dual needed = kind.contacts ? Dual::contacts : Dual::hard_rows;
+    if (dual_ != Dual::none && dual_ != needed)
+      refuse("with contact beside joints or hard constraints", "another outer iteration");
+    dual_ = needed;
   }
-  all_eliminated_ &= any && system.problem.bodies.count() == 0;
-  if (!all_eliminated_ && limited)
-    refuse("with limits or motors of limited force", "another outer iteration");
-  if (!all_eliminated_ && system.rows.contacts) refuse("with contact", "another outer iteration");
+  const Bodies& bodies = system.problem.bodies;
+  for (int b = 0; b < bodies.count(); ++b)
+    bodies_move_ |= system.problem.inverse_mass[static_cast<std::size_t>(bodies.column(b))] > 0;
+}
+
+bool QuasiNewton::descends(const StepSystem& system) const {
+  if (dual_ == Dual::hard_rows || bodies_move_) return false;
+  return dual_ == Dual::none || row_count(system.rows, potential_.eliminated) == 0;
 }
 
 bool QuasiNewton::suits(const StepSystem& system) {
-  if (system.rows.blocks.empty() || system.problem.direction_blend != 1 || system.problem.bodies.count() > 0)
-    return false;
-  return std::all_of(system.slots.begin(), system.slots.end(), [](const Slot& slot) {
-    return slot.count == 0 || (eliminates(slot) && slot.source->kind().fills_space);
-  });
+  if (system.problem.direction_blend != 1) return false;
+  bool any = false;
+  for (const Slot& slot : system.slots) {
+    if (slot.count == 0 || slot.source->kind().contacts) continue;
+    if (!eliminates(slot) || !slot.source->kind().fills_space) return false;
+    any = true;
+  }
+  return any;
 }
 
 void QuasiNewton::begin(StepSystem& system) {
@@ -59,7 +71,7 @@ void QuasiNewton::begin(StepSystem& system) {
 }
 
 RowResidual QuasiNewton::evaluate(StepSystem& system) {
-  evaluated_ = all_eliminated_;
+  evaluated_ = descends(system);
   return potential_.evaluate(system);
 }
 
@@ -68,21 +80,38 @@ RowResidual QuasiNewton::refresh(StepSystem& system) {
 }
 
 void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
-  if (all_eliminated_)
+  if (descends(system))
     descend(system, progress.outer_iterations == 0);
   else
     project(system, progress);
 }
 
-/// One proximal step in the metric: down the gradient, under the rows that are not eliminated.
+/// One proximal step in the metric: down the gradient, under the rows that are left dual.
 void QuasiNewton::project(StepSystem& system, Progress& progress) {
+  constexpr int patience = 5;  // iterations without a fall of the residual, from which nothing is learnt
   if (acceleration_.refuted(system, progress)) evaluate(system);
+  without_fall_ = progress.residual() < lowest_ ? 0 : without_fall_ + 1;
+  lowest_ = std::min(lowest_, progress.residual());
+  if (without_fall_ > patience) {
+    acceleration_.forget();
+    without_fall_ = 0;
+    lowest_ = progress.residual();
+  }
   acceleration_.note(system);
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;
-  const auto sweeps = hard_rows_.solve(system.rows, potential_.eliminated, potential_.metric, accuracy,
-                                       system.problem.method.max_sweeps, system.at.v);
+  const int most = system.problem.method.max_sweeps;
+  std::int64_t sweeps = 0;
+  if (dual_ == Dual::contacts) {
+    const bool fresh = std::exchange(progress.other_solver, false) || progress.iterations_of_rows == 0;
+    sweeps = contacts_.solve(system.solver, system.rows, potential_.eliminated, potential_.metric, fresh,
+                             {.max_sweeps = most, .absolute = accuracy}, system.at.v);
+    progress.linear_part = part(system.solver);
+  } else {
+    sweeps =
+        hard_rows_.solve(system.rows, potential_.eliminated, potential_.metric, accuracy, most, system.at.v);
+  }
   progress.sweeps += sweeps;
   progress.row_updates += sweeps * row_count(system.rows, potential_.eliminated);
   acceleration_.accelerate(system);
@@ -171,7 +200,7 @@ void QuasiNewton::descend(StepSystem& system, bool first) {
 }
 
 std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progress& progress, bool stalled) {
-  if (!all_eliminated_ || progress.outer_iterations == 0) return std::nullopt;
+  if (!descends(system) || progress.outer_iterations == 0) return std::nullopt;
   constexpr int patience = 5;
   constexpr double near = 10;          // times the tolerance
   constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows

@@ -1,7 +1,9 @@
 // quasi_newton: v <- v - t H grad phi(v) on the potential that remains when compliant rows are eliminated
-// (potential.h), L-BFGS in a constant metric, backtracking on phi. Where hard rows are left they stay dual
-// (hard_rows.h): argmin of the potential's model in the metric P under them, accelerated by Anderson's
-// method; that is not globalised by a line search, and P knows nothing of the hard rows' geometric stiffness.
+// (potential.h), L-BFGS in a constant metric, backtracking on phi. Where other rows are left they stay dual:
+// hard ones (hard_rows.h), or contacts alone (metric_contacts.h). v is then the argmin of the potential's
+// model in the metric P under them, accelerated by Anderson's method, which begins anew where its residual
+// does not fall; that is not globalised by a line search, and P knows nothing of those rows' geometric
+// stiffness.
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 iterations of a step were not enough: it is then factored anew at the current shape,
@@ -14,6 +16,7 @@
 #include "outer/acceleration.h"
 #include "outer/hard_rows.h"
 #include "outer/lbfgs.h"
+#include "outer/metric_contacts.h"
 #include "outer/potential.h"
 #include "outer/settle.h"
 
@@ -26,8 +29,11 @@ class QuasiNewton {
   /// Marks the slots that it eliminates. Throws SetupError where there is no potential.
   explicit QuasiNewton(StepSystem& system);
 
-  /// True if `auto` takes it: every row is compliant, of points, and stiff in every direction.
+  /// True if `auto` takes it: rows are compliant, of points, and stiff in every direction, or contacts.
   static bool suits(const StepSystem& system);
+
+  /// True where nothing is left dual: it goes down the potential by line searches.
+  bool descends(const StepSystem& system) const;
 
   void begin(StepSystem& system);
   RowResidual refresh(StepSystem& system);
@@ -37,6 +43,8 @@ class QuasiNewton {
   void forget() {
     evaluated_ = false;
     acceleration_.forget();
+    lowest_ = infinity;
+    without_fall_ = 0;
   }
 
   /// The stiffness of an effect is another now.
@@ -55,18 +63,22 @@ class QuasiNewton {
   void descend(StepSystem& system, bool first);
   void project(StepSystem& system, Progress& progress);
 
-  bool all_eliminated_ = true;
+  enum class Dual : std::uint8_t { none, hard_rows, contacts };  // besides what is eliminated
+
+  Dual dual_ = Dual::none;
+  bool bodies_move_ = false;
   Potential potential_;
   Lbfgs lbfgs_;
   Settling settling_;
   bool evaluated_ = false;  // the potential and the impulses are those of v
   double slope_ = 0;        // of the potential along `direction`, J
   Points last_gradient_, direction_, search_from_, zero_;
-  double lowest_ = infinity;  // primal residual of this step,
+  double lowest_ = infinity;  // residual of this step, primal where it descends,
   int without_fall_ = 0;      // and iterations since
 
-  // Where hard rows are left.
+  // Where rows are left dual.
   HardRows hard_rows_;
+  MetricContacts contacts_;
   Acceleration acceleration_;
 };
 

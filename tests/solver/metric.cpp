@@ -1,4 +1,4 @@
-#include "outer/metric.h"
+#include "outer/metric_inverse.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -94,6 +94,29 @@ TEST_CASE("the metric turns with the material") {
   metric.turn(std::vector<Eigen::Matrix3d>(Ring::nodes, rotation * stretch));
   metric.solve(rotation * forces(), turned);
   CHECK((turned - rotation * straight).norm() < 1e-13 * straight.norm());
+}
+
+TEST_CASE("blocks of the metric's inverse between some nodes are those of the whole") {
+  const bool one_number = GENERATE(false, true);
+  const double ratio = GENERATE(1.0, 1e6);  // the factor is of float, and of double
+  const Ring ring(one_number, ratio);
+  Metric metric = factored(ring, one_number ? 0 : 1e9);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  metric.turn(std::vector<Eigen::Matrix3d>(Ring::nodes, turn));
+  MetricInverse inverse;
+  inverse.begin(metric, 4);
+  for (const int a : {7, 0, 11, 2})
+    for (const int b : {2, 7, 5}) {
+      Points unit, column;
+      for (int axis = 0; axis < 3; ++axis) {
+        unit.setZero(3, Ring::nodes);
+        unit.col(b) = metric.rotation(b).col(axis);
+        metric.solve(unit, column);
+        const Vec3 wanted = metric.rotation(a).transpose() * column.col(a);
+        const Vec3 found = inverse.block(inverse.place(metric, a), inverse.place(metric, b)).col(axis);
+        CHECK((found - wanted).norm() <= 1e-12 * column.norm());
+      }
+    }
 }
 
 TEST_CASE("a factor of float knows its limits: pivots that differ too much stay double") {

@@ -138,9 +138,8 @@ TEST_CASE("methods that contact does not allow are refused where they are stated
   const TemporaryFolder folder;
   const auto out = folder.path / "out";
   const std::string stack = (scenes / "stack.toml").string();
-  for (const std::string setting : {"method.outer=quasi_newton", "method.integrator=midpoint"})
-    check_refused(run_program({"simulate", stack, "-o", out, "--set", setting}),
-                  {"--set " + setting.substr(0, setting.find('=')), "contact"});
+  check_refused(run_program({"simulate", stack, "-o", out, "--set", "method.integrator=midpoint"}),
+                {"--set method.integrator", "contact"});
   check_refused(run_program({"simulate", stack, "-o", out, "--set", "contact.friction=1e20"}),
                 {"--set contact.friction", "a number from 0 to 1e+07"});
   check_refused(run_program({"simulate", stack, "-o", out, "--set", "rigid_body.1.mass_kg=1e-50"}),

@@ -1,0 +1,42 @@
+// Contacts that quasi_newton does not eliminate stay dual, with its metric P in the place of M:
+//   u = J v + b + Sigma p obeys its law,   v = v_k - P^-1 gradient + P^-1 J^T p
+// Of the rows that is a local problem: relative velocities u, and W = J P^-1 J^T between all contacts, for
+// any of the linear solvers. Fixed points are the solutions of the step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "linear/linear_solver.h"
+#include "outer/metric_inverse.h"
+
+namespace pbd {
+
+class MetricContacts {
+ public:
+  /// Solves the contacts' linear rows to the budget's residual (sqrt(J)); takes v (m/s) from v_k - P^-1
+  /// gradient to where their impulses bring it. `fresh` as in `relax`. Returns the number of sweeps.
+  std::int64_t solve(LinearSolver& solver, Rows& rows, const std::vector<bool>& eliminated, Metric& metric,
+                     bool fresh, const InnerBudget& budget, Points& v);
+
+ private:
+  static constexpr int most_nodes = 5;
+
+  /// Of one contact: its nodes of finite mass, and J turned as the metric is.
+  struct Coupled {
+    std::array<int, most_nodes> place{};  // in `inverse_`
+    std::array<Eigen::Matrix3d, most_nodes> jacobian;
+    int nodes = 0;
+  };
+
+  void couple(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric, const Points& v);
+  void find_delassus(LocalContacts& block);
+
+  MetricInverse inverse_;
+  std::vector<Coupled> coupled_;
+  Rows local_;
+  Points velocity_, force_, push_;  // m/s of the contacts; N s, m/s of the nodes
+};
+
+}  // namespace pbd

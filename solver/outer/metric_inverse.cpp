@@ -1,0 +1,37 @@
+#include "outer/metric_inverse.h"
+
+namespace pbd {
+namespace {
+
+/// Both paths end alike, at the roots they share.
+Eigen::Matrix3d product(const FactorReach& a, const FactorReach& b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (auto i = a.column.size(), j = b.column.size(); i > 0 && j > 0; --i, --j) {
+    if (a.column[i - 1] != b.column[j - 1]) break;
+    sum.noalias() += a.part[i - 1].transpose() * b.part[j - 1];
+  }
+  return sum;
+}
+
+}  // namespace
+
+void MetricInverse::begin(const Metric& metric, std::size_t expected) {
+  constexpr std::size_t spare = 64;
+  if (factored_ == metric.factored() && reach_.size() <= 2 * expected + spare) return;
+  factored_ = metric.factored();
+  place_.assign(place_.size(), -1);
+  reach_.clear();
+  lower_.clear();
+}
+
+int MetricInverse::place(const Metric& metric, int node) {
+  if (place_.empty()) place_.assign(metric.nodes(), -1);
+  int& own = place_[static_cast<std::size_t>(node)];
+  if (own >= 0) return own;
+  own = static_cast<int>(reach_.size());
+  reach_.push_back(metric.reach(node));
+  for (const FactorReach& other : reach_) lower_.push_back(product(reach_.back(), other));
+  return own;
+}
+
+}  // namespace pbd

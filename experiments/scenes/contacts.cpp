@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "boundary.h"
 #include "mass_properties.h"
 
 namespace pbdcheck {
@@ -13,6 +14,16 @@ const Contact* contact_of(const Scene& scene) {
   for (const auto& effect : scene.effects)
     if (const auto* contact = std::get_if<Contact>(&effect)) return contact;
   return nullptr;
+}
+
+int add_touching_solid(Scene& scene, const TetMesh& mesh, double density, const Material& material,
+                       Strain strain) {
+  const int first = add_solid(scene, mesh, density, material, strain);
+  for (Effect& effect : scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect))
+      for (const auto& [a, b, c] : boundary(mesh))
+        contact->triangle.push_back({first + a, first + b, first + c});
+  return first;
 }
 
 BodyScene::BodyScene(const ContactLaw& law, double gravity) {

@@ -45,6 +45,10 @@ class BodyScene {
   pbd::Contact contact_;
 };
 
+/// Adds a solid whose surface takes part in the scene's contact; returns its first node.
+int add_touching_solid(pbd::Scene& scene, const pbd::TetMesh& mesh, double density,
+                       const pbd::Material& material, pbd::Strain strain);
+
 /// A box of `size` and 4 kg on ground tilted by `angle` (rad) that starts downhill at `speed` (m/s) turned by
 /// `heading` (rad) from there.
 pbd::Scene sliding_box(double angle, double friction, double speed, double heading = 0,

@@ -56,6 +56,7 @@ const std::vector<Experiment>& experiments() {
        late_friction},
       {"restitution", "Do bodies bounce as high and push each other as they should?", restitution},
       {"stack", "Do stacks, overhangs and arches stand and fall where they should?", stack},
+      {"coupling", "Do rigid and deformable bodies carry and push each other as they should?", coupling},
       {"simbenchmark", "How accurate and how fast is contact, beside five engines' published figures?",
        simbenchmark},
       {"contact_hard_cases", "Does one method without settings survive the contacts that solvers fail on?",

@@ -33,6 +33,7 @@ void stopping(Context& context);
 void friction_isotropy(Context& context);
 void late_friction(Context& context);
 void convex_gap(Context& context);
+void coupling(Context& context);
 void restitution(Context& context);
 void stack(Context& context);
 void simbenchmark(Context& context);

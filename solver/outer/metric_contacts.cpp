@@ -1,5 +1,7 @@
 #include "outer/metric_contacts.h"
 
+#include <algorithm>
+
 namespace pbd {
 namespace {
 
@@ -19,14 +21,24 @@ void each_contact(Rows& rows, const std::vector<bool>& eliminated, F&& f) {
 
 }  // namespace
 
-/// States the local problem where its impulses are the rows' and the nodes go with v without them; then v
-/// goes with the impulses.
+/// Lets contacts take part whose rows v violates; true if there are any that did not.
+bool MetricContacts::engage(Rows& rows, const std::vector<bool>& eliminated, const Points& v) {
+  bool any = false;
+  std::size_t k = 0;
+  each_contact(rows, eliminated, [&](const auto& block, std::size_t i) {
+    if (!engaged_[k] && block.residual(v, i, block.impulse[i])[0] < 0) any = engaged_[k] = true;
+    ++k;
+  });
+  return any;
+}
+
+/// States the local problem of the contacts that take part, where its impulses are the rows' and the nodes go
+/// with v without them.
 void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric,
                             const Points& v) {
   if (local_.blocks.empty()) local_.blocks.add(LocalContacts{});
   auto& local = std::get<LocalContacts>(local_.blocks.front());
-  std::size_t count = 0;
-  each_contact(rows, eliminated, [&](const auto&, std::size_t) { ++count; });
+  const auto count = static_cast<std::size_t>(std::count(engaged_.begin(), engaged_.end(), true));
   local.resize_contacts(count);
   local.column.resize(count);
   coupled_.resize(count);
@@ -35,8 +47,9 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
   local_.contacts = true;
   ++local_.generation;
   inverse_.begin(metric, count);
-  std::size_t k = 0;
+  std::size_t next = 0, k = 0;
   each_contact(rows, eliminated, [&]<class Block>(const Block& block, std::size_t i) {
+    if (!engaged_[next++]) return;
     constexpr int R = Block::rows;  // without friction the tangential rows are zero
     local.node[k] = {static_cast<int>(k)};
     local.jacobian[k].setIdentity();
@@ -93,21 +106,31 @@ void MetricContacts::find_delassus(LocalContacts& local) {
 
 std::int64_t MetricContacts::solve(LinearSolver& solver, Rows& rows, const std::vector<bool>& eliminated,
                                    Metric& metric, bool fresh, const InnerBudget& budget, Points& v) {
-  couple(rows, eliminated, metric, v);
-  auto& local = std::get<LocalContacts>(local_.blocks.front());
-  if (coupled_.empty()) return 0;
-  find_delassus(local);
-  apply_impulses(local_, velocity_);
-  const std::int64_t sweeps = relax(solver, local_, velocity_, fresh, budget, nullptr);
-  force_.setZero(3, v.cols());
-  std::size_t k = 0;
-  each_contact(rows, eliminated, [&]<class Block>(Block& block, std::size_t i) {
-    block.impulse[i] = local.impulse[k++].template head<Block::rows>();
-    const typename Block::Velocities push = block.jacobian[i].transpose() * block.impulse[i];
-    for (int a = 0; a < Block::nodes; ++a) force_.col(block.node[i][a]) += push.template segment<3>(3 * a);
-  });
-  metric.solve(force_, push_);
-  v += push_;
+  engaged_.clear();
+  each_contact(rows, eliminated,
+               [&](const auto& block, std::size_t i) { engaged_.push_back(!block.impulse[i].isZero(0)); });
+  engage(rows, eliminated, v);
+  start_ = v;
+  std::int64_t sweeps = 0;
+  do {
+    couple(rows, eliminated, metric, start_);
+    if (coupled_.empty()) break;
+    auto& local = std::get<LocalContacts>(local_.blocks.front());
+    find_delassus(local);
+    apply_impulses(local_, velocity_);
+    sweeps += relax(solver, local_, velocity_, fresh, budget, nullptr);
+    fresh = true;
+    force_.setZero(3, v.cols());
+    std::size_t next = 0, k = 0;
+    each_contact(rows, eliminated, [&]<class Block>(Block& block, std::size_t i) {
+      if (!engaged_[next++]) return;
+      block.impulse[i] = local.impulse[k++].template head<Block::rows>();
+      const typename Block::Velocities push = block.jacobian[i].transpose() * block.impulse[i];
+      for (int a = 0; a < Block::nodes; ++a) force_.col(block.node[i][a]) += push.template segment<3>(3 * a);
+    });
+    metric.solve(force_, push_);
+    v = start_ + push_;
+  } while (engage(rows, eliminated, v));
   return sweeps;
 }
 

@@ -30,13 +30,15 @@ class MetricContacts {
     int nodes = 0;
   };
 
+  bool engage(Rows& rows, const std::vector<bool>& eliminated, const Points& v);
   void couple(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric, const Points& v);
   void find_delassus(LocalContacts& block);
 
   MetricInverse inverse_;
   std::vector<Coupled> coupled_;
   Rows local_;
-  Points velocity_, force_, push_;  // m/s of the contacts; N s, m/s of the nodes
+  std::vector<bool> engaged_;               // of all contacts: they take part
+  Points velocity_, start_, force_, push_;  // m/s of the contacts, of the nodes; N s, m/s of the nodes
 };
 
 }  // namespace pbd

@@ -199,20 +199,29 @@ void QuasiNewton::descend(StepSystem& system, bool first) {
   lbfgs_.forget();
 }
 
-std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progress& progress, bool stalled) {
-  if (!descends(system) || progress.outer_iterations == 0) return std::nullopt;
+/// True if the iterate is so near to the solution that its impulses may be settled.
+bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
   constexpr int patience = 5;
-  constexpr double near = 10;          // times the tolerance
-  constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows
-  const Method& method = system.problem.method;
+  constexpr double near = 10;  // times the tolerance
+  const double allowed = near * system.problem.method.tolerance * progress.scale;
+  if (!descends(system)) return without_fall_ >= patience && progress.change <= allowed;
   without_fall_ = progress.primal < lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.primal);
-  const bool solved = find_direction() <= near * method.tolerance * progress.scale;
-  if (!stalled && !(solved && without_fall_ >= patience) && progress.outer_iterations + 1 < method.max_outer)
-    return std::nullopt;
+  return find_direction() <= allowed && without_fall_ >= patience;
+}
+
+std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progress& progress, bool stalled) {
+  if (dual_ == Dual::hard_rows || progress.outer_iterations == 0) return std::nullopt;
+  constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows
+  const Problem& problem = system.problem;
+  const bool last = progress.outer_iterations + 1 >= problem.method.max_outer;
+  if (!arrived(system, progress) && !stalled && !last) return std::nullopt;
   search_from_ = system.at.v;
   linearise_at(system, system.at.v);
-  settling_.solve(inner_share * method.tolerance * progress.scale, potential_.gradient, potential_.metric,
+  last_gradient_ = system.at.v - system.at.rebuilt;
+  for (std::size_t node = 0; node < problem.inverse_mass.size(); ++node)
+    last_gradient_.col(node) *= problem.inverse_mass[node] > 0 ? 1 / problem.inverse_mass[node] : 0.0;
+  settling_.solve(inner_share * problem.method.tolerance * progress.scale, last_gradient_, potential_.metric,
                   system.rows, system.at.v);
   evaluated_ = false;
   return linearise_at(system, system.at.v);

@@ -59,6 +59,7 @@ class QuasiNewton {
  private:
   RowResidual evaluate(StepSystem& system);
   double find_direction();
+  bool arrived(const StepSystem& system, const Progress& progress);
   bool start_low(StepSystem& system);
   void descend(StepSystem& system, bool first);
   void project(StepSystem& system, Progress& progress);

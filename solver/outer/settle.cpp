@@ -6,12 +6,20 @@
 namespace pbd {
 namespace {
 
+/// f(block) of the compliant rows that a metric knows; contacts are not among them.
+template <class Blocks, class F>
+void each_stiff_block(Blocks& blocks, F&& f) {
+  for_each_block(blocks, [&](auto& block) {
+    if (!block.bounded()) f(block);
+  });
+}
+
 /// (M + J^T Sigma^-1 J) along
 void apply_stiffness(const Rows& rows, const Points& along, Points& pushed) {
   pushed.setZero(3, along.cols());
   for (std::size_t node = 0; node < rows.inverse_mass.size(); ++node)
     if (rows.inverse_mass[node] > 0) pushed.col(node) = along.col(node) / rows.inverse_mass[node];
-  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+  each_stiff_block(rows.blocks, [&]<class Block>(const Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Velocities push =
           block.jacobian[i].transpose() * (block.stiffness[i] * (block.jacobian[i] * block.gather(along, i)));
@@ -24,7 +32,7 @@ void apply_stiffness(const Rows& rows, const Points& along, Points& pushed) {
 
 /// p -= Sigma^-1 J change
 void respond(const Points& change, Rows& rows) {
-  for_each_block(rows.blocks, [&]<class Block>(Block& block) {
+  each_stiff_block(rows.blocks, [&]<class Block>(Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] -= block.stiffness[i] * (block.jacobian[i] * block.gather(change, i));
   });

@@ -1,6 +1,6 @@
 // Takes v and the impulses of compliant rows, linearised at v where the potential has this gradient, to the
 // solution of these rows, (M + J^T Sigma^-1 J) dv = -gradient, dp = -Sigma^-1 J dv, by conjugate gradients
-// preconditioned by the metric P.
+// preconditioned by the metric P. Contacts' impulses stay, given forces.
 #pragma once
 
 #include "outer/metric.h"

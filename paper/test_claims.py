@@ -51,7 +51,7 @@ CONTRARY = {
     24: {"beam": where("model", "springs", error_beam=0.0)},
     25: {"sweeps": lambda frame: frame.assign(status="not_converged")},
     26: {"errors": lambda frame: where("relaxation", "nesterov_jacobi", error=1.0)(where("relaxation", "jacobi", error=0.0)(frame))},
-    28: FAILS, 29: {"bounds": where("relaxation", "fista_restarted", rises=1e9)}, 30: FAILS, 32: FAILS}
+    28: FAILS, 29: {"bounds": where("relaxation", "fista_restarted", rises=1e9)}, 30: FAILS, 31: FAILS, 32: FAILS}
 
 HOLDS = {"verdicts": lambda frame: frame.assign(measured=0.0, verdict="holds")}
 RIGHT = {"answers": lambda frame: frame.assign(error=0.0, status="ok", measured=0.0)}
@@ -92,6 +92,7 @@ FAVOURABLE = {
     29: {"bounds": where("relaxation", "fista_restarted", rises=0.0), "budgets": where("relaxation", "fista_restarted", gap=0.0)},
     28: HOLDS | {"points": lambda frame: frame[frame["outer"] == "plain"].assign(error=0.0, status="ok")},
     30: HOLDS | {"ends": lambda frame: frame[frame["status"] == "ok"]},
+    31: HOLDS | {"scenes": lambda frame: frame.assign(steps_ok=frame["steps"])},
     32: HOLDS}
 ORDER = (SUPPORTED, SUPPORTED + " under", REFUTED, UNTESTED)
 CONDITIONAL = {2, 21, 32}  # which are never supported without a condition

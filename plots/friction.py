@@ -27,7 +27,7 @@ def answers(frame):
                   (f"{counted(len(lost), 'run')} without a bound did not end well" if len(lost) and not unjudged else ""))
 
 
-for experiment in ("incline", "stopping", "restitution", "stack"):
+for experiment in ("incline", "stopping", "restitution", "stack", "coupling"):
     figure(experiment, "answers", table="answers")(answers)
 
 

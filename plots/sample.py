@@ -9,7 +9,7 @@ from sample_bodies import joints, redundant, rotation
 from sample_scenes import figure_1
 from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems, friction_cone
-from sample_contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
+from sample_contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
 from sample_cost import METHOD_COLUMNS, effects_cost, method_points, rival_newton, work_precision
 from sample_files import verdict, write, write_run
 from sample_motion import damping, direction
@@ -35,7 +35,8 @@ CLAIMED = {  # ids of verdicts that the report's claims and answers read
     "contact_contraction": ("contact_contraction.sticking", "contact_contraction.sliding", "contact_contraction.expanding"),
     "energy": ("energy.spring.newmark", "energy.spring.implicit_euler", "energy.linear_momentum", "energy.angular_momentum.loss"),
     "cone_problems": ("cone_problems.ipopt", "cone_problems.velocity"), "time_order": ("time_order.spring.bdf2",),
-    "mesh_refinement": ("mesh.mms.l2", "mesh.n1.solver"), "generated_worlds": ("worlds.refuted",),
+    "mesh_refinement": ("mesh.mms.l2", "mesh.n1.solver"), "generated_worlds": ("worlds.refuted",), "coupling": ("coupling.sag", "coupling.weight"),
+    "figure_1": ("figure_1.finite", "figure_1.claims", "figure_1.energy", "figure_1.solved"),
     "effects_cost": ("effects.empty.free", "effects.empty.bitwise", "effects.removed.cheaper", "effects.frictionless.cheaper",
                      "effects.linear.chain")}
 VERDICTS = [verdict("outer_convergence.rate", "The fixed point contracts at the predicted rate", "relative difference", 0.01, 0.05),
@@ -45,7 +46,7 @@ VERDICTS = [verdict("outer_convergence.rate", "The fixed point contracts at the 
 def write_all(directory):
     for experiment in (figure_1, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
                        mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
-                       friction_isotropy, convex_gap, late_friction, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
+                       friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,
                        effects_cost, point_hard_cases, generated_scenes, generated_worlds, judges):
         experiment(directory)

@@ -68,6 +68,11 @@ def restitution(directory):
             for relaxation in RELAXATIONS for h in (0.004, 0.001) for e in (0.5, 0.8) for n in range(1, 9)])
 
 
+def coupling(directory):
+    _answers(directory, "coupling", (("momentum", "of the lighter one's", 1e-10), ("sag", "relative", 1e-6), ("weight", "relative", 1e-8),
+                                     ("capstan_holds", "m/s", 1e-9), ("capstan_slides", "of the least way", 1.0)))
+
+
 def stack(directory):
     _answers(directory, "stack", (("weight", "relative", 1e-9), ("joints", "relative", 1e-8), ("penetration", "of the size", 1e-8),
                                    ("redundant_motion", "m", 1e-9), ("redundant_force", "relative", 1e-9),

@@ -87,7 +87,7 @@ TABLES = {
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
                                 "sweeps steps missed_steps status reason"
-       for experiment in ("incline", "stopping", "restitution", "stack")},
+       for experiment in ("incline", "stopping", "restitution", "stack", "coupling")},
     ("friction_isotropy", "headings"): "relaxation friction step_s heading_deg deceleration_share expected_share share_error "
                                        "heading_change_rad heading_error_rad status reason",
     ("convex_gap", "gaps"): "relaxation friction step_s speed_m_per_s gap_m expected_m error sweeps missed_steps status reason",

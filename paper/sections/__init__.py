@@ -8,7 +8,7 @@ from sections.accuracy import dual_vs_primal, judges, mesh_refinement
 from sections.bodies import joints, redundant, rotation
 from sections.bench import contact_hard_cases, simbenchmark
 from sections.cones import cone_problems, friction_cone
-from sections.contacts import convex_gap, friction_isotropy, incline, restitution, stack, stopping
+from sections.contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
 from sections.cost import effects_cost, rival_newton, work_precision
 from sections.energy import energy
 from sections.motion import damping, direction
@@ -24,7 +24,7 @@ NO_TABLE = "The run left no table."
 SECTIONS = {function.__name__: function for function in (
     figure_1, judges, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
     mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
-    friction_isotropy, convex_gap, late_friction, restitution, stack, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
+    friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
     work_precision, rival_newton,
     effects_cost, point_hard_cases, generated_scenes, generated_worlds)}
 

@@ -32,6 +32,13 @@ LIMITS = (
     "of thrust fits into its stones; the least thickness for these stones, prisms between radial cuts, is that of the linear "
     "programme over the thrust and its height at the crown.")
 
+CAPSTAN = (
+    "A cube under a plate, without friction or weight, is stressed uniformly: it yields by F/(E A) of its height by linear and corotational "
+    "strain, and by Green's as E (l^3 - l)/2 says, whatever the mesh. A rope of n links round a half turn is bent by d = pi/n at each node, where "
+    "friction bears a ratio of (1 + mu tan(d/2))/(1 - mu tan(d/2)) of the pulls, and all of them that to the nth power. Its exponent is above "
+    "mu pi, that of a smooth rope, by a share of d^2 (1 + mu^2)/12. The rope is pulled by 1e-4 less than that, and by 5 % more, where its mass "
+    "bounds how far it goes at least.")
+
 
 def errors_table(frame):
     """The largest error of each quantity, one column a relaxation."""
@@ -133,6 +140,23 @@ def stack(results):
                    [Figure("stack_thresholds", "Largest displacement of a body. Below the lower line a structure stands, above "
                            "the upper one it falls. Crossed: the run did not end well.")])
     return section.tell(results.table("stack", "thresholds"), thresholds_table)
+
+
+def coupling(results):
+    section = told(results, "coupling", "Do rigid and deformable bodies carry and push each other as they should?",
+                   "A ball strikes a soft cube of 1e-3 to 1e3 times its mass, and two soft cubes each other; a plate is pressed on a cube; a box "
+                   "rests on a cube, and that on the ground; a rope lies half round a cylinder and is pulled.", CAPSTAN)
+    return section.tell(results.table("coupling", "answers"), unjudged_text)
+
+
+def unjudged_text(frame):
+    """What missed steps left without a bound."""
+    free = frame[frame["bound"].isna()]
+    if free.empty:
+        return "Every answer is judged."
+    return "Answers of runs that missed steps are not judged: " + "; ".join(
+        f"{r['scene']}, `{r['relaxation']}`: {r['missed_steps']:.0f} of {r['steps']:.0f} steps missed, off by {number(r['error'])} ({r['unit']})"
+        for _, r in free.iterrows()) + "."
 
 
 def thresholds_table(frame):

@@ -234,3 +234,14 @@ TEST_CASE("the cloth meets the ball, and both are written for ParaView") {
   CHECK(std::abs(run.number(5) - gravity) <= 1e-3);  // of 1 kg at rest, whatever presses it from above
   CHECK(run.state.x(2, 84) >= 0.2 + 0.005 - 1e-4);   // the cloth's middle node stays above the ball
 }
+
+TEST_CASE("the scenes of soft and rigid things in contact solve all their steps, and none is refuted") {
+  const std::string scene = GENERATE("box_on_soft_block", "soft_cubes", "trampoline", "dominoes");
+  const TemporaryFolder folder;
+  const auto ran = run_program(
+      {"simulate", scenes / (scene + ".toml"), "--set", "step.duration_s=0.5", "--check", "-o", folder.path});
+  INFO(scene << "\n" << ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Catch::Contains("none refuted"));
+  CHECK_THAT(ran.err, !Catch::Contains("missed"));
+}

@@ -5,17 +5,20 @@
 
 #include "harness/files.h"
 #include "harness/probes.h"
+#include "scenes/contacts.h"
 
 namespace pbdcheck {
 namespace {
 
 void remove_earlier(const std::filesystem::path& directory) {
-  for (const auto* name : {"run.json", "probes.csv", "checks.csv", "simulation.pvd", "bodies.pvd"})
+  for (const auto* name :
+       {"run.json", "probes.csv", "checks.csv", "simulation.pvd", "bodies.pvd", "contacts.pvd"})
     if (std::filesystem::is_regular_file(directory / name)) std::filesystem::remove(directory / name);
   if (!std::filesystem::is_directory(directory / "frames")) return;
   for (const auto& entry : std::filesystem::directory_iterator(directory / "frames")) {
     const auto name = entry.path().filename().string();
-    const bool own = name.starts_with("frame_") || name.starts_with("bodies_");
+    const bool own =
+        name.starts_with("frame_") || name.starts_with("bodies_") || name.starts_with("contacts_");
     if (own && entry.is_regular_file() && entry.path().extension() == ".vtu")
       std::filesystem::remove(entry.path());
   }
@@ -34,6 +37,8 @@ SimulationOutput::SimulationOutput(const SimulateOptions& options, const SceneFi
   frames_.emplace(options.directory, "simulation", "frame", node_cells(file.scene));
   surfaces_.emplace(file.scene, file.bodies);
   if (!surfaces_->empty()) body_frames_.emplace(options.directory, "bodies", "bodies", surfaces_->cells());
+  if (contact_of(file.scene) != nullptr)
+    contact_frames_.emplace(options.directory, "contacts", "contacts", VtkCells{});
 }
 
 std::string SimulationOutput::add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped) {
@@ -49,6 +54,9 @@ std::string SimulationOutput::add(std::int64_t step, const pbd::State& state, co
     surfaces_->place(state, x, v);
     body_frames_->add_frame(state.time, x, v);
   }
+  if (contact_frames_)
+    contact_frames_->add_contacts(
+        state.time, stepped != nullptr ? stepped->contacts() : std::vector<pbd::ContactForce>{});
   return "";
 }
 
@@ -56,6 +64,7 @@ void SimulationOutput::close() {
   if (probes_) probes_->close();
   if (frames_) frames_->close();
   if (body_frames_) body_frames_->close();
+  if (contact_frames_) contact_frames_->close();
 }
 
 }  // namespace pbdcheck

@@ -29,7 +29,7 @@ class SimulationOutput {
   TableTotals totals_;
   std::vector<std::string> columns_{"step", "time_s"};
   std::optional<Table> probes_;
-  std::optional<VtkSeries> frames_, body_frames_;
+  std::optional<VtkSeries> frames_, body_frames_, contact_frames_;
   std::optional<BodySurfaces> surfaces_;
 };
 

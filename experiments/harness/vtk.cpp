@@ -25,12 +25,23 @@ std::string data_array(std::string_view attributes, std::string_view text) {
   return fmt::format("<DataArray {} format=\"ascii\">\n{}\n</DataArray>\n", attributes, text);
 }
 
-std::string numbers(const pbd::Points& points) {
+std::string numbers(const Eigen::MatrixXd& columns) {
   std::string text;
-  for (int i = 0; i < points.cols(); ++i)
-    fmt::format_to(std::back_inserter(text), "{:.17g} {:.17g} {:.17g}\n", points(0, i), points(1, i),
-                   points(2, i));
+  for (const auto column : columns.colwise())
+    fmt::format_to(std::back_inserter(text), "{:.17g}\n", fmt::join(column, " "));
   return text;
+}
+
+std::string float_array(const VtkPointData& data) {
+  return data_array(
+      fmt::format(R"(type="Float64" NumberOfComponents="{}" Name="{}")", data.values.rows(), data.name),
+      numbers(data.values));
+}
+
+std::string text_of(const VtkCells& cells) {
+  return "<Cells>\n" + data_array(R"(type="Int32" Name="connectivity")", cells.connectivity) +
+         data_array(R"(type="Int32" Name="offsets")", cells.offsets) +
+         data_array(R"(type="UInt8" Name="types")", cells.types) + "</Cells>\n";
 }
 
 constexpr std::string_view file_tag = "<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
@@ -67,10 +78,7 @@ VtkSeries::VtkSeries(const std::filesystem::path& directory, const std::string& 
     : directory_(directory),
       frame_(std::move(frame)),
       collection_(directory / (collection + ".pvd")),
-      cells_("<Cells>\n" + data_array(R"(type="Int32" Name="connectivity")", cells.connectivity) +
-             data_array(R"(type="Int32" Name="offsets")", cells.offsets) +
-             data_array(R"(type="UInt8" Name="types")", cells.types) + "</Cells>\n"),
-      cell_count_(cells.count) {
+      cells_(cells) {
   require_writable(directory_ / "frames");
 }
 
@@ -78,16 +86,38 @@ std::string VtkSeries::frame_name(std::size_t index) const {
   return fmt::format("frames/{}_{:06}.vtu", frame_, index);
 }
 
-void VtkSeries::add_frame(double time, const pbd::Points& x, const pbd::Points& v) {
-  const std::string vectors = R"(type="Float64" NumberOfComponents="3")";
+void VtkSeries::add(double time, const pbd::Points& x, const VtkCells& cells,
+                    const std::vector<VtkPointData>& data) {
+  std::string arrays;
+  for (const VtkPointData& each : data) arrays += float_array(each);
   write_file(directory_ / frame_name(times_.size()),
              fmt::format(file_tag, "UnstructuredGrid") + "<UnstructuredGrid>\n" +
-                 fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", x.cols(), cell_count_) +
-                 "<Points>\n" + data_array(vectors, numbers(x)) + "</Points>\n" + cells_ +
-                 "<PointData Vectors=\"velocity\">\n" +
-                 data_array(vectors + R"( Name="velocity")", numbers(v)) +
+                 fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", x.cols(), cells.count) +
+                 "<Points>\n" + float_array({"points", x}) + "</Points>\n" + text_of(cells) +
+                 fmt::format("<PointData Vectors=\"{}\">\n", data.front().name) + arrays +
                  "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   times_.push_back(time);
+}
+
+void VtkSeries::add_frame(double time, const pbd::Points& x, const pbd::Points& v) {
+  add(time, x, cells_, {{"velocity", v}});
+}
+
+void VtkSeries::add_contacts(double time, const std::vector<pbd::ContactForce>& contacts) {
+  const auto count = std::ssize(contacts);
+  pbd::Points place(3, count), force(3, count), normal(3, count), slip(3, count);
+  Eigen::RowVectorXd gap(count);
+  VtkCells cells;
+  for (int i = 0; i < count; ++i) {
+    const pbd::ContactForce& contact = contacts[static_cast<std::size_t>(i)];
+    place.col(i) = contact.point;
+    force.col(i) = contact.force;
+    normal.col(i) = contact.normal;
+    slip.col(i) = contact.slip;
+    gap[i] = contact.gap;
+    add_cell(cells, std::array{i}, vtk_vertex);
+  }
+  add(time, place, cells, {{"force", force}, {"normal", normal}, {"slip", slip}, {"gap", gap}});
 }
 
 void VtkSeries::close() {

@@ -1,5 +1,6 @@
 // Frames of a simulation for ParaView: one VTK unstructured grid (.vtu, ASCII) a frame and a collection
-// (.pvd) with their times. Points are in m, point data `velocity` in m/s.
+// (.pvd) with their times. Points are in m; point data are `velocity` (m/s) or, of contacts, `force` (N, on
+// the first of both), `normal`, `slip` (m/s) and `gap` (m).
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "harness/files.h"
 #include "scene.h"
 #include "scenes/named.h"
+#include "step/step.h"
 
 namespace pbdcheck {
 
@@ -23,6 +25,12 @@ struct VtkCells {
 /// in contact, the links as lines (3), and a vertex (1) for each node none of them uses.
 VtkCells node_cells(const pbd::Scene& scene);
 
+/// Values at the points, a column each: three rows or one.
+struct VtkPointData {
+  std::string_view name;
+  Eigen::MatrixXd values;
+};
+
 class VtkSeries {
  public:
   /// Frames go to `<directory>/frames/<frame>_000000.vtu`, the collection to `<directory>/<collection>.pvd`.
@@ -31,17 +39,20 @@ class VtkSeries {
 
   void add_frame(double time, const pbd::Points& x, const pbd::Points& v);
 
+  /// Points alone, each a vertex (1).
+  void add_contacts(double time, const std::vector<pbd::ContactForce>& contacts);
+
   /// Writes the collection of the frames so far.
   void close();
 
  private:
   std::string frame_name(std::size_t index) const;
+  void add(double time, const pbd::Points& x, const VtkCells& cells, const std::vector<VtkPointData>& data);
 
   std::filesystem::path directory_;
   std::string frame_;
   PartialFile collection_;
-  std::string cells_;
-  std::size_t cell_count_;
+  VtkCells cells_;
   std::vector<double> times_;
 };
 

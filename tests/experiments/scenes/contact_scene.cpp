@@ -1,7 +1,9 @@
 // Contact in scene files: what is read, and forces that statics tells.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
 #include "harness/contact_sums.h"
+
 #include "harness/probes.h"
 #include "program.h"
 #include "scenes/contacts.h"
@@ -22,12 +24,14 @@ SceneFile read_contact_scene(const std::string& text) {
 struct Run {
   pbd::State state;
   std::vector<Cell> probes;
+  std::size_t contacts = 0;
 
   Run(const SceneFile& file, std::int64_t steps) : state(file.scene.initial) {
     pbd::Workspace workspace(file.scene, file.method);
     for (std::int64_t k = 0; k < steps; ++k)
       REQUIRE(pbd::step(workspace, file.step_s, state).status != pbd::Status::diverged);
     append_probes(file, state, &workspace, probes);
+    contacts = workspace.contacts().size();
   }
   double number(std::size_t i) const { return std::get<double>(probes.at(i)); }
   Vec3 vector(std::size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
@@ -231,6 +235,10 @@ TEST_CASE("the cloth meets the ball, and both are written for ParaView") {
              Catch::Contains("NumberOfPoints=\"482\""));  // the ball's 15 x 32 + 2, none of the ground
   const auto file = read_scene_file(scenes / "cloth_on_ball.toml");
   const Run run(file, 24);
+  const std::string touching = read_text(folder.path / "frames" / "contacts_000024.vtu");
+  CHECK_THAT(touching, Catch::Contains(fmt::format("NumberOfPoints=\"{}\"", run.contacts)));
+  for (const auto* name : {"force", "normal", "slip", "gap"})
+    CHECK_THAT(touching, Catch::Contains(fmt::format("Name=\"{}\"", name)));
   CHECK(std::abs(run.number(5) - gravity) <= 1e-3);  // of 1 kg at rest, whatever presses it from above
   CHECK(run.state.x(2, 84) >= 0.2 + 0.005 - 1e-4);   // the cloth's middle node stays above the ball
 }

@@ -15,7 +15,7 @@ MESHES = Path(__file__).resolve().parent.parent / "experiments" / "scenes" / "me
 VIEWS = {
     "boxes_on_ground": {"from": (4.6, -6.0, 3.2), "at": (0, 0, 0.85), "ground": True},
     "bunnies_on_cloth": {"from": (1.9, -3.0, 1.7), "at": (0, 0, 0.4), "ground": False},
-    "flexible_cow": {"from": (2.2, -3.6, 1.5), "at": (0.05, 0, 0.65), "ground": True},
+    "flexible_cow": {"from": (2.4, -3.9, 1.5), "at": (0.05, 0, 0.5), "ground": True},
 }
 COLORS = ((0.33, 0.53, 0.76), (0.89, 0.58, 0.27), (0.42, 0.67, 0.45), (0.80, 0.42, 0.42), (0.60, 0.52, 0.75))
 CLOTH, COW, GROUND = (0.80, 0.74, 0.62), (0.72, 0.55, 0.42), (0.90, 0.90, 0.88)

@@ -27,7 +27,7 @@ struct PaperScene {
   double quick_duration;  // s, as far as half a minute of computing takes it
 };
 constexpr std::array<PaperScene, 3> paper_scenes{
-    {{"boxes_on_ground", 2}, {"bunnies_on_cloth", 0.4}, {"flexible_cow", 10}}};
+    {{"boxes_on_ground", 2}, {"bunnies_on_cloth", 0.4}, {"flexible_cow", 2}}};
 
 /// Shares of the whole run at which a scene is drawn.
 constexpr std::array<double, 4> pictured{0, 0.4, 0.7, 1};

@@ -30,11 +30,12 @@ void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
   if (swapped_) swap_solvers(system);
   proximal_.begin(system);
-  if (quasi_newton_) quasi_newton_->begin(system);
+  crowded_ = quasi_newton_ && quasi_newton_->dual_rows(system) > most_dual_rows;
+  if (on_potential()) quasi_newton_->begin(system);
 }
 
 RowResidual Automatic::refresh(StepSystem& system) {
-  return quasi_newton_ ? quasi_newton_->refresh(system) : linearise_at(system, system.at.v);
+  return on_potential() ? quasi_newton_->refresh(system) : linearise_at(system, system.at.v);
 }
 
 bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
@@ -49,7 +50,7 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
-  if (quasi_newton_) {
+  if (on_potential()) {
     quasi_newton_->iterate(system, progress);
   } else if (plain_contracts(system, progress)) {
     system.at.v = system.at.rebuilt;
@@ -72,7 +73,7 @@ void Automatic::forget() {
 }
 
 std::optional<RowResidual> Automatic::settle(StepSystem& system, const Progress& progress, bool stalled) {
-  return quasi_newton_ ? quasi_newton_->settle(system, progress, stalled) : std::nullopt;
+  return on_potential() ? quasi_newton_->settle(system, progress, stalled) : std::nullopt;
 }
 
 }  // namespace pbd

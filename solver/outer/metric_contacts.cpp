@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rows/laws.h"
+
 namespace pbd {
 namespace {
 
@@ -21,12 +23,16 @@ void each_contact(Rows& rows, const std::vector<bool>& eliminated, F&& f) {
 
 }  // namespace
 
-/// Lets contacts take part whose rows v violates; true if there are any that did not.
+/// Lets contacts take part whose law asks for an impulse at v; true if there are any that did not.
 bool MetricContacts::engage(Rows& rows, const std::vector<bool>& eliminated, const Points& v) {
   bool any = false;
   std::size_t k = 0;
   each_contact(rows, eliminated, [&](const auto& block, std::size_t i) {
-    if (!engaged_[k] && block.residual(v, i, block.impulse[i])[0] < 0) any = engaged_[k] = true;
+    if (!engaged_[k]) {
+      const auto r = block.residual(v, i, block.impulse[i]);
+      if (!allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r).isZero(0))
+        any = engaged_[k] = true;
+    }
     ++k;
   });
   return any;

@@ -1,7 +1,8 @@
 // Contacts that quasi_newton does not eliminate stay dual, with its metric P in the place of M:
 //   u = J v + b + Sigma p obeys its law,   v = v_k - P^-1 gradient + P^-1 J^T p
 // Of the rows that is a local problem: relative velocities u, and W = J P^-1 J^T between all contacts, for
-// any of the linear solvers. Fixed points are the solutions of the step.
+// the linear solvers that take such: all but augmented_lagrangian. Contacts whose law asks for no impulse
+// take no part. Fixed points are the solutions of the step.
 #pragma once
 
 #include <array>

@@ -14,6 +14,10 @@ bool eliminates(const Slot& slot) {
   return kind.compliant && !kind.of_bodies && !kind.contacts;
 }
 
+bool takes_local_contacts(const StepSystem& system) {
+  return system.problem.method.relaxation != AugmentedLagrangian::name;
+}
+
 }  // namespace
 
 QuasiNewton::QuasiNewton(StepSystem& system)
@@ -39,6 +43,8 @@ QuasiNewton::QuasiNewton(StepSystem& system)
       refuse("with contact beside joints or hard constraints", "another outer iteration");
     dual_ = needed;
   }
+  if (dual_ == Dual::contacts && !takes_local_contacts(system))
+    refuse("with contact by augmented_lagrangian", "another relaxation, or another outer iteration");
   const Bodies& bodies = system.problem.bodies;
   for (int b = 0; b < bodies.count(); ++b)
     bodies_move_ |= system.problem.inverse_mass[static_cast<std::size_t>(bodies.column(b))] > 0;
@@ -46,13 +52,14 @@ QuasiNewton::QuasiNewton(StepSystem& system)
 
 bool QuasiNewton::descends(const StepSystem& system) const {
   if (dual_ == Dual::hard_rows || bodies_move_) return false;
-  return dual_ == Dual::none || row_count(system.rows, potential_.eliminated) == 0;
+  return dual_ == Dual::none || dual_rows(system) == 0;
 }
 
 bool QuasiNewton::suits(const StepSystem& system) {
   if (system.problem.direction_blend != 1) return false;
   bool any = false;
   for (const Slot& slot : system.slots) {
+    if (slot.count > 0 && slot.source->kind().contacts && !takes_local_contacts(system)) return false;
     if (slot.count == 0 || slot.source->kind().contacts) continue;
     if (!eliminates(slot) || !slot.source->kind().fills_space) return false;
     any = true;
@@ -210,8 +217,19 @@ bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
   return find_direction() <= allowed && without_fall_ >= patience;
 }
 
+/// Where nothing changes any velocity no impulse may be needed at all: what the eliminated rows answer is
+/// rounding then.
+std::optional<RowResidual> QuasiNewton::rest_as_it_is(StepSystem& system, const Progress& progress) {
+  if (progress.scale > 0) return std::nullopt;
+  search_from_ = system.at.v;
+  clear_impulses(system.rows);
+  evaluated_ = false;
+  return linearise_at(system, system.at.v);
+}
+
 std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progress& progress, bool stalled) {
-  if (dual_ == Dual::hard_rows || progress.outer_iterations == 0) return std::nullopt;
+  if (dual_ == Dual::hard_rows) return std::nullopt;
+  if (progress.outer_iterations == 0) return rest_as_it_is(system, progress);
   constexpr double inner_share = 0.3;  // of the tolerance, left to the linear rows
   const Problem& problem = system.problem;
   const bool last = progress.outer_iterations + 1 >= problem.method.max_outer;

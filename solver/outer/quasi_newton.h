@@ -6,7 +6,7 @@
 // stiffness.
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
-// positions) until 30 iterations of a step were not enough: it is then factored anew at the current shape,
+// positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,
 // which allocates. Above 1e9 block products (about 18000 nodes of a beam four times as long as high) it falls
 // back to one number a pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once
@@ -31,6 +31,10 @@ class QuasiNewton {
 
   /// True if `auto` takes it: rows are compliant, of points, and stiff in every direction, or contacts.
   static bool suits(const StepSystem& system);
+
+  std::int64_t dual_rows(const StepSystem& system) const {
+    return row_count(system.rows, potential_.eliminated);
+  }
 
   /// True where nothing is left dual: it goes down the potential by line searches.
   bool descends(const StepSystem& system) const;
@@ -59,6 +63,7 @@ class QuasiNewton {
  private:
   RowResidual evaluate(StepSystem& system);
   double find_direction();
+  std::optional<RowResidual> rest_as_it_is(StepSystem& system, const Progress& progress);
   bool arrived(const StepSystem& system, const Progress& progress);
   bool start_low(StepSystem& system);
   void descend(StepSystem& system, bool first);

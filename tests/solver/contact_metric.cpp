@@ -1,6 +1,7 @@
 // Contacts that quasi_newton leaves dual in its metric.
 #include "body_scenes.h"
 #include "contact_runs.h"
+#include "scenes.h"
 #include "scenes/contacts.h"
 
 using namespace pbd;
@@ -75,4 +76,34 @@ TEST_CASE("quasi_newton refuses contact beside rows that it cannot eliminate") {
   CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("contact beside joints or hard constraints"));
   method.outer = "auto";
   CHECK_NOTHROW(Workspace(scene, method));
+}
+
+TEST_CASE(
+    "a soft block that slides by the convex law is solved in every step, and one that rests in no "
+    "iteration") {
+  Scene scene = bodies_on_block({.friction = 0.4}, Strain::corotational, false);
+  Method method = contact_method("direct", "cone");
+  method.tolerance = 1e-8;
+  SECTION("slides") {
+    for (int node = 1; node < scene.nodes(); ++node) scene.initial.v.col(node) = Vec3(1, 0.3, -0.4);
+    run(scene, method, 0.01, 40);
+  }
+  SECTION("rests") {
+    for (int node = 1; node < scene.nodes(); ++node) scene.initial.v.col(node).setZero();
+    std::get<Gravity>(scene.effects[0]).acceleration.setZero();
+    State state = scene.initial;
+    const Report report = one_step(scene, method, 0.01, state);
+    CHECK(report.status == Status::ok);
+    CHECK(report.outer_iterations == 0);
+    CHECK(state.x == scene.initial.x);
+  }
+}
+
+TEST_CASE("what solves no local problem is not given one") {
+  const Scene scene = bodies_on_block({.friction = 0.4}, Strain::corotational, true);
+  Method method = contact_method("augmented_lagrangian");
+  method.tolerance = 1e-8;
+  run(scene, method, 0.005, 5);
+  method.outer = "quasi_newton";
+  CHECK_THROWS_WITH(Workspace(scene, method), Catch::Contains("augmented_lagrangian"));
 }

@@ -52,7 +52,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
   local_.inverse_mass.assign(count, 0);
   local_.contacts = true;
   ++local_.generation;
-  inverse_.begin(metric, count);
+  inverse_.begin(metric, most_nodes * count);
   std::size_t next = 0, k = 0;
   each_contact(rows, eliminated, [&]<class Block>(const Block& block, std::size_t i) {
     if (!engaged_[next++]) return;

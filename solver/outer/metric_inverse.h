@@ -11,7 +11,7 @@ namespace pbd {
 
 class MetricInverse {
  public:
-  /// Forgets what is no longer P's, or was asked for by steps long gone.
+  /// Forgets what is no longer P's, or was asked for by steps long gone; `expected` nodes are asked for now.
   void begin(const Metric& metric, std::size_t expected);
 
   /// Place of a node of finite mass, found if it is a new one.

@@ -6,7 +6,8 @@
 namespace pbd {
 namespace {
 
-/// f(block) of the compliant rows that a metric knows; contacts are not among them.
+/// f(block) of the compliant rows that a metric knows; contacts, which alone have bounds here, are not among
+/// them.
 template <class Blocks, class F>
 void each_stiff_block(Blocks& blocks, F&& f) {
   for_each_block(blocks, [&](auto& block) {

@@ -69,7 +69,7 @@ def restitution(directory):
 
 
 def coupling(directory):
-    _answers(directory, "coupling", (("momentum", "of the lighter one's", 1e-10), ("sag", "relative", 1e-6), ("weight", "relative", 1e-8),
+    _answers(directory, "coupling", (("momentum", "of the lighter one's", 1e-10), ("sag", "relative", 1e-6), ("weight", "relative", 1e-8), ("hard_weight", "relative", 1e-8),
                                      ("capstan_holds", "m/s", 1e-9), ("capstan_slides", "of the least way", 1.0)))
 
 

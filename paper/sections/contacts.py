@@ -146,17 +146,17 @@ def coupling(results):
     section = told(results, "coupling", "Do rigid and deformable bodies carry and push each other as they should?",
                    "A ball strikes a soft cube of 1e-3 to 1e3 times its mass, and two soft cubes each other; a plate is pressed on a cube; a box "
                    "rests on a cube, and that on the ground; a rope lies half round a cylinder and is pulled.", CAPSTAN)
-    return section.tell(results.table("coupling", "answers"), unjudged_text)
+    return section.tell(results.table("coupling", "answers"), missed_text)
 
 
-def unjudged_text(frame):
-    """What missed steps left without a bound."""
-    free = frame[frame["bound"].isna()]
-    if free.empty:
-        return "Every answer is judged."
-    return "Answers of runs that missed steps are not judged: " + "; ".join(
-        f"{r['scene']}, `{r['relaxation']}`: {r['missed_steps']:.0f} of {r['steps']:.0f} steps missed, off by {number(r['error'])} ({r['unit']})"
-        for _, r in free.iterrows()) + "."
+def missed_text(frame):
+    """How far off the answers of runs are that missed steps."""
+    missed = frame[frame["missed_steps"] > 0]
+    if missed.empty:
+        return "No run missed a step."
+    return "Runs that missed steps: " + "; ".join(
+        f"{r['scene']}, `{r['relaxation']}`: {r['missed_steps']:.0f} of {r['steps']:.0f} steps, {r['quantity'].replace('_', ' ')} off by "
+        f"{number(r['error'])} ({r['unit']})" for _, r in missed.iterrows()) + "."
 
 
 def thresholds_table(frame):

@@ -5,6 +5,11 @@
 
 namespace pbd {
 
+void weigh(const std::vector<double>& inverse_mass, Points& v) {
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
+    v.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+}
+
 RowResidual Potential::evaluate(StepSystem& system) {
   const Problem& problem = system.problem;
   CurrentIterate& at = system.at;
@@ -28,8 +33,7 @@ RowResidual Potential::evaluate(StepSystem& system) {
   const Bodies& bodies = problem.bodies;
   for (int b = 0; b < bodies.count() && problem.implicit_gyroscopic; ++b)
     gradient.col(bodies.column(b)) -= problem.map.s * bodies.gyroscopic(b, at.v.col(bodies.column(b)));
-  for (std::size_t node = 0; node < problem.inverse_mass.size(); ++node)
-    gradient.col(node) *= problem.inverse_mass[node] > 0 ? 1 / problem.inverse_mass[node] : 0.0;
+  weigh(problem.inverse_mass, gradient);
   apply_impulses(system.rows, at.rebuilt, eliminated);
   at.torque_missed = add_gyroscopic(system, at.rebuilt);
   return sums;

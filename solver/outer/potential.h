@@ -9,6 +9,9 @@
 
 namespace pbd {
 
+/// v <- M v, N s of m/s; zero where the mass is infinite.
+void weigh(const std::vector<double>& inverse_mass, Points& v);
+
 struct Potential {
   double value = 0;  // J, at v
   Points gradient;   // N s

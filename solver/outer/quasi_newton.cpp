@@ -237,8 +237,7 @@ std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progres
   search_from_ = system.at.v;
   linearise_at(system, system.at.v);
   last_gradient_ = system.at.v - system.at.rebuilt;
-  for (std::size_t node = 0; node < problem.inverse_mass.size(); ++node)
-    last_gradient_.col(node) *= problem.inverse_mass[node] > 0 ? 1 / problem.inverse_mass[node] : 0.0;
+  weigh(problem.inverse_mass, last_gradient_);
   settling_.solve(inner_share * problem.method.tolerance * progress.scale, last_gradient_, potential_.metric,
                   system.rows, system.at.v);
   evaluated_ = false;

@@ -32,6 +32,7 @@ class QuasiNewton {
   /// True if `auto` takes it: rows are compliant, of points, and stiff in every direction, or contacts.
   static bool suits(const StepSystem& system);
 
+  /// Number of scalar rows that are not eliminated.
   std::int64_t dual_rows(const StepSystem& system) const {
     return row_count(system.rows, potential_.eliminated);
   }

@@ -92,7 +92,7 @@ void KnownAnswers::close() {
   for (const Quantity& quantity : quantities_) {
     const auto worst = worst_.find(quantity.name);
     if (worst == worst_.end()) throw std::logic_error("nothing measured of " + quantity.name);
-    context_.verdict(Basis::theory, experiment_ + "." + quantity.name, quantity.statement,
+    context_.verdict(quantity.basis, experiment_ + "." + quantity.name, quantity.statement,
                      fmt::format("largest error, {} ({})", quantity.unit, worst->second.owner()),
                      worst->second.value(), quantity.bound);
   }

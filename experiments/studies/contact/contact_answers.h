@@ -48,6 +48,7 @@ Slide slide(double v, double deceleration, double h, std::int64_t steps, double 
 struct Quantity {
   std::string name, statement, unit;
   double bound;
+  Basis basis = Basis::theory;
 };
 
 class KnownAnswers {

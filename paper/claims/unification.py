@@ -14,13 +14,16 @@ def one_solver(ends, agreement, told, coupled):
     row = worst(some(refuted, "verdict worlds.refuted"))
     known = verdict_rows(coupled, "coupling.")
     held = int((known["verdict"] == "holds").sum())
+    sound = row["verdict"] == "holds" and not known["verdict"].isin(["fails", "not_decided"]).any()
     other = agreement[agreement["outcome"] == "another solution"]["first_steps"].sum()
     return Finding(
-        judge(row["verdict"] == "holds" and held == len(known) and solved == steps.sum(), row["verdict"] == "holds" and held == len(known),
+        judge(sound and held == len(known) and solved == steps.sum(), sound,
               f"steps that say ok, {share(solved, int(steps.sum()))}"),
         f"In random scenes of rigid and soft bodies, cloth, joints and contact in one solve, {solved} steps say ok; {row['quantity']}: "
         f"{number(row['measured'])}. Of the same scenes in other words {int(other)} first steps end elsewhere. "
-        f"Of momentum in impacts, sag, weight and a rope's friction beside known answers {share(held, len(known))} verdicts hold.", number(row["measured"]), number(row["bound"]))
+        f"Of momentum in impacts, sag, weight and a rope's friction beside known answers {share(held, len(known))} verdicts hold" + (
+            f"; not `{'`, `'.join(known[known['verdict'] != 'holds']['id'])}`." if held < len(known) else "."),
+        number(row["measured"]), number(row["bound"]))
 
 
 def three_scenes(verdicts, scenes):

@@ -53,6 +53,9 @@ void add_simulate(CLI::App& app, SimulateOptions& options) {
       ->add_flag("--check", options.check,
                  "Judge each solved step by code that shares nothing with the solver; writes DIR/checks.csv")
       ->check(no_value());
+  command->add_option("--judge", options.judge,
+                      "every=N: solve each Nth step by a reference, too, and tell the error; writes "
+                      "DIR/judged.csv");
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -67,7 +70,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->allow_extra_args(false);
   command
       ->add_option("--reference", options.reference,
-                   fmt::format("{}; the first if left out", fmt::join(reference_names(), " or ")))
+                   fmt::format("{}; if left out the first that knows the scene", fmt::join(reference_names(), ", ")))
       ->check(one_of(reference_names()));
   command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
       ->check(integer_from(0, std::numeric_limits<int>::max()))

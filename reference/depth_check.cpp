@@ -10,32 +10,6 @@ namespace {
 /// Of the round radius: what is documented of the search of contacts.
 constexpr double overlooked = 1e-4;
 
-/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge.
-bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b) {
-  if (a.node == b.node) return false;
-  const auto both = [&](const std::array<int, 2>& pair) {
-    return pair == std::array{a.body, b.body} || pair == std::array{b.body, a.body};
-  };
-  if (std::any_of(contact.apart.begin(), contact.apart.end(), both)) return false;
-  for (const Effect& effect : scene.effects) {
-    const bool connects = std::visit(
-        [&]<class E>(const E& own) {
-          if constexpr (std::is_same_v<E, Attachment>) {
-            for (std::size_t i = 0; i < own.node.size(); ++i)
-              if ((own.node[i] == a.node && own.body[i] == b.body) ||
-                  (own.node[i] == b.node && own.body[i] == a.body))
-                return true;
-          } else if constexpr (requires { own.body[0][1]; }) {
-            return std::any_of(own.body.begin(), own.body.end(), both);
-          }
-          return false;
-        },
-        effect);
-    if (connects) return false;
-  }
-  return true;
-}
-
 class Depths {
  public:
   Depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings)

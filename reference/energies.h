@@ -62,6 +62,10 @@ struct Model {
   int unknown(const Element& element, int a) const { return first[element.node[a]]; }
 };
 
+/// Isotropic elasticity matrix with engineering shear, Pa; the same of plane stress, times thickness, N/m.
+Eigen::Matrix<double, 6, 6> elasticity(const Material& material);
+Eigen::Matrix3d membrane(const Material& material, double thickness);
+
 /// Throws SetupError for a scene that `validate` refuses, with rigid bodies, or without a node of finite
 /// mass.
 Model make_model(const Scene& scene);

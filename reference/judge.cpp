@@ -6,6 +6,9 @@
 
 #include <array>
 
+#include "cone_interior_point.h"
+#include "cone_ipopt.h"
+#include "contact_newton.h"
 #include "error.h"
 #include "nonlinear.h"
 #include "primal_newton.h"
@@ -14,6 +17,20 @@ namespace pbd::reference {
 
 std::span<const NamedJudge> judges() {
   static constexpr std::array<NamedJudge, 2> list{{{"primal_newton", primal_newton}, {"ipopt", ipopt}}};
+  return list;
+}
+
+std::span<const NamedContactJudge> contact_judges() {
+  constexpr auto interior_point = [](const Scene& scene, const State& state, double h,
+                                     Friction friction) -> Judgement {
+    return contact_newton(scene, state, h, friction, cone_interior_point);
+  };
+  constexpr auto by_ipopt = [](const Scene& scene, const State& state, double h,
+                               Friction friction) -> Judgement {
+    return contact_newton(scene, state, h, friction, cone_ipopt);
+  };
+  static constexpr std::array<NamedContactJudge, 2> list{
+      {{"cone_interior_point", interior_point}, {"cone_ipopt", by_ipopt}}};
   return list;
 }
 

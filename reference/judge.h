@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "friction.h"
 #include "scene.h"
 
 namespace pbd::reference {
@@ -50,8 +51,17 @@ struct NamedJudge {
   Judge judge;
 };
 
-/// primal_newton and ipopt.
+/// Of scenes without contact: primal_newton and ipopt.
 std::span<const NamedJudge> judges();
+
+/// Of any scene, named by what solves the contacts' law: cone_interior_point and cone_ipopt. Throw SetupError
+/// for what they do not know (contact_newton.h), the laws box and disc among it.
+using ContactJudge = Judgement (*)(const Scene& scene, const State& state, double h, Friction friction);
+struct NamedContactJudge {
+  std::string_view name;
+  ContactJudge judge;
+};
+std::span<const NamedContactJudge> contact_judges();
 
 /// Throws SetupError naming the allowed ones.
 Judge find_judge(std::string_view name);

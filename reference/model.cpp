@@ -12,9 +12,7 @@
 #include "validate.h"
 
 namespace pbd::reference {
-namespace {
 
-/// Isotropic elasticity matrix with engineering shear, Pa.
 Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
   const double shear = material.young / (2 * (1 + material.poisson));
   const double lame =
@@ -26,13 +24,14 @@ Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
   return c;
 }
 
-/// Plane stress, times thickness, N/m.
 Eigen::Matrix3d membrane(const Material& material, double thickness) {
   const double nu = material.poisson;
   Eigen::Matrix3d c;
   c << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
   return thickness * material.young / (1 - nu * nu) * c;
 }
+
+namespace {
 
 template <std::size_t K>
 Element element_of(Kind kind, const std::array<int, K>& node, int columns, int rows) {

@@ -4,7 +4,7 @@
 
 #include "kkt.h"
 #include "newton_search.h"
-#include "rigid_step.h"
+#include "rigid_kkt.h"
 
 namespace pbd::reference {
 namespace {
@@ -12,33 +12,6 @@ namespace {
 struct Point {
   Vector velocity, gamma;
 };
-
-/// Scales that make the inertia of an increment and the effective mass of a row one.
-struct Scales {
-  Vector unknown;  // inertia^-1/2
-  Vector row;      // (J M^-1 J^T + A/h^2)_ii^-1/2
-};
-
-Scales scales_of(const RigidStep& s, const RigidSystem& system) {
-  Scales scales{s.model.inertia.cwiseSqrt().cwiseInverse(), {}};
-  const SparseMatrix own = scaled(system.jacobian, scales.unknown);
-  scales.row = squared_rows(own, Vector::Ones(s.model.unknowns));
-  scales.row += Vector(system.compliance.diagonal()) / (s.h * s.h);
-  scales.row = scales.row.unaryExpr([](double n) { return n > 0 ? 1 / std::sqrt(n) : 1.0; });
-  return scales;
-}
-
-/// Sets the scale of hard rows to zero that depend on others but for `threshold`, and returns how many do
-/// not.
-int drop_dependent(const RigidModel& model, const RigidSystem& system, double threshold, Scales& scales) {
-  const SparseMatrix hard = hard_rows(model, scaled(scales.row, system.jacobian, scales.unknown));
-  const std::vector<int> independent = independent_rows(hard, threshold);
-  int position = 0;
-  for (int i = 0; i < model.rows(); ++i)
-    if (model.hard[i] && !std::binary_search(independent.begin(), independent.end(), position++))
-      scales.row(i) = 0;
-  return static_cast<int>(independent.size());
-}
 
 struct RigidSearch {
   RigidStep step;
@@ -70,37 +43,10 @@ double merit(const RigidSearch& s, const Scales& scales, const Point& at) {
 /// Increments (dx, d) and the new gamma, zero of dropped rows; false where the system is singular.
 bool body_step(const RigidSearch& s, const RigidSystem& system, const Scales& scales, Vector& increment,
                Vector& gamma) {
-  const RigidModel& model = s.step.model;
-  const double h2 = s.step.h * s.step.h;
-  const int n = model.unknowns, rows = model.rows();
-  Triplets entries;
-  const auto add = [&](const SparseMatrix& part, const auto& use) {
-    for (int j = 0; j < part.outerSize(); ++j)
-      for (SparseMatrix::InnerIterator it(part, j); it; ++it) use(static_cast<int>(it.row()), j, it.value());
-  };
-  add(system.tangent, [&](int i, int j, double value) {
-    entries.emplace_back(i, j, h2 * scales.unknown(i) * value * scales.unknown(j));
-  });
-  add(system.jacobian, [&](int i, int j, double value) {
-    const double own = scales.row(i) * value * scales.unknown(j);
-    entries.emplace_back(n + i, j, own);
-    entries.emplace_back(j, n + i, -own);
-  });
-  add(system.compliance, [&](int i, int j, double value) {
-    entries.emplace_back(n + i, n + j, scales.row(i) * value * scales.row(j) / h2);
-  });
-  for (int i = 0; i < rows; ++i)
-    if (scales.row(i) == 0) entries.emplace_back(n + i, n + i, 1.0);
-  const SparseMatrix matrix = from_triplets(n + rows, n + rows, entries);
-  Vector rhs(n + rows);
-  rhs << -h2 * scales.unknown.cwiseProduct(system.load), -scales.row.cwiseProduct(system.value);
-  SparseLu lu;
-  if (!lu.compute(matrix)) return false;
-  const Vector solution = lu.solve(rhs);
-  if (!solution.allFinite()) return false;
-  increment = scales.unknown.cwiseProduct(solution.head(n));
-  gamma = scales.row.cwiseProduct(solution.tail(rows)) / h2;
-  return true;
+  RigidKkt kkt;
+  if (!kkt.compute(s.step, system, scales)) return false;
+  kkt.solve(-system.load, -system.value, increment, gamma);
+  return increment.allFinite() && gamma.allFinite();
 }
 
 /// Largest t = 1, 1/2, ... that lowers the residual, or 0.

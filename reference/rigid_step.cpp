@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "dense.h"
+
 namespace pbd::reference {
 namespace {
 
@@ -106,8 +108,12 @@ RigidSystem system_at(const RigidStep& s, const Vector& velocity, const Vector& 
   Triplets tangent, jacobian, compliance;
   for (int i = 0; i < n; ++i) tangent.emplace_back(i, i, model.nodes.mass(i) / (s.h * s.h));
   add_rotations(s, velocity, system, tangent);
-  for (const Block& block : blocks_at(model, s.placement(velocity), Coordinates::turns)) {
+  for (Block& block : blocks_at(model, s.placement(velocity), Coordinates::turns)) {
     const int rows = block.rows();
+    if (const auto damped = s.damping.find(block.row); damped != s.damping.end()) {
+      block.value -= damped->second.offset;
+      block.compliance = product(Eigen::MatrixXd(damped->second.share), Eigen::MatrixXd(block.compliance));
+    }
     const RowVector own = gamma.segment(block.row, rows);
     const Block::Square geometric = block.geometric(own, Coordinates::turns);
     system.value.segment(block.row, rows) = block.value;

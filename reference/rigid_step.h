@@ -10,15 +10,25 @@
 // d = h J_r(h w) dw.
 #pragma once
 
+#include <map>
+
 #include "judge.h"
 #include "rigid_rows.h"
 
 namespace pbd::reference {
 
+/// Damping of a constraint, c1 + T (c1 - c0)/h + A gamma = 0, as c1 - offset + share A gamma = 0 with the
+/// share (1 + T/h)^-1 and the offset (1 - share) c0.
+struct Damping {
+  RowMatrix share;
+  RowVector offset;
+};
+
 struct RigidStep {
   RigidModel model;
   State start;
   double h;
+  std::map<int, Damping> damping{};  // by a constraint's first row
 
   /// Velocities of the unknowns.
   Vector start_velocity() const;

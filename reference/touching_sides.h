@@ -13,6 +13,9 @@ struct Side {
   bool of_surface() const { return node < 0; }
 };
 
+/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge.
+bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b);
+
 /// What a finding calls a pair.
 inline std::string name_of(int a, int b) {
   return "contact of " + std::to_string(a) + " and " + std::to_string(b);

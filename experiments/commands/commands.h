@@ -28,7 +28,8 @@ struct SimulateOptions {
   std::vector<std::string> settings;  // KEY=VALUE
   std::filesystem::path directory = default_directory;
   std::string export_format;  // empty or "vtk"
-  bool check = false;         // judge each step by the reference
+  bool check = false;         // judge what each step claims
+  std::string judge;          // empty, or every=N: compare each Nth step with a reference's
 };
 int simulate(const SimulateOptions& options);
 

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,7 @@ class Comparison {
   Comparison(const CompareOptions& options, const SceneFile& file)
       : scene_(options.scene.stem().string()),
         step_s_(file.step_s),
+        contact_(contact_of(file.scene) != nullptr),
         table_(options.directory / "compare.csv",
                {"scene", "step_s", "integrator", "outer", "relaxation", "friction", "outer_iterations",
                 "sweeps", "row_updates", "wall_s", "error", "status", "reason", "method"},
@@ -91,13 +93,15 @@ class Comparison {
   void add(const Contender& contender, const TracePoint& point, std::string_view status,
            std::string_view reason) {
     const auto& method = contender.method;
-    table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation, std::string("none"),
+    table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation,
+                contact_ ? method.friction : std::string("none"),
                 std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
                 point.error, std::string(status), std::string(reason), contender.text});
   }
 
   std::string scene_;
   double step_s_;
+  bool contact_;
   TableTotals totals_;
   Table table_;
 };
@@ -124,10 +128,12 @@ void draw(const std::filesystem::path& directory) {
 
 /// Refuses what the reference does not solve, and a step beyond the scene's last.
 void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
-  if (contact_of(file.scene) != nullptr)
+  const auto& for_equations = pbd::reference::judges();
+  const bool knows_contact = std::none_of(for_equations.begin(), for_equations.end(),
+                                          [&](const auto& judge) { return judge.name == reference; });
+  if (contact_of(file.scene) != nullptr && !knows_contact)
     throw pbd::SetupError("--reference " + reference, "a scene with contact",
-                          "a scene without the table [contact]: this reference solves equations, and a gap "
-                          "is none");
+                          "cone_interior_point, cone_ipopt: this reference solves equations, and a gap is none");
   for (const auto& joint : file.joints)
     if (joint.bounded)
       throw pbd::SetupError(joint.where, "a limit or a limited force",
@@ -142,7 +148,7 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
-  const std::string name = options.reference.empty() ? reference_names().at(0) : options.reference;
+  const std::string name = options.reference.empty() ? default_reference(file.scene) : options.reference;
   require_comparable(options, file, name);
   const auto contenders = parsed_contenders(options.methods, file);
   require_writable(options.directory);
@@ -154,7 +160,8 @@ int compare(const CompareOptions& options) {
   if (missed > 0)
     warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
                      options.at_step));
-  const Judged judged = judge_step(name, file.scene, state, file.step_s);
+  const Judged judged = judge_step(name, file.scene, state, file.step_s,
+                                   pbd::friction_by_name(file.method.friction));
   comparison.add_judge(name, judged);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;

@@ -26,7 +26,7 @@ _pbdcheck() {
         case ${COMP_WORDS[1]} in
           list) words="@KINDS@ --json --help" ;;
           completion) words="bash" ;;
-          simulate) words="--set --output --export --check --help" ;;
+          simulate) words="--set --output --export --check --judge --help" ;;
           compare) words="--set --method --reference --at-step --output --help" ;;
           cone) words="--law --relaxation --tolerance --json --output --help" ;;
           verify) words="--only --tier --threads --resume --json --junit --output --help" ;;

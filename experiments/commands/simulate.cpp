@@ -3,18 +3,22 @@
 #include <cmath>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands/commands.h"
 #include "commands/simulation_output.h"
+#include "error.h"
 #include "harness/constraint_name.h"
 #include "harness/files.h"
 #include "harness/interrupt.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
 #include "harness/step_checks.h"
+#include "harness/judges.h"
+#include "harness/step_judge.h"
 #include "harness/stepper.h"
 
 namespace pbdcheck {
@@ -105,9 +109,36 @@ void write_checks(const std::filesystem::path& path, const StepChecks& checks, T
   table.close();
 }
 
+nlohmann::ordered_json judged_json(const StepJudge& judge) {
+  return {{"reference", judge.reference()},
+          {"every", judge.every()},
+          {"steps", judge.judged()},
+          {"unsolved", judge.unsolved()},
+          {"worst_error_m", judge.worst_error_m()},
+          {"worst_error_of_scale", judge.worst_error_of_scale()}};
+}
+
+/// N of "every=N".
+std::int64_t every_of(const std::string& text) {
+  constexpr std::string_view key = "every=";
+  std::int64_t every = 0;
+  const char* const last = text.data() + text.size();
+  const bool known = text.starts_with(key);
+  const auto read = std::from_chars(text.data() + (known ? key.size() : 0), last, every);
+  if (!known || read.ec != std::errc{} || read.ptr != last || every < 1)
+    throw pbd::SetupError("--judge", "`" + text + "`", "every=N with N = 1, 2, ...");
+  return every;
+}
+
+/// Of each step, if it is asked for.
+struct Judges {
+  std::optional<StepChecks> checks;
+  std::optional<StepJudge> judge;
+};
+
 /// Steps until the end or Ctrl-C; returns why it ended before, if the state is lost.
 std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput& output, Totals& totals,
-                    StepChecks* checks) {
+                    Judges& judges) {
   pbd::State state = file.scene.initial;
   Stepper stepper(file, workspace);
   stepper.begin(file.step_s, state);  // for the probes at the start
@@ -115,11 +146,16 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
   std::string lost = output.add(0, state, nullptr);
   const auto judge = [&](const pbd::State& begun, const pbd::State& ended, double h,
                          const pbd::Report& report) {
-    checks->add(totals.steps + 1, claim_of(file.scene, workspace, begun, ended, h, report), report.status,
-                file.script.changes_scene());
+    const std::int64_t step = totals.steps + 1;
+    if (judges.checks)
+      judges.checks->add(step, claim_of(file.scene, workspace, begun, ended, h, report), report.status,
+                         file.script.changes_scene());
+    if (judges.judge && judges.judge->due(step))
+      judges.judge->add(step, file.scene, file.method, begun, ended, h, report);
   };
+  const bool judged = judges.checks || judges.judge;
   while (totals.steps < file.steps && lost.empty()) {
-    const pbd::Report report = checks != nullptr ? stepper.advance(state, judge) : stepper.advance(state);
+    const pbd::Report report = judged ? stepper.advance(state, judge) : stepper.advance(state);
     totals.add(report, stepper.parts(), [&](const pbd::ConstraintIndex& worst) {
       return constraint_name(file, worst,
                              stepper.parts() == 1 ? workspace.contacts() : std::vector<pbd::ContactForce>{});
@@ -142,19 +178,24 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
+  const std::int64_t every = options.judge.empty() ? 0 : every_of(options.judge);
   SceneFile file = read_scene_file(options.scene, options.settings);
+  if (every > 0 && (file.method.integrator != "implicit_euler" || file.method.direction_blend != 1))
+    throw pbd::SetupError("--judge", file.method.integrator, "implicit_euler with directions at the step's end");
   pbd::Workspace workspace = file.workspace();
   SimulationOutput output(options, file);
   PartialFile record(options.directory / "run.json");
 
   const auto start = std::chrono::steady_clock::now();
   Totals totals;
-  std::optional<StepChecks> checks;
+  Judges judges;
+  auto& [checks, judge] = judges;
   if (options.check) checks.emplace();
+  if (every > 0) judge.emplace(options.directory, default_reference(file.scene), every);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {
-    reason = advance(file, workspace, output, totals, checks ? &*checks : nullptr);
+    reason = advance(file, workspace, output, totals, judges);
     if (!reason.empty()) outcome = RunOutcome::failed;
   } catch (const Interrupted&) {
     outcome = RunOutcome::interrupted;
@@ -171,12 +212,18 @@ int simulate(const SimulateOptions& options) {
     }
   }
 
+  if (judge) {
+    judge->close();
+    tables.rows.insert(judge->totals().rows.begin(), judge->totals().rows.end());
+  }
+
   auto json = run_record(1, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
   json["rows"] = tables.rows;
   json["report"] = report_json(totals, workspace);
   if (checks) json["checks"] = checks_json(*checks);
+  if (judge) json["judged"] = judged_json(*judge);
   record.write(json_text(json));
   record.complete();
 
@@ -187,6 +234,7 @@ int simulate(const SimulateOptions& options) {
     warn(fmt::format("{} of {} steps diverged and were made in up to {} parts", totals.steps_in_parts,
                      totals.steps, totals.most_parts));
   if (checks) fmt::print("{}\n", checks->text());
+  if (judge) fmt::print("{}\n", judge->text());
   if (outcome == RunOutcome::failed) error_message(reason);
   if (outcome == RunOutcome::interrupted) return exit_interrupted;
   return outcome != RunOutcome::complete || totals.missed() > 0 ? exit_failed : exit_done;

@@ -1,5 +1,6 @@
 #include "harness/judges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,26 +17,39 @@ using pbd::reference::Outcome;
 std::vector<std::string> reference_names() {
   std::vector<std::string> names;
   for (const auto& judge : pbd::reference::judges()) names.emplace_back(judge.name);
+  for (const auto& judge : pbd::reference::contact_judges()) names.emplace_back(judge.name);
   return names;
 }
 
-Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h) {
-  const auto& all = pbd::reference::judges();
-  for (const auto& judge : all)
-    if (name.empty() || judge.name == name) {
-      auto judged = judge.judge(scene, state, h);
-      if (judged.outcome == Outcome::ok && !(judged.x.allFinite() && std::isfinite(judged.residual))) {
-        judged.outcome = Outcome::not_converged;
-        judged.reason = "not finite";
-      }
-      return {judged.outcome == Outcome::ok ? places(scene, judged.x, judged.orientation) : judged.x,
-              std::string(pbd::reference::outcome_names[static_cast<std::size_t>(judged.outcome)]),
-              judged.reason,
-              judged.iterations,
-              judged.seconds,
-              judged.residual};
-    }
-  throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
+std::string default_reference(const pbd::Scene& scene) {
+  const bool beyond_equations = std::any_of(
+      scene.effects.begin(), scene.effects.end(),
+      [](const pbd::Effect& effect) { return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect); });
+  return std::string(beyond_equations ? pbd::reference::contact_judges()[0].name
+                                      : pbd::reference::judges()[0].name);
+}
+
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
+                  pbd::Friction friction) {
+  pbd::reference::Judgement judged;
+  bool known = false;
+  for (const auto& judge : pbd::reference::judges())
+    if (judge.name == name) judged = judge.judge(scene, state, h), known = true;
+  for (const auto& judge : pbd::reference::contact_judges())
+    if (judge.name == name) judged = judge.judge(scene, state, h, friction), known = true;
+  if (!known) throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
+  if (judged.outcome == Outcome::ok && !(judged.x.allFinite() && std::isfinite(judged.residual))) {
+    judged.outcome = Outcome::not_converged;
+    judged.reason = "not finite";
+  }
+  const bool ok = judged.outcome == Outcome::ok;
+  return {ok ? places(scene, judged.x, judged.orientation) : judged.x,
+          {state.time + h, judged.x, judged.v, judged.orientation, judged.spin},
+          std::string(pbd::reference::outcome_names[static_cast<std::size_t>(judged.outcome)]),
+          judged.reason,
+          judged.iterations,
+          judged.seconds,
+          judged.residual};
 }
 
 pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h) {

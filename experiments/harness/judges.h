@@ -10,12 +10,16 @@
 
 namespace pbdcheck {
 
-/// Names of the references that solve a step.
+/// Names of the references that solve a step; those of `contact_judges()`, which know contact, come last.
 std::vector<std::string> reference_names();
+
+/// The first of them that knows the scene's effects: with contact or damping a judge of contact.
+std::string default_reference(const pbd::Scene& scene);
 
 /// What a reference says about one step.
 struct Judged {
   pbd::Points x;       // places at the end, m; what was reached of nodes if not ok
+  pbd::State end;      // likewise
   std::string status;  // ok or not_converged
   std::string reason;  // empty if ok
   int iterations = 0;
@@ -23,9 +27,10 @@ struct Judged {
   double residual = 0;
 };
 
-/// The implicit Euler step of h seconds from `state` by a reference; an empty name takes the first one.
+/// The implicit Euler step of h seconds from `state` by a reference, its contacts by the law `friction`.
 /// Throws SetupError for a name that is not one of `reference_names()`.
-Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h);
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
+                  pbd::Friction friction = pbd::Friction::coulomb);
 
 /// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
 /// reason unless it was solved, Interrupted if the user asked to stop.

@@ -1,0 +1,78 @@
+// The implicit Euler step of a scene with contact (rigid_step.h), with impulses r = h lambda of its contacts:
+//
+//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0
+//   K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
+//
+// C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
+// contact is, in m/s,
+//   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
+//         and n . (u + e u_l), u their velocities against each other
+//   u_t = t . u
+// The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
+// `recovery` at most; what would meet in free motion, and what is parting too slowly for its e, collides.
+#pragma once
+
+#include "cone_problem.h"
+#include "feature_search.h"
+#include "rigid_step.h"
+
+namespace pbd::reference {
+
+/// One contact of a step.
+struct JudgedContact {
+  FeaturePair pair;
+  ContactLaw law;
+  Vec3 reference = Vec3::UnitX();  // tangents are seen from it
+  double target = 0, rebound = 0;  // m, gaps aimed at, the second where it collides
+  double closing = 0;              // m/s, where the step begins
+  bool collides = false;
+  double compliance = 0;         // m/N
+  Vec3 force = Vec3::Zero();     // lambda, N: along the normal and both tangents
+};
+
+/// A contact's directions and how its law sees it at one pose.
+struct ContactRow {
+  std::vector<std::pair<int, Eigen::Matrix3d>> parts;  // C by each three unknowns, (dx, d)
+  Nearest found;
+  Vec3 velocity = Vec3::Zero();  // u along the directions
+  Vec3 seen = Vec3::Zero();      // what the law sees, without the compliance's part
+  bool by_velocity = false;      // the normal's part is n . (u + e u_l)
+};
+
+struct ContactStep {
+  RigidStep step;
+  Contact contact;
+  FeatureSearch search;
+  std::vector<JudgedContact> contacts;
+
+  /// Throws SetupError for what the judge does not know.
+  ContactStep(const Scene& scene, const State& state, double h);
+
+  /// Takes the features that are valid at `velocity`, and `also_start` where the step begins; known contacts
+  /// keep their forces.
+  void find_contacts(const Vector& velocity, bool also_start);
+
+  ContactRow row_of(const JudgedContact& contact, const Placement& at, const State& end) const;
+
+  /// Lets those collide that touch at `velocity` and part by less than their e; returns whether any do anew.
+  bool collide(const Vector& velocity);
+
+  /// C^T lambda (N, N m), and the sum of its absolute contributions.
+  Vector push(const Vector& velocity, Vector& magnitude) const;
+
+  /// - d(C^T lambda) by (dx, d), by central differences of the forces: of each contact the symmetric part, and
+  /// of that what is positive semidefinite, inertia being one. The rest would make pressed faces unstable but
+  /// for what holds them together.
+  SparseMatrix stiffness(const Vector& velocity) const;
+
+  /// The largest |r - P_K(r - m u~)|/m of a contact, m/s, m the mass that its sides' centres have together.
+  double law_residual(FrictionLaw law, const Vector& velocity) const;
+
+ private:
+  JudgedContact begun(const FeaturePair& pair) const;
+
+  Placement start_;
+  State free_;  // where the step begins, with the velocities of its free motion's end
+};
+
+}  // namespace pbd::reference

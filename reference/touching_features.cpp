@@ -1,0 +1,76 @@
+#include "touching_features.h"
+
+#include <cmath>
+
+namespace pbd::reference {
+namespace {
+
+using Places = std::array<Vec3, 3>;
+
+/// Weights of a line's ends at the point nearest to `x`.
+void weigh_line(const Places& line, const Vec3& x, std::array<double, 3>& weight) {
+  const Vec3 along = line[1] - line[0];
+  const double t = along.dot(x - line[0]) / along.squaredNorm();
+  weight = {1 - t, t, 0};
+}
+
+/// Of a plane's three corners below or above `x`.
+void weigh_plane(const Places& plane, const Vec3& x, std::array<double, 3>& weight) {
+  const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0], n = u.cross(v), d = x - plane[0];
+  const double area = n.squaredNorm(), s = d.cross(v).dot(n) / area, t = u.cross(d).dot(n) / area;
+  weight = {1 - s - t, s, t};
+}
+
+/// Of two lines that are not parallel.
+void weigh_lines(const Places& a, const Places& b, std::array<std::array<double, 3>, 2>& weight) {
+  const Vec3 u = a[1] - a[0], v = b[1] - b[0], d = b[0] - a[0], n = u.cross(v);
+  const double s = d.cross(v).dot(n) / n.squaredNorm(), t = d.cross(u).dot(n) / n.squaredNorm();
+  weight[0] = {1 - s, s, 0}, weight[1] = {1 - t, t, 0};
+}
+
+Places places_of(const ContactFeature& feature, const Placement& at) {
+  Places x;
+  for (int k = 0; k < feature.count; ++k)
+    x[static_cast<std::size_t>(k)] = placed(feature.corner[static_cast<std::size_t>(k)], at);
+  return x;
+}
+
+Vec3 weighted(const Places& x, const std::array<double, 3>& weight, int count) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) sum += weight[k] * x[k];
+  return sum;
+}
+
+}  // namespace
+
+Vec3 placed(const Corner& corner, const Placement& at) {
+  const Vec3 x = at.x.col(corner.node);
+  return corner.body < 0 ? x : Vec3(x + at.orientation[static_cast<std::size_t>(corner.body)] * corner.place);
+}
+
+Nearest nearest(const FeaturePair& pair, const Placement& at) {
+  const Places a = places_of(pair.a, at), b = places_of(pair.b, at);
+  Nearest found;
+  found.weight[0] = found.weight[1] = {1, 0, 0};
+  if (pair.b.count == 3) {
+    weigh_plane(b, a[0], found.weight[1]);
+    found.normal = pair.side * (b[1] - b[0]).cross(b[2] - b[0]).normalized();
+  } else if (pair.a.count == 2) {
+    weigh_lines(a, b, found.weight);
+    found.normal = pair.side * (a[1] - a[0]).cross(b[1] - b[0]).normalized();
+  } else if (pair.b.count == 2) {
+    weigh_line(b, a[0], found.weight[1]);
+  }
+  const Vec3 at_a = weighted(a, found.weight[0], pair.a.count),
+             at_b = weighted(b, found.weight[1], pair.b.count);
+  const bool by_distance = pair.b.count == 1 || (pair.b.count == 2 && pair.a.count == 1);
+  if (by_distance) found.normal = (at_a - at_b).normalized();
+  found.gap = found.normal.dot(at_a - at_b) - pair.a.radius - pair.b.radius;
+  if (pair.a.deformable || pair.b.deformable)
+    found.place = pair.a.deformable ? at_a : at_b;
+  else
+    found.place = (at_a - pair.a.radius * found.normal + at_b + pair.b.radius * found.normal) / 2;
+  return found;
+}
+
+}  // namespace pbd::reference

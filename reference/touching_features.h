@@ -1,0 +1,44 @@
+// Two features that touch or are about to: of each a point, the line through two, or the plane through three,
+// rounded by a radius.
+//
+//   a, b  the points of both that are nearest to each other (of lines and planes that go on for ever)
+//   n     the unit vector from b to a; across a plane or two lines it is known where a = b, too, and it keeps
+//         the side it had
+//   gap = n . (a - b) - r_a - r_b, whose derivative by what carries a and b is n^T at these points
+#pragma once
+
+#include "rigid_rows.h"
+#include "touching_surface.h"
+
+namespace pbd::reference {
+
+struct ContactFeature {
+  std::array<Corner, 3> corner;
+  int count = 1;
+  double radius = 0;         // m
+  bool deformable = false;   // of a surface's triangle
+
+  bool of_body() const { return corner[0].body >= 0; }
+};
+
+struct FeaturePair {
+  ContactFeature a, b;                   // a has at most as many corners as b
+  double side = 1;                // of the normal of a plane, or of the product of both lines
+  std::array<int, 6> name{};      // side, kind and number of a's feature and b's
+  std::array<int, 2> surface{};   // their sides
+};
+
+struct Nearest {
+  double gap = 0;                            // m
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 place = Vec3::Zero();                 // m, where a force acts on both
+  std::array<std::array<double, 3>, 2> weight{};  // of the corners of a and b
+};
+
+Vec3 placed(const Corner& corner, const Placement& at);
+
+/// A force acts on bodies half way between what touches, beside a deformable triangle in its middle plane,
+/// where its nodes take it up.
+Nearest nearest(const FeaturePair& pair, const Placement& at);
+
+}  // namespace pbd::reference

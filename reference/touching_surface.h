@@ -1,0 +1,37 @@
+// What can touch of a scene as a judge states it: points, segments, polyhedra and meshes, rounded by a radius,
+// made of corners, edges and faces.
+#pragma once
+
+#include <vector>
+
+#include "scene.h"
+
+namespace pbd::reference {
+
+/// A point of a body, in its frame (m), or a node.
+struct Corner {
+  int body = -1, node = -1;  // -1: none; `node` of a body is its centre's
+  Vec3 place = Vec3::Zero();
+};
+
+struct Surface {
+  int side = 0;  // as a claim counts them: colliders, then nodes, then the deformable surface
+  std::vector<Corner> corner;
+  std::vector<std::array<int, 2>> edge;
+  std::vector<std::vector<int>> face;  // of corners, anticlockwise seen from outside
+  std::vector<std::vector<int>> beside_corner, beside_edge;  // corners that share an edge or a face with it
+  double radius = 0;                                         // m
+  bool plane = false;       // a half space: its only face goes on for ever, and it has no edges
+  bool deformable = false;  // of triangles, from both sides
+
+  int body() const { return deformable ? -1 : corner.front().body; }
+};
+
+/// Colliders and nodes in the order of a claim, then the deformable surface if there is one. Throws SetupError
+/// for cylinders.
+std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact);
+
+/// Of a scene's deformable triangles.
+Surface surface_of(const std::vector<std::array<int, 3>>& triangles, double radius, int side);
+
+}  // namespace pbd::reference

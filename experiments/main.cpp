@@ -69,8 +69,9 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->required()
       ->allow_extra_args(false);
   command
-      ->add_option("--reference", options.reference,
-                   fmt::format("{}; if left out the first that knows the scene", fmt::join(reference_names(), ", ")))
+      ->add_option(
+          "--reference", options.reference,
+          fmt::format("{}; if left out the first that knows the scene", fmt::join(reference_names(), ", ")))
       ->check(one_of(reference_names()));
   command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
       ->check(integer_from(0, std::numeric_limits<int>::max()))

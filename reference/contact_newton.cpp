@@ -11,15 +11,46 @@
 namespace pbd::reference {
 namespace {
 
+/// Solves cone problems, from the last impulses if that leads to a solution: where several have the same
+/// velocities it is one near by. What is far from solved is left so; a few times anew from nothing.
+class Cones {
+ public:
+  Cones(FrictionLaw law, ConeSolver solver, const std::function<void()>& poll)
+      : law_(law), solver_(solver), poll_(poll) {}
+
+  FrictionLaw law() const { return law_; }
+
+  Vector solve(const ConeProblem& problem, const Vector& last) {
+    constexpr double tolerance = 1e-9, rounding = 1e-14;
+    if (poll_) poll_();
+    ConeSolution near;
+    near.impulse = last;
+    if (!last.isZero(0)) {
+      near.iterations = cone_newton(problem, law_, rounding, near.impulse);
+      certify(problem, law_, tolerance, near);
+    }
+    if (near.outcome == Outcome::ok || anew_ == 0) return near.impulse;
+    ConeSolution far = solver_(problem, law_, tolerance);
+    if (far.outcome != Outcome::ok) --anew_;
+    return far.measures.residual() < near.measures.residual() || near.iterations == 0 ? far.impulse
+                                                                                      : near.impulse;
+  }
+
+ private:
+  FrictionLaw law_;
+  ConeSolver solver_;
+  const std::function<void()>& poll_;
+  int anew_ = 3;  // that may still fail: each costs thousands of factorisations
+};
+
 /// One iterate's linear problem: what the contacts that take part see, by their forces.
 class Linearised {
  public:
   /// False where the system is singular.
   bool compute(const ContactStep& own, const Vector& velocity, const Vector& gamma);
 
-  /// Forces that solve the law; false if the cone's solver finds none. `increment` and `gamma` are what
-  /// follows from them.
-  bool solve(FrictionLaw law, ConeSolver solver, ContactStep& own, Vector& increment, Vector& gamma);
+  /// Sets the contacts' forces, and what follows from them; false if that is not finite.
+  bool solve(Cones& cones, ContactStep& own, Vector& increment, Vector& gamma);
 
  private:
   void take_part(std::size_t contact);
@@ -29,8 +60,7 @@ class Linearised {
   const ContactStep* step_ = nullptr;
   RigidKkt kkt_;
   std::vector<ContactRow> rows_;
-  std::vector<std::vector<std::pair<int, Eigen::Matrix3d>>> by_increment_;  // G
-  Vector free_, free_gamma_;                                               // without contacts
+  Vector free_, free_gamma_;  // without contacts
   std::vector<std::size_t> taking_part_;
   std::vector<std::array<Vector, 3>> answer_, answer_gamma_;  // of each that takes part
 };
@@ -40,6 +70,7 @@ bool Linearised::compute(const ContactStep& own, const Vector& velocity, const V
   const RigidStep& step = own.step;
   RigidSystem system = system_at(step, velocity, gamma);
   system.tangent += own.stiffness(velocity);
+  system.tangent = SparseMatrix(system.tangent + SparseMatrix(system.tangent.transpose())) / 2;
   Scales scales = scales_of(step, system);
   constexpr double independent = 1e-10;
   drop_dependent(step.model, system, independent, scales);
@@ -47,35 +78,14 @@ bool Linearised::compute(const ContactStep& own, const Vector& velocity, const V
   kkt_.solve(-system.load, -system.value, free_, free_gamma_);
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
-  // What the velocities change by, (dx, d) being one: a matrix for each three unknowns.
-  const auto by_velocity = [&](int unknown) {
-    Eigen::Matrix3d change;
-    for (int k = 0; k < 3; ++k) {
-      Vector one = Vector::Zero(step.model.unknowns);
-      one[unknown + k] = 1;
-      change.col(k) = velocity_change(step, velocity, one).segment<3>(unknown);
-    }
-    return change;
-  };
-  std::map<int, Eigen::Matrix3d> turned;  // of rotations
-  for (const Rotor& rotor : step.model.rotors)
-    if (rotor.unknown >= 0) turned[rotor.unknown] = by_velocity(rotor.unknown);
-  for (std::size_t i = 0; i < own.contacts.size(); ++i) {
-    rows_.push_back(own.row_of(own.contacts[i], at, end));
-    auto& g = by_increment_.emplace_back();
-    for (const auto& [unknown, c] : rows_.back().parts) {
-      const auto found = turned.find(unknown);
-      Eigen::Matrix3d by = found == turned.end() ? Eigen::Matrix3d(c / step.h) : Eigen::Matrix3d(c * found->second);
-      if (!rows_.back().by_velocity) by.row(0) = c.row(0) / step.h;
-      g.emplace_back(unknown, by);
-    }
-  }
+  for (const JudgedContact& contact : own.contacts) rows_.push_back(own.row_of(contact, at, end));
   return free_.allFinite();
 }
 
 Vec3 Linearised::seen_by(std::size_t contact, const Vector& increment) const {
+  const double h = step_->step.h;
   Vec3 seen = rows_[contact].seen;
-  for (const auto& [unknown, g] : by_increment_[contact]) seen += g * increment.segment<3>(unknown);
+  for (const auto& [unknown, c] : rows_[contact].parts) seen += c * increment.segment<3>(unknown) / h;
   return seen;
 }
 
@@ -94,27 +104,13 @@ void Linearised::take_part(std::size_t contact) {
 
 Eigen::Matrix3d Linearised::response(std::size_t at, std::size_t by) const {
   Eigen::Matrix3d w = Eigen::Matrix3d::Zero();
-  for (const auto& [unknown, g] : by_increment_[taking_part_[at]])
+  for (const auto& [unknown, c] : rows_[taking_part_[at]].parts)
     for (std::size_t k = 0; k < 3; ++k)
-      w.col(static_cast<Eigen::Index>(k)) += g * answer_[by][k].segment<3>(unknown);
-  return w;
+      w.col(static_cast<Eigen::Index>(k)) += c * answer_[by][k].segment<3>(unknown);
+  return w / (step_->step.h * step_->step.h);
 }
 
-/// From the last impulses if that leads to a solution: where several have the same velocities it is one near
-/// by, so that the skew part's share settles.
-ConeSolution solved(const ConeProblem& problem, FrictionLaw law, ConeSolver solver, const Vector& last) {
-  constexpr double tolerance = 1e-10, rounding = 1e-14;
-  ConeSolution near;
-  near.impulse = last;
-  if (!last.isZero(0)) {
-    near.iterations = cone_newton(problem, law, rounding, near.impulse);
-    certify(problem, law, tolerance, near);
-    if (near.outcome == Outcome::ok) return near;
-  }
-  return solver(problem, law, tolerance);
-}
-
-bool Linearised::solve(FrictionLaw law, ConeSolver solver, ContactStep& own, Vector& increment, Vector& gamma) {
+bool Linearised::solve(Cones& cones, ContactStep& own, Vector& increment, Vector& gamma) {
   const double h = step_->step.h;
   std::vector<bool> part(rows_.size(), false);
   std::size_t known = 0;
@@ -136,36 +132,29 @@ bool Linearised::solve(FrictionLaw law, ConeSolver solver, ContactStep& own, Vec
       for (std::size_t k = 0; k < count; ++k)
         if (i >= known || k >= known)
           grown.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * k)) =
-              response(i, k) / h;
+              response(i, k);
     w = grown;
     for (std::size_t i = known; i < count; ++i)
       w(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * i)) +=
           own.contacts[taking_part_[i]].compliance / (h * h);
     known = count;
-    const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = (w - w.transpose()) / 2;
     ConeProblem problem;
     Triplets entries;
     for (Eigen::Index k = 0; k < w.cols(); ++k)
       for (Eigen::Index i = 0; i < w.rows(); ++i)
-        if (symmetric(i, k) != 0) entries.emplace_back(i, k, symmetric(i, k));
+        if (w(i, k) != 0) entries.emplace_back(i, k, (w(i, k) + w(k, i)) / 2);  // but for rounding the same
     problem.delassus = from_triplets(w.rows(), w.cols(), entries);
     problem.friction.resize(static_cast<Eigen::Index>(count));
-    Vector q(w.rows()), impulse(w.rows());
+    problem.free_velocity.resize(w.rows());
+    Vector last(w.rows());
     for (std::size_t i = 0; i < count; ++i) {
       const JudgedContact& contact = own.contacts[taking_part_[i]];
       problem.friction[static_cast<Eigen::Index>(i)] = contact.law.friction;
-      q.segment<3>(static_cast<Eigen::Index>(3 * i)) = seen_by(taking_part_[i], free_);
-      impulse.segment<3>(static_cast<Eigen::Index>(3 * i)) = h * contact.force;
+      problem.free_velocity.segment<3>(static_cast<Eigen::Index>(3 * i)) = seen_by(taking_part_[i], free_);
+      last.segment<3>(static_cast<Eigen::Index>(3 * i)) = h * contact.force;
     }
-    for (int pass = 0; pass < 5; ++pass) {
-      problem.free_velocity = q + skew * impulse;
-      const ConeSolution solution = solved(problem, law, solver, impulse);
-      if (getenv("JUDGE_TRACE")) fprintf(stderr, "  cone %d contacts residual %g iterations %d %s\n", problem.contacts(), solution.measures.residual(), solution.iterations, solution.reason.c_str());
-      if (!solution.impulse.allFinite()) return false;
-      const double change = (skew * (solution.impulse - impulse)).norm();
-      impulse = solution.impulse;
-      if (!(change > 1e-14 * q.norm())) break;
-    }
+    const Vector impulse = cones.solve(problem, last);
+    if (!impulse.allFinite()) return false;
     increment = free_;
     gamma = free_gamma_;
     for (std::size_t i = 0; i < count; ++i) {
@@ -190,9 +179,9 @@ FrictionLaw law_of(Friction friction) {
 
 struct StepSearch {
   ContactStep step;
-  FrictionLaw law;
-  ConeSolver solver;
+  Cones cones;
   Vector velocity, gamma;
+  bool features_kept = false;
   int iterations = 0;
   double correction = infinity;  // of the displacement
 
@@ -201,18 +190,17 @@ struct StepSearch {
     constexpr int most = 60;
     constexpr double near = 1e-3, converged = 1e-9, rounding = 1e-14;
     double previous = infinity;
+    bool came_near = false;  // from then on features are those of the iterates alone
     for (; iterations < most; ++iterations) {
-      step.find_contacts(velocity, correction > near);
+      came_near = came_near || correction < near;
+      step.find_contacts(velocity, features_kept || !came_near);
       Linearised linear;
       Vector increment, next;
-      if (!linear.compute(step, velocity, gamma) || !linear.solve(law, solver, step, increment, next))
-        return false;
+      if (!linear.compute(step, velocity, gamma) || !linear.solve(cones, step, increment, next)) return false;
       velocity += velocity_change(step.step, velocity, increment);
       gamma = next;
       correction = increment.cwiseProduct(step.step.model.radius).cwiseAbs().maxCoeff() /
                    displacement_of(step.step, velocity);
-      if (getenv("JUDGE_TRACE")) fprintf(stderr, "it %d correction %g contacts %zu law %g\n", iterations, correction, step.contacts.size(), step.law_residual(law, velocity));
-      if (getenv("JUDGE_TRACE2")) { Eigen::Index w; increment.cwiseProduct(step.step.model.radius).cwiseAbs().maxCoeff(&w); fprintf(stderr, " worst unknown %d\n", (int)w); for (auto& c : step.contacts) { auto r=step.row_of(c, step.step.placement(velocity), step.step.end(velocity)); if (c.force[0]>0||r.seen[0]<1e-6) fprintf(stderr, "   %d.%d.%d %d.%d.%d force %g %g %g seen %g %g %g\n", c.pair.name[0],c.pair.name[1],c.pair.name[2],c.pair.name[3],c.pair.name[4],c.pair.name[5], c.force[0],c.force[1],c.force[2], r.seen[0],r.seen[1],r.seen[2]); } }
       if (!std::isfinite(correction)) return false;
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
         if (!step.collide(velocity)) return true;
@@ -227,13 +215,22 @@ struct StepSearch {
 }  // namespace
 
 ContactJudgement contact_newton(const Scene& scene, const State& state, double h, Friction friction,
-                                ConeSolver solver) {
+                                ConeSolver solver, const ContactStart& start) {
   const FrictionLaw law = law_of(friction);
   Clock clock;
-  StepSearch search{{scene, state, h}, law, solver, {}, {}};
+  StepSearch search{{scene, state, h}, {law, solver, start.poll}, {}, {}};
   ContactStep& own = search.step;
   search.velocity = own.step.start_velocity();
   search.gamma.setZero(own.step.model.rows());
+  search.features_kept = start.features_kept;
+  if (const StepClaim* near = start.near; near != nullptr) {
+    RigidStep ended = own.step;
+    ended.start = near->end;
+    search.velocity = ended.start_velocity();
+    if (Vector told; gather_forces(*near, own.step.model, told) && told.allFinite()) search.gamma = told;
+    own.find_contacts(search.velocity, true);
+    own.take_forces(near->contacts, search.velocity);
+  }
   const bool converged = search.run();
   ContactJudgement j;
   report(own.step, search.velocity, search.gamma, j);
@@ -243,7 +240,7 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   const Vector per_length = own.step.model.radius.cwiseInverse();
   j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
-  own.find_contacts(search.velocity, false);
+  own.find_contacts(search.velocity, start.features_kept);
   j.law = own.law_residual(law, search.velocity) * h / displacement_of(own.step, search.velocity);
   j.correction = search.correction;
   j.iterations = search.iterations;

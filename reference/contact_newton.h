@@ -11,9 +11,9 @@
 // left to the cone judges: the skew part is brought up to date by a few solutions. Features are searched at
 // every iterate, where it comes near the solution by its own pose alone.
 //
-// Limits: no limits of joints, motors of limited force, damped point joints or attachments, cylinders, nor the
-// laws box and disc. Overlaps that a missed step has left part as `recovery` says, not by a tenth. Coulomb's
-// law may have several solutions, and where it leaves velocities open other solvers find others.
+// Limits: no limits of joints, motors of limited force, damped point joints or attachments, cylinders, nor
+// the laws box and disc. Overlaps that a missed step has left part as `recovery` says, not by a tenth.
+// Coulomb's law may have several solutions, and where it leaves velocities open other solvers find others.
 #pragma once
 
 #include "contact_step.h"
@@ -21,16 +21,17 @@
 namespace pbd::reference {
 
 struct ContactJudgement : Judgement {
-  int contacts = 0;                 // that carry a force
-  double law = 0;                   // residual of their law over the step's largest speed
+  int contacts = 0;  // that carry a force
+  double law = 0;    // residual of their law over the step's largest speed
   std::vector<JudgedContact> all{};
 };
 
 using ConeSolver = ConeSolution (*)(const ConeProblem& problem, FrictionLaw law, double tolerance);
 
-/// Throws SetupError for an invalid scene or what the judge does not know; else all is in the judgement: ok if
-/// forces balance, hard constraints and the law are fulfilled to 1e-9 and the last correction was below that.
+/// Throws SetupError for an invalid scene or what the judge does not know; else all is in the judgement: ok
+/// if forces balance, hard constraints and the law are fulfilled to 1e-9 and the last correction was below
+/// that.
 ContactJudgement contact_newton(const Scene& scene, const State& state, double h, Friction friction,
-                                ConeSolver solver);
+                                ConeSolver solver, const ContactStart& start = {});
 
 }  // namespace pbd::reference

@@ -72,9 +72,11 @@ struct Moving {
   explicit Moving(const RigidModel& own)
       : model(own), node(own.unknowns / 3, -1), body(own.unknowns / 3, -1) {
     for (std::size_t i = 0; i < own.nodes.first.size(); ++i)
-      if (const int u = own.nodes.first[i]; u >= 0) node[static_cast<std::size_t>(u / 3)] = static_cast<int>(i);
+      if (const int u = own.nodes.first[i]; u >= 0)
+        node[static_cast<std::size_t>(u / 3)] = static_cast<int>(i);
     for (std::size_t b = 0; b < own.rotors.size(); ++b)
-      if (const int u = own.rotors[b].unknown; u >= 0) body[static_cast<std::size_t>(u / 3)] = static_cast<int>(b);
+      if (const int u = own.rotors[b].unknown; u >= 0)
+        body[static_cast<std::size_t>(u / 3)] = static_cast<int>(b);
   }
 
   void move(int unknown, double change, Placement& at) const {
@@ -105,8 +107,7 @@ ContactStep::ContactStep(const Scene& scene, const State& state, double h)
         effect);
   step.damping = damping_of(scene, step.model, start_, h);
   free_ = state;
-  const RigidSystem system =
-      system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
+  const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
   const Vector free = step.start_velocity() - h * system.load.cwiseQuotient(step.model.inertia);
   const State end = step.end(free);
   free_.v = end.v;
@@ -114,8 +115,9 @@ ContactStep::ContactStep(const Scene& scene, const State& state, double h)
 }
 
 JudgedContact ContactStep::begun(const FeaturePair& pair) const {
-  JudgedContact made{.pair = pair, .law = contact.between(static_cast<std::size_t>(pair.surface[0]),
-                                                          static_cast<std::size_t>(pair.surface[1]))};
+  JudgedContact made{.pair = pair,
+                     .law = contact.between(static_cast<std::size_t>(pair.surface[0]),
+                                            static_cast<std::size_t>(pair.surface[1]))};
   const Nearest found = nearest(pair, start_);
   Eigen::Index least = 0;
   found.normal.cwiseAbs().minCoeff(&least);
@@ -128,9 +130,8 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   made.target = std::min(0.0, found.gap + contact.recovery * h);
   made.closing = -along(step.start);
   made.collides = made.law.restitution > 0 && made.closing > 0 && found.gap + h * along(free_) < 0;
-  made.rebound = made.closing > 0
-                     ? std::min(made.target, found.gap + h * made.law.restitution * made.closing)
-                     : made.target;
+  made.rebound = made.closing > 0 ? std::min(made.target, found.gap + h * made.law.restitution * made.closing)
+                                  : made.target;
   const double elastic = 1 / (1 + made.law.damping / h);  // the spring's share
   const double offset = (1 - elastic) * (std::min(found.gap, 0.0) - made.target);
   made.target += offset;
@@ -146,15 +147,39 @@ void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
   if (also_start) search.find(end, start_, found);
   const auto by_name = [](const FeaturePair& one, const FeaturePair& two) { return one.name < two.name; };
   std::stable_sort(found.begin(), found.end(), by_name);
-  found.erase(std::unique(found.begin(), found.end(),
-                          [](const FeaturePair& one, const FeaturePair& two) { return one.name == two.name; }),
-              found.end());
+  found.erase(
+      std::unique(found.begin(), found.end(),
+                  [](const FeaturePair& one, const FeaturePair& two) { return one.name == two.name; }),
+      found.end());
   std::vector<JudgedContact> before;
   before.swap(contacts);
   auto known = before.begin();
   for (const FeaturePair& pair : found) {
     while (known != before.end() && known->pair.name < pair.name) ++known;
     contacts.push_back(known != before.end() && known->pair.name == pair.name ? *known : begun(pair));
+  }
+}
+
+void ContactStep::take_forces(const std::vector<ClaimedContact>& claimed, const Vector& velocity) {
+  const Placement at = step.placement(velocity);
+  const auto surface = static_cast<int>(contact.collider.size() + contact.node.size());
+  for (const ClaimedContact& claim : claimed) {
+    const std::array<int, 2> sides{std::min(claim.collider[0], surface),
+                                   std::min(claim.collider[1], surface)};
+    JudgedContact* taker = nullptr;
+    Nearest taken;
+    for (JudgedContact& own : contacts) {
+      const auto& [a, b] = own.pair.surface;
+      if (sides != std::array{a, b} && sides != std::array{b, a}) continue;
+      const Nearest found = nearest(own.pair, at);
+      if (taker != nullptr && (found.place - claim.point).norm() >= (taken.place - claim.point).norm())
+        continue;
+      taker = &own;
+      taken = found;
+    }
+    if (taker == nullptr) continue;
+    const double sign = taken.normal.dot(claim.normal) < 0 ? -1 : 1;
+    taker->force += sign * (directions_of(taken.normal, taker->reference) * claim.force);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "cone_problem.h"
 #include "feature_search.h"
 #include "rigid_step.h"
+#include "step_claim.h"
 
 namespace pbd::reference {
 
@@ -26,8 +27,8 @@ struct JudgedContact {
   double target = 0, rebound = 0;  // m, gaps aimed at, the second where it collides
   double closing = 0;              // m/s, where the step begins
   bool collides = false;
-  double compliance = 0;         // m/N
-  Vec3 force = Vec3::Zero();     // lambda, N: along the normal and both tangents
+  double compliance = 0;      // m/N
+  Vec3 force = Vec3::Zero();  // lambda, N: along the normal and both tangents
 };
 
 /// A contact's directions and how its law sees it at one pose.
@@ -52,6 +53,9 @@ struct ContactStep {
   /// keep their forces.
   void find_contacts(const Vector& velocity, bool also_start);
 
+  /// Gives the contacts the forces that somebody claims, each to the nearest one of its sides.
+  void take_forces(const std::vector<ClaimedContact>& claimed, const Vector& velocity);
+
   ContactRow row_of(const JudgedContact& contact, const Placement& at, const State& end) const;
 
   /// Lets those collide that touch at `velocity` and part by less than their e; returns whether any do anew.
@@ -60,9 +64,9 @@ struct ContactStep {
   /// C^T lambda (N, N m), and the sum of its absolute contributions.
   Vector push(const Vector& velocity, Vector& magnitude) const;
 
-  /// - d(C^T lambda) by (dx, d), by central differences of the forces: of each contact the symmetric part, and
-  /// of that what is positive semidefinite, inertia being one. The rest would make pressed faces unstable but
-  /// for what holds them together.
+  /// - d(C^T lambda) by (dx, d), by central differences of the forces: of each contact the symmetric part,
+  /// and of that what is positive semidefinite, inertia being one. The rest would make pressed faces unstable
+  /// but for what holds them together.
   SparseMatrix stiffness(const Vector& velocity) const;
 
   /// The largest |r - P_K(r - m u~)|/m of a contact, m/s, m the mass that its sides' centres have together.

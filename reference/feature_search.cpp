@@ -129,7 +129,8 @@ struct Between {
   static bool share_corner(const FeaturePair& pair) {
     for (int i = 0; i < pair.a.count; ++i)
       for (int k = 0; k < pair.b.count; ++k)
-        if (pair.a.corner[static_cast<std::size_t>(i)].node == pair.b.corner[static_cast<std::size_t>(k)].node)
+        if (pair.a.corner[static_cast<std::size_t>(i)].node ==
+            pair.b.corner[static_cast<std::size_t>(k)].node)
           return true;
     return false;
   }
@@ -225,7 +226,8 @@ struct Between {
 
 }  // namespace
 
-FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact) : surfaces_(surfaces_of(scene, contact)) {
+FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
+    : surfaces_(surfaces_of(scene, contact)) {
   const auto side_of = [](const Surface& surface) {
     return Side{surface.corner.front().body, surface.corner.front().node};
   };

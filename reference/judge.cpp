@@ -21,13 +21,13 @@ std::span<const NamedJudge> judges() {
 }
 
 std::span<const NamedContactJudge> contact_judges() {
-  constexpr auto interior_point = [](const Scene& scene, const State& state, double h,
-                                     Friction friction) -> Judgement {
-    return contact_newton(scene, state, h, friction, cone_interior_point);
+  constexpr auto interior_point = [](const Scene& scene, const State& state, double h, Friction friction,
+                                     const ContactStart& start) -> Judgement {
+    return contact_newton(scene, state, h, friction, cone_interior_point, start);
   };
-  constexpr auto by_ipopt = [](const Scene& scene, const State& state, double h,
-                               Friction friction) -> Judgement {
-    return contact_newton(scene, state, h, friction, cone_ipopt);
+  constexpr auto by_ipopt = [](const Scene& scene, const State& state, double h, Friction friction,
+                               const ContactStart& start) -> Judgement {
+    return contact_newton(scene, state, h, friction, cone_ipopt, start);
   };
   static constexpr std::array<NamedContactJudge, 2> list{
       {{"cone_interior_point", interior_point}, {"cone_ipopt", by_ipopt}}};

@@ -54,9 +54,21 @@ struct NamedJudge {
 /// Of scenes without contact: primal_newton and ipopt.
 std::span<const NamedJudge> judges();
 
+/// Where a judge of contact starts, since there may be several solutions: from the velocities where the step
+/// begins, or from the end and the forces that somebody claims for it. What touches is decided by the poses
+/// where the step ends; with `features_kept` it is whatever features are near where it begins, too, which go
+/// on as planes and lines that have no end.
+struct StepClaim;
+struct ContactStart {
+  const StepClaim* near = nullptr;
+  bool features_kept = false;
+  std::function<void()> poll{};  // called now and then; what it throws ends the judge's work
+};
+
 /// Of any scene, named by what solves the contacts' law: cone_interior_point and cone_ipopt. Throw SetupError
 /// for what they do not know (contact_newton.h), the laws box and disc among it.
-using ContactJudge = Judgement (*)(const Scene& scene, const State& state, double h, Friction friction);
+using ContactJudge = Judgement (*)(const Scene& scene, const State& state, double h, Friction friction,
+                                   const ContactStart& start);
 struct NamedContactJudge {
   std::string_view name;
   ContactJudge judge;

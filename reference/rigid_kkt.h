@@ -28,7 +28,7 @@ class RigidKkt {
 
  private:
   Scales scales_;
-  double h2_ = 0;  // s^2
+  double h2_ = 0;        // s^2
   SparseMatrix matrix_;  // that the factor goes on to read
   SparseLu lu_;
 };

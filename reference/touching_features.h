@@ -15,23 +15,23 @@ namespace pbd::reference {
 struct ContactFeature {
   std::array<Corner, 3> corner;
   int count = 1;
-  double radius = 0;         // m
-  bool deformable = false;   // of a surface's triangle
+  double radius = 0;        // m
+  bool deformable = false;  // of a surface's triangle
 
   bool of_body() const { return corner[0].body >= 0; }
 };
 
 struct FeaturePair {
-  ContactFeature a, b;                   // a has at most as many corners as b
-  double side = 1;                // of the normal of a plane, or of the product of both lines
-  std::array<int, 6> name{};      // side, kind and number of a's feature and b's
-  std::array<int, 2> surface{};   // their sides
+  ContactFeature a, b;           // a has at most as many corners as b
+  double side = 1;               // of the normal of a plane, or of the product of both lines
+  std::array<int, 6> name{};     // side, kind and number of a's feature and b's
+  std::array<int, 2> surface{};  // their sides
 };
 
 struct Nearest {
-  double gap = 0;                            // m
+  double gap = 0;  // m
   Vec3 normal = Vec3::UnitZ();
-  Vec3 place = Vec3::Zero();                 // m, where a force acts on both
+  Vec3 place = Vec3::Zero();                      // m, where a force acts on both
   std::array<std::array<double, 3>, 2> weight{};  // of the corners of a and b
 };
 

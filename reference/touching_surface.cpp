@@ -44,9 +44,9 @@ struct SurfaceMaker {
     for (const auto& edge : solid.edges) surface.edge.push_back(edge.node);
     for (const auto& face : solid.faces)
       if (!face.normal.isZero(0))
-        surface.face.emplace_back(solid.corners.begin() + static_cast<std::ptrdiff_t>(face.first),
-                                  solid.corners.begin() +
-                                      static_cast<std::ptrdiff_t>(face.first + face.count));
+        surface.face.emplace_back(
+            solid.corners.begin() + static_cast<std::ptrdiff_t>(face.first),
+            solid.corners.begin() + static_cast<std::ptrdiff_t>(face.first + face.count));
   }
 
   void operator()(std::monostate) {}
@@ -55,7 +55,8 @@ struct SurfaceMaker {
     surface.radius = sphere.radius;
   }
   void operator()(const Capsule& capsule) {
-    surface.edge.push_back({add(-capsule.length / 2 * Vec3::UnitZ()), add(capsule.length / 2 * Vec3::UnitZ())});
+    surface.edge.push_back(
+        {add(-capsule.length / 2 * Vec3::UnitZ()), add(capsule.length / 2 * Vec3::UnitZ())});
     surface.radius = capsule.radius;
   }
   void operator()(const Box& box) { add(plane_faces(box_surface(box.size))); }
@@ -66,7 +67,8 @@ struct SurfaceMaker {
     surface.plane = true;
   }
   void operator()(const Cylinder&) {
-    throw SetupError("contact collider", "a cylinder", "shapes with corners, or rounded: this judge has no rims");
+    throw SetupError("contact collider", "a cylinder",
+                     "shapes with corners, or rounded: this judge has no rims");
   }
 };
 
@@ -113,7 +115,8 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact) {
     find_neighbours(surface);
     surfaces.push_back(std::move(surface));
   }
-  if (!contact.triangle.empty()) surfaces.push_back(surface_of(contact.triangle, contact.thickness / 2, next()));
+  if (!contact.triangle.empty())
+    surfaces.push_back(surface_of(contact.triangle, contact.thickness / 2, next()));
   return surfaces;
 }
 

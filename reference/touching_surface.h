@@ -1,5 +1,5 @@
-// What can touch of a scene as a judge states it: points, segments, polyhedra and meshes, rounded by a radius,
-// made of corners, edges and faces.
+// What can touch of a scene as a judge states it: points, segments, polyhedra and meshes, rounded by a
+// radius, made of corners, edges and faces.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct Surface {
   int side = 0;  // as a claim counts them: colliders, then nodes, then the deformable surface
   std::vector<Corner> corner;
   std::vector<std::array<int, 2>> edge;
-  std::vector<std::vector<int>> face;  // of corners, anticlockwise seen from outside
+  std::vector<std::vector<int>> face;                        // of corners, anticlockwise seen from outside
   std::vector<std::vector<int>> beside_corner, beside_edge;  // corners that share an edge or a face with it
   double radius = 0;                                         // m
   bool plane = false;       // a half space: its only face goes on for ever, and it has no edges
@@ -27,8 +27,8 @@ struct Surface {
   int body() const { return deformable ? -1 : corner.front().body; }
 };
 
-/// Colliders and nodes in the order of a claim, then the deformable surface if there is one. Throws SetupError
-/// for cylinders.
+/// Colliders and nodes in the order of a claim, then the deformable surface if there is one. Throws
+/// SetupError for cylinders.
 std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact);
 
 /// Of a scene's deformable triangles.

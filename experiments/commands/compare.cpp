@@ -94,9 +94,9 @@ class Comparison {
            std::string_view reason) {
     const auto& method = contender.method;
     table_.row({scene_, step_s_, method.integrator, method.outer, method.relaxation,
-                contact_ ? method.friction : std::string("none"),
-                std::int64_t{point.outer_iterations}, point.sweeps, point.row_updates, point.wall_s,
-                point.error, std::string(status), std::string(reason), contender.text});
+                contact_ ? method.friction : std::string("none"), std::int64_t{point.outer_iterations},
+                point.sweeps, point.row_updates, point.wall_s, point.error, std::string(status),
+                std::string(reason), contender.text});
   }
 
   std::string scene_;
@@ -132,8 +132,9 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
   const bool knows_contact = std::none_of(for_equations.begin(), for_equations.end(),
                                           [&](const auto& judge) { return judge.name == reference; });
   if (contact_of(file.scene) != nullptr && !knows_contact)
-    throw pbd::SetupError("--reference " + reference, "a scene with contact",
-                          "cone_interior_point, cone_ipopt: this reference solves equations, and a gap is none");
+    throw pbd::SetupError(
+        "--reference " + reference, "a scene with contact",
+        "cone_interior_point, cone_ipopt: this reference solves equations, and a gap is none");
   for (const auto& joint : file.joints)
     if (joint.bounded)
       throw pbd::SetupError(joint.where, "a limit or a limited force",
@@ -160,8 +161,8 @@ int compare(const CompareOptions& options) {
   if (missed > 0)
     warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
                      options.at_step));
-  const Judged judged = judge_step(name, file.scene, state, file.step_s,
-                                   pbd::friction_by_name(file.method.friction));
+  const Judged judged =
+      judge_step(name, file.scene, state, file.step_s, pbd::friction_by_name(file.method.friction));
   comparison.add_judge(name, judged);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;

@@ -14,10 +14,10 @@
 #include "harness/constraint_name.h"
 #include "harness/files.h"
 #include "harness/interrupt.h"
+#include "harness/judges.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
 #include "harness/step_checks.h"
-#include "harness/judges.h"
 #include "harness/step_judge.h"
 #include "harness/stepper.h"
 
@@ -114,6 +114,9 @@ nlohmann::ordered_json judged_json(const StepJudge& judge) {
           {"every", judge.every()},
           {"steps", judge.judged()},
           {"unsolved", judge.unsolved()},
+          {"missed", judge.missed()},
+          {"another_solution", judge.ambiguous()},
+          {"features_of_the_begin", judge.by_features()},
           {"worst_error_m", judge.worst_error_m()},
           {"worst_error_of_scale", judge.worst_error_of_scale()}};
 }
@@ -147,11 +150,9 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
   const auto judge = [&](const pbd::State& begun, const pbd::State& ended, double h,
                          const pbd::Report& report) {
     const std::int64_t step = totals.steps + 1;
-    if (judges.checks)
-      judges.checks->add(step, claim_of(file.scene, workspace, begun, ended, h, report), report.status,
-                         file.script.changes_scene());
-    if (judges.judge && judges.judge->due(step))
-      judges.judge->add(step, file.scene, file.method, begun, ended, h, report);
+    const auto claim = claim_of(file.scene, workspace, begun, ended, h, report);
+    if (judges.checks) judges.checks->add(step, claim, report.status, file.script.changes_scene());
+    if (judges.judge && judges.judge->due(step)) judges.judge->add(step, claim, report);
   };
   const bool judged = judges.checks || judges.judge;
   while (totals.steps < file.steps && lost.empty()) {
@@ -181,7 +182,8 @@ int simulate(const SimulateOptions& options) {
   const std::int64_t every = options.judge.empty() ? 0 : every_of(options.judge);
   SceneFile file = read_scene_file(options.scene, options.settings);
   if (every > 0 && (file.method.integrator != "implicit_euler" || file.method.direction_blend != 1))
-    throw pbd::SetupError("--judge", file.method.integrator, "implicit_euler with directions at the step's end");
+    throw pbd::SetupError("--judge", file.method.integrator,
+                          "implicit_euler with directions at the step's end");
   pbd::Workspace workspace = file.workspace();
   SimulationOutput output(options, file);
   PartialFile record(options.directory / "run.json");

@@ -14,30 +14,10 @@ namespace pbdcheck {
 
 using pbd::reference::Outcome;
 
-std::vector<std::string> reference_names() {
-  std::vector<std::string> names;
-  for (const auto& judge : pbd::reference::judges()) names.emplace_back(judge.name);
-  for (const auto& judge : pbd::reference::contact_judges()) names.emplace_back(judge.name);
-  return names;
-}
+namespace {
 
-std::string default_reference(const pbd::Scene& scene) {
-  const bool beyond_equations = std::any_of(
-      scene.effects.begin(), scene.effects.end(),
-      [](const pbd::Effect& effect) { return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect); });
-  return std::string(beyond_equations ? pbd::reference::contact_judges()[0].name
-                                      : pbd::reference::judges()[0].name);
-}
-
-Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
-                  pbd::Friction friction) {
-  pbd::reference::Judgement judged;
-  bool known = false;
-  for (const auto& judge : pbd::reference::judges())
-    if (judge.name == name) judged = judge.judge(scene, state, h), known = true;
-  for (const auto& judge : pbd::reference::contact_judges())
-    if (judge.name == name) judged = judge.judge(scene, state, h, friction), known = true;
-  if (!known) throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
+Judged judged_of(const pbd::Scene& scene, const pbd::State& state, double h,
+                 pbd::reference::Judgement judged) {
   if (judged.outcome == Outcome::ok && !(judged.x.allFinite() && std::isfinite(judged.residual))) {
     judged.outcome = Outcome::not_converged;
     judged.reason = "not finite";
@@ -50,6 +30,44 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
           judged.iterations,
           judged.seconds,
           judged.residual};
+}
+
+}  // namespace
+
+std::vector<std::string> reference_names() {
+  std::vector<std::string> names;
+  for (const auto& judge : pbd::reference::judges()) names.emplace_back(judge.name);
+  for (const auto& judge : pbd::reference::contact_judges()) names.emplace_back(judge.name);
+  return names;
+}
+
+std::string default_reference(const pbd::Scene& scene) {
+  const bool beyond_equations =
+      std::any_of(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {
+        return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect);
+      });
+  return std::string(beyond_equations ? pbd::reference::contact_judges()[0].name
+                                      : pbd::reference::judges()[0].name);
+}
+
+Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
+                  pbd::Friction friction) {
+  for (const auto& judge : pbd::reference::judges())
+    if (judge.name == name) return judged_of(scene, state, h, judge.judge(scene, state, h));
+  for (const auto& judge : pbd::reference::contact_judges())
+    if (judge.name == name)
+      return judged_of(scene, state, h,
+                       judge.judge(scene, state, h, friction, {.poll = throw_if_interrupted}));
+  throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
+}
+
+Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept) {
+  for (const auto& judge : pbd::reference::contact_judges())
+    if (judge.name == name)
+      return judged_of(claim.scene, claim.start, claim.h,
+                       judge.judge(claim.scene, claim.start, claim.h, claim.friction,
+                                   {&claim, features_kept, throw_if_interrupted}));
+  throw pbd::SetupError("--reference", "`" + name + "`", "a judge of contact");
 }
 
 pbd::reference::Judgement truth(const pbd::Scene& scene, const pbd::State& state, double h) {

@@ -7,6 +7,7 @@
 #include "harness/cases.h"
 #include "judge.h"
 #include "scene.h"
+#include "step_claim.h"
 
 namespace pbdcheck {
 
@@ -31,6 +32,9 @@ struct Judged {
 /// Throws SetupError for a name that is not one of `reference_names()`.
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
                   pbd::Friction friction = pbd::Friction::coulomb);
+
+/// The same by a judge of contact that starts from what a step claims.
+Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept);
 
 /// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
 /// reason unless it was solved, Interrupted if the user asked to stop.

@@ -1,6 +1,11 @@
 // A simulation's steps against a reference that solves them anew from where each begins, and how far from it
-// the solver ended. A step that stands still has no displacement to compare with, so that errors are told
-// against what the step's tolerance is a share of, too.
+// the solver ended, in the metric of masses and as a share of the scale that the step's tolerance refers to.
+//
+// That may be more than the tolerance, which bounds residuals. Two reasons can be told apart: where the
+// distance is more than the tolerance, a reference that knows contact starts again from what the solver
+// claims. Coulomb's law may have several solutions: then it ends next to the solver. And the solver goes on
+// with the features that are near where a step begins (solver/effects/contact.h): then it does if it keeps
+// those, too.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +14,7 @@
 
 #include "harness/results.h"
 #include "step/step.h"
+#include "step_claim.h"
 
 namespace pbdcheck {
 
@@ -20,9 +26,8 @@ class StepJudge {
 
   bool due(std::int64_t step) const { return step % every_ == 0; }
 
-  /// A step of h seconds by `method`. Throws SetupError for what the reference does not know.
-  void add(std::int64_t step, const pbd::Scene& scene, const pbd::Method& method, const pbd::State& begun,
-           const pbd::State& ended, double h, const pbd::Report& report);
+  /// Throws SetupError for what the reference does not know.
+  void add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report);
 
   void close() { table_.close(); }
   const TableTotals& totals() const { return totals_; }
@@ -30,8 +35,15 @@ class StepJudge {
   const std::string& reference() const { return reference_; }
   std::int64_t every() const { return every_; }
   std::int64_t judged() const { return judged_; }
-  /// Of steps that both solved.
+  /// By the reference.
   std::int64_t unsolved() const { return unsolved_; }
+  /// Of those judged, by the solver.
+  std::int64_t missed() const { return missed_; }
+  /// Of steps that both solved: those that are nearest to another solution than the one that the reference
+  /// finds by itself, and to one by the features of the step's begin.
+  std::int64_t ambiguous() const { return ambiguous_; }
+  std::int64_t by_features() const { return by_features_; }
+  /// Of steps that both solved, from the nearest solution: m, and a share of the scale.
   double worst_error_m() const { return worst_error_m_; }
   double worst_error_of_scale() const { return worst_error_of_scale_; }
 
@@ -40,7 +52,8 @@ class StepJudge {
 
  private:
   std::string reference_;
-  std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, worst_step_ = 0;
+  std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, ambiguous_ = 0, by_features_ = 0,
+               worst_step_ = 0;
   double worst_error_m_ = 0, worst_error_of_scale_ = 0;
   TableTotals totals_;
   Table table_;

@@ -38,8 +38,6 @@ Distance distance(const pbd::reference::StepClaim& claim, const Judged& judged) 
           apart == 0 ? 0 : apart / claim.scale};
 }
 
-}  // namespace
-
 /// What a reference says of a claim, by the start from which it ends nearest to it.
 struct Agreement {
   Distance off;

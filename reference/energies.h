@@ -37,6 +37,7 @@ struct Element {
   Vec3 rest = Vec3::Zero();              // target (m), rest length (m) or rest angle (rad)
   RowMatrix stiffness;                   // A^-1, R x R, zero for a hard constraint
   int first_row = -1;                    // among the hard rows; -1 for a compliant constraint
+  bool turns = false;                    // of corotational ones: forces act along dc/dx, not with R fixed
 
   bool hard() const { return first_row >= 0; }
   int variables() const { return 3 * columns; }

@@ -95,7 +95,7 @@ Block element_block(const Element& e, int row, const Points& x) {
 Block element_rows(const Element& e, int row, const Points& x) {
   Local local;
   differentiate_once(e, x, local);
-  if (e.kind == Kind::corotational)
+  if (e.kind == Kind::corotational && !e.turns)
     local.jacobian = held_rotation(local_matrix(e, x), Strain6::Zero()).jacobian;
   Block block = stated_block(e, row, local);
   block.jacobian.setZero(e.rows, 3 * e.nodes);

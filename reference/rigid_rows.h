@@ -55,7 +55,7 @@ struct Block {
 std::vector<Block> blocks_at(const RigidModel& model, const Placement& at, Coordinates coordinates);
 
 /// The same in turns, one after the other, without second derivatives: c and the rows along which forces
-/// act. Of corotational tetrahedra these hold the rotation fixed.
+/// act. Of corotational tetrahedra without damping these hold the rotation fixed.
 void each_block(const RigidModel& model, const Placement& at, const std::function<void(const Block&)>& use);
 
 /// The constraint values of all rows alone.

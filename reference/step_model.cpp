@@ -78,6 +78,8 @@ double scale_of(const StepClaim& claim, const RigidModel& model) {
 StepModel make_step_model(const Scene& scene) {
   StepModel model{make_rigid_model(undamped(scene)), {}, {}, {}, {}, {}};
   take_told_normals(model.rigid);
+  for (Element& element : model.rigid.nodes.elements)
+    element.turns = damped(scene.effects[static_cast<std::size_t>(element.effect)]);
   std::vector<std::array<int, 2>> constraint(static_cast<std::size_t>(model.rigid.rows()));
   for (std::size_t i = 0; i < model.rigid.element_row.size(); ++i) {
     const Element& e = model.rigid.nodes.elements[i];

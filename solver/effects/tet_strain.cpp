@@ -6,6 +6,7 @@
 
 #include "effects/stress_bound.h"
 #include "mesh.h"
+#include "rows/bodies.h"
 #include "rows/effect_rows.h"
 #include "rows/polar.h"
 #include "rows/symmetric_eigen.h"
@@ -50,6 +51,33 @@ Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
   return f;
 }
 
+/// The least sum of two stretches that counts as one.
+constexpr double least_pair = 0.1;
+
+Vec3 axial(const Eigen::Matrix3d& m) {
+  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+}
+
+/// How the rotation R of a damped corotational tetrahedron follows F.
+struct Turning {
+  bool held = true;                  // fixed
+  Eigen::Matrix3d stretch, inverse;  // U, (tr U - U)^-1
+
+  Turning(const TetStrain& effect, const Constraint<TetStrain>::Deformation& at) {
+    if (effect.strain != Strain::corotational || !effect.damping) return;
+    const Eigen::Matrix3d product = at.t.transpose() * at.f;
+    stretch = (product + product.transpose()) / 2;
+    const Eigen::Matrix3d pairs = stretch.trace() * Eigen::Matrix3d::Identity() - stretch;
+    const Eigen::Matrix3d above = pairs - least_pair * Eigen::Matrix3d::Identity();
+    // Its leading minors tell whether all sums of two are above.
+    held = !(above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0);
+    if (!held) inverse = pairs.inverse();
+  }
+
+  /// w for a dF that R takes to `turned` y^T.
+  Vec3 turn(const Vec3& turned, const Vec3& y) const { return inverse * y.cross(turned); }
+};
+
 }  // namespace
 
 auto Constraint<TetStrain>::node(const TetStrain& effect, std::size_t i) -> Nodes {
@@ -87,8 +115,11 @@ auto Constraint<TetStrain>::strain(const TetStrain& effect, const Deformation& a
   return value;
 }
 
-auto Constraint<TetStrain>::push(const Deformation& at, const Value& impulse) -> Positions {
-  const Eigen::Matrix3d stress = stress_of(impulse);
+auto Constraint<TetStrain>::push(const TetStrain& effect, const Deformation& at, const Value& impulse)
+    -> Positions {
+  Eigen::Matrix3d stress = stress_of(impulse);
+  if (const Turning turning(effect, at); !turning.held)
+    stress -= cross_matrix(Vec3(turning.inverse * axial(stress * turning.stretch)));
   Positions pushed;
   pushed.rightCols<3>().noalias() = at.t * stress * at.inverse.transpose();
   pushed.col(0) = -pushed.rightCols<3>().rowwise().sum();
@@ -113,6 +144,18 @@ void Constraint<TetStrain>::evaluate(const TetStrain& effect, std::size_t i, con
       jacobian.block<1, 3>(3 + a, 3 * node_index) =
           y(node_index, b) * t.col(a).transpose() + y(node_index, a) * t.col(b).transpose();
     }
+  const Turning turning(effect, {inverse, f, t});
+  if (turning.held) return;
+  for (int node_index = 0; node_index < 4; ++node_index)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 w = turning.turn(t.row(k), y.row(node_index));
+      const Eigen::Matrix3d product = cross_matrix(w) * turning.stretch;
+      const Eigen::Matrix3d twice = product + product.transpose();
+      for (int a = 0; a < 3; ++a) {
+        jacobian(a, 3 * node_index + k) -= twice(a, a) / 2;
+        jacobian(3 + a, 3 * node_index + k) -= twice(a, (a + 1) % 3);
+      }
+    }
 }
 
 auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
@@ -125,7 +168,6 @@ auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t
   const Eigen::Matrix3d stretch = polar_rotation(f).transpose() * f;
   const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
   const double pair = symmetric.trace() - symmetric_eigenvalues(symmetric).maxCoeff();
-  constexpr double least_pair = 0.1;
   const Vec3 tension = symmetric_eigenvalues(-stress);
   double largest = 0;
   for (int a = 0; a < 3; ++a) {

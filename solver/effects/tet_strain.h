@@ -6,8 +6,11 @@
 //   green         e = (F^T F - I)/2            T = F
 //   de_aa/dx_i = y_i[a] T_a^T,  d(2 e_ab)/dx_i = y_i[b] T_a^T + y_i[a] T_b^T.
 // For `corotational` this holds R fixed: single rows are not dc/dx, but J^T p is the exact energy gradient
-// wherever p is an isotropic stress of e, since that commutes with the stretch. A = C^-1/volume
-// (servin2006interactive).
+// wherever p is an isotropic stress of e, since that commutes with the stretch U. That of a damper does not.
+// Of damped effects the rows are dc/dx: U changes by R^T dF - [w]x U made symmetric, where R turns by
+//   w = (tr U - U)^-1 ax(R^T dF),   ax(M) = (M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)
+// and J^T p is T (S - [(tr U - U)^-1 ax(S U)]x) Y^T, which turns nothing. Where two stretches sum to less
+// than 0.1 R is held fixed. A = C^-1/volume (servin2006interactive).
 #pragma once
 
 #include "rows/constraint.h"
@@ -34,8 +37,8 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   static Deformation deformation(const TetStrain& effect, std::size_t i, const Positions& x);
   static Value strain(const TetStrain& effect, const Deformation& at);
 
-  /// T S Y^T, S the impulses as a symmetric matrix.
-  static Positions push(const Deformation& at, const Value& impulse);
+  /// J^T p: T S Y^T, S the impulses as a symmetric matrix; of damped ones with what turns R.
+  static Positions push(const TetStrain& effect, const Deformation& at, const Value& impulse);
 
   /// Volume times what its material's rotation is the polar part of, m^3.
   static Eigen::Matrix3d weighted_deformation(const TetStrain& effect, std::size_t i, const Positions& x);

@@ -120,7 +120,7 @@ auto push_of(const E& effect, std::size_t i, const Positions& x, const Respond& 
   using C = Constraint<E>;
   if constexpr (requires { typename C::Deformation; }) {
     const auto at = C::deformation(effect, i, x);
-    return C::push(at, respond(C::strain(effect, at)));
+    return C::push(effect, at, respond(C::strain(effect, at)));
   } else {
     typename C::Value value;
     typename C::Jacobian jacobian;

@@ -114,3 +114,47 @@ TEST_CASE("damping that makes no sense is refused") {
   const Scene solid = one_tet(Material{-1, 0.3}, Strain::green);
   CHECK_THROWS_WITH(Workspace(solid, {}), Catch::Contains("tet_strain damping young: got -1"));
 }
+
+TEST_CASE("the rows of a damped corotational solid are dc/dx, and J^T p is what the rows make of it") {
+  const Scene scene = one_tet(Material{50, 0.1}, Strain::corotational);
+  const auto& effect = std::get<TetStrain>(scene.effects[0]);
+  using C = Constraint<TetStrain>;
+  const C::Positions x = scene.initial.x;
+  C::Value value, ahead, behind, p;
+  C::Jacobian jacobian, unused;
+  C::evaluate(effect, 0, x, value, jacobian);
+  constexpr double step = 1e-6;
+  for (int k = 0; k < 12; ++k) {
+    C::Positions moved = x;
+    moved.reshaped()[k] += step;
+    C::evaluate(effect, 0, moved, ahead, unused);
+    moved.reshaped()[k] -= 2 * step;
+    C::evaluate(effect, 0, moved, behind, unused);
+    CHECK((jacobian.col(k) - (ahead - behind) / (2 * step)).norm() <=
+          1e-9);  // third derivatives times step^2
+  }
+  p << 1, -2, 0.5, 0.3, -0.7, 0.9;
+  const C::Positions pushed = C::push(effect, C::deformation(effect, 0, x), p);
+  CHECK((pushed.reshaped() - jacobian.transpose() * p).norm() <= 1e-14 * p.norm() * jacobian.norm());
+}
+
+TEST_CASE("a damped solid is not turned by its own forces") {
+  const auto strain = GENERATE(Strain::corotational, Strain::green);
+  const std::string outer = GENERATE("plain", "proximal", "quasi_newton");
+  const Scene scene = one_tet(Material{5e3, 0.1}, strain);
+  Method method;
+  method.outer = outer;
+  method.relaxation = "ldlt";
+  method.tolerance = 1e-12;
+  State state = scene.initial;
+  Workspace workspace(scene, method);
+  REQUIRE(step(workspace, 0.002, state).status == Status::ok);
+  Vec3 torque = Vec3::Zero();
+  double most = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 push = scene.mass[static_cast<std::size_t>(i)] * (state.v.col(i) - scene.initial.v.col(i));
+    torque += Vec3(state.x.col(i)).cross(push);
+    most += state.x.col(i).norm() * push.norm();
+  }
+  CHECK(torque.norm() <= 1e-10 * most);  // the tolerance, a hundred times
+}

@@ -51,9 +51,12 @@ std::vector<Item> integrator_items() {
 }
 
 std::vector<Item> reference_items() {
-  std::vector<Item> items = named(reference_names());
-  items.push_back({"cone_interior_point", "contact problems with friction: interior point, then Newton"});
-  items.push_back({"cone_ipopt", "contact problems with friction: Ipopt on two smooth forms"});
+  std::vector<Item> items;
+  for (const auto& judge : pbd::reference::judges())
+    items.push_back({std::string(judge.name), "steps without contact or damping"});
+  items.push_back({"cone_interior_point",
+                   "steps with contact, and contact problems with friction: interior point, then Newton"});
+  items.push_back({"cone_ipopt", "the same by Ipopt on two smooth forms"});
   items.push_back({"ode", "trajectories of compliant scenes and planar hard chains in continuous time"});
   items.push_back({"closed_form", "formulas and their checks, see `list cases`"});
   return items;

@@ -48,7 +48,7 @@ Agreement nearest_of(const std::string& reference, const pbd::reference::StepCla
                      const Distance& own) {
   Agreement best{own};
   const bool knows_contact = reference != pbd::reference::judges()[0].name;
-  for (const auto& [kept, start] : {std::pair{false, "claim"}, {true, "claim, features kept"}}) {
+  for (const auto& [kept, start] : {std::pair{false, "claim"}, {true, "claim and features kept"}}) {
     if (best.off.of_scale <= claim.tolerance || !knows_contact) break;
     const Distance other = distance(claim, judge_near(reference, claim, kept));
     if (!std::isnan(other.of_scale) && !(other.of_scale >= best.off.of_scale / 2)) best = {other, start};
@@ -75,7 +75,7 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
   if (report.status == pbd::Status::ok) {
     nearest = nearest_of(reference_, claim, own);
     ambiguous_ += nearest.start == "claim";
-    by_features_ += nearest.start == "claim, features kept";
+    by_features_ += nearest.start == "claim and features kept";
     if (!std::isnan(nearest.off.of_scale)) {
       if (!(nearest.off.of_scale <= worst_error_of_scale_)) worst_step_ = step;
       worst_error_of_scale_ = pbd::larger(worst_error_of_scale_, nearest.off.of_scale);

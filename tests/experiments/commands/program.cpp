@@ -116,13 +116,45 @@ TEST_CASE("a simulation leaves nothing of an earlier one beside its record, and 
   CHECK(files_in(folder.path / "frames") == std::vector<std::string>{"mine.vtu"});
 }
 
+TEST_CASE("a simulation whose steps are judged by a reference tells how near they end") {
+  const TemporaryFolder folder;
+  const auto ran =
+      run_program({"simulate", scenes / "incline.toml", "--judge", "every=40", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Catch::StartsWith("judged: 2 steps by cone_interior_point; the others end within "));
+  const auto judged = rows_of(folder.path / "judged.csv");
+  REQUIRE(judged.size() == 3);
+  CHECK(judged[0][10] == "nearest_error_of_scale");
+  CHECK(judged[0][12] == "status");
+  for (const auto* row : {&judged[1], &judged[2]}) {
+    CHECK(row->at(12) == "ok");
+    CHECK(std::stod(row->at(10)) <= 1e-9);  // the box sticks: nothing moves
+  }
+  const auto record = nlohmann::json::parse(read_text(folder.path / "run.json"));
+  CHECK(record["judged"]["steps"] == 2);
+  CHECK(record["rows"]["judged"] == 2);
+}
+
+TEST_CASE("methods are compared on a step with contact") {
+  const TemporaryFolder folder;
+  const auto ran = run_program({"compare", scenes / "stack.toml", "--method", "relaxation=direct",
+                                "--at-step", "3", "-o", folder.path});
+  CHECK(ran.exit_code == 0);
+  const auto compared = rows_of(folder.path / "compare.csv");
+  REQUIRE(compared.size() >= 3);
+  CHECK(compared[1][4] == "cone_interior_point");
+  CHECK(compared.back()[5] == "coulomb");
+  CHECK(compared.back()[11] == "ok");
+}
+
 TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");
   CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);
-  for (const auto* name : {"primal_newton\n", "ipopt\n", "ode  ", "closed_form  "})
+  for (const auto* name : {"primal_newton  ", "ipopt  ", "cone_ipopt  ", "ode  ", "closed_form  "})
     CHECK_THAT(run_program({"list", "references"}).out, Catch::Contains(name));
-  CHECK_THAT(run_program({"completion"}).out, Catch::Contains("words=\"primal_newton ipopt\""));
+  CHECK_THAT(run_program({"completion"}).out,
+             Catch::Contains("words=\"primal_newton ipopt cone_interior_point"));
   CHECK_THAT(run_program({"list", "scenes"}).out, Catch::Contains("pendulum.toml"));
   CHECK_THAT(run_program({"--version"}).out, Catch::Contains("pbdcheck ") && Catch::Contains("eigen 3."));
   for (const auto* command : {"list", "simulate", "compare", "run", "completion"}) {
@@ -146,12 +178,19 @@ TEST_CASE("what the command line does not allow is refused with option, value an
        "--at-step: got `1.5`; allowed: an"},
       {{"compare", chain, "--method", "outer=plain", "--reference", ""},
        "--reference: got ``; allowed: one of primal_newton, ipopt"},
-      {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1"},
+      {{"compare", chain, "--method", "outer=plain", "--set", "chain.0.damping_s=0.1", "--reference",
+        "primal_newton"},
        "effects[1] damping: got damping; allowed: none: this judge knows elastic forces only"},
-      {{"compare", scenes / "incline.toml", "--method", "outer=plain"},
-       "--reference primal_newton: got a scene with contact; allowed: a scene without the table [contact]: "
-       "this "
+      {{"compare", scenes / "incline.toml", "--method", "outer=plain", "--reference", "primal_newton"},
+       "--reference primal_newton: got a scene with contact; allowed: cone_interior_point, cone_ipopt: this "
        "reference solves equations"},
+      {{"simulate", chain, "--judge", "0"}, "--judge: got `0`; allowed: every=N with N = 1, 2, ..."},
+      {{"simulate", chain, "--judge", "every=0"}, "--judge: got `every=0`; allowed: every=N"},
+      {{"simulate", chain, "--judge", "every=2x"}, "--judge: got `every=2x`; allowed: every=N"},
+      {{"simulate", chain, "--judge", "every=2", "--set", "method.integrator=bdf2"},
+       "--judge: got bdf2; allowed: implicit_euler"},
+      {{"simulate", scenes / "incline.toml", "--judge", "every=2", "--set", "method.friction=box"},
+       "friction: got `box`; allowed: coulomb, cone"},
       {{"compare", scenes / "incline.toml", "--method", "rival=newton", "--reference", "ipopt"},
        "--reference ipopt: got a scene with contact"},
       {{"compare", chain, "--method", "outer=plain", "--at-step", "100000"},

@@ -1,0 +1,181 @@
+// Steps with contact that have a closed form, and agreement of the two cone solvers where there is none.
+#include "contact_newton.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "cone_interior_point.h"
+#include "cone_ipopt.h"
+#include "mesh.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::reference;
+using pbdcheck::BodyScene;
+
+namespace {
+
+constexpr double step_s = 0.01, gravity = 9.81, closed = 1e-10;
+
+ContactJudgement judged(const Scene& scene, Friction friction = Friction::coulomb,
+                        ConeSolver solver = cone_interior_point) {
+  const ContactJudgement j = contact_newton(scene, scene.initial, step_s, friction, solver);
+  INFO(j.reason);
+  CHECK(j.outcome == Outcome::ok);
+  return j;
+}
+
+/// A ball of 1 kg and 0.1 m, 1 cm above the ground.
+Scene falling_ball(const ContactLaw& law, const Vec3& velocity, double gap = 0.01) {
+  BodyScene scene(law, gravity);
+  scene.ground();
+  scene.ball(0.1, 1, {.position = {0, 0, 0.1 + gap}, .velocity = velocity});
+  return scene.finish();
+}
+
+}  // namespace
+
+TEST_CASE("a ball that hits the ground slides by either law as by hand") {
+  const double mu = 0.05;
+  const Scene scene = falling_ball({.friction = mu}, {1, 0, -3});
+  // Its impulse p ends the fall where the gap closes; its bottom slips at 1 - (1 + 5/2) mu p.
+  const double p = 2 + gravity * step_s;
+  const auto coulomb = judged(scene, Friction::coulomb);
+  CHECK(std::abs(coulomb.v(2, 1) + 1) <= closed);
+  CHECK(std::abs(coulomb.v(0, 1) - (1 - mu * p)) <= closed);
+  CHECK(std::abs(coulomb.spin(1, 1) - mu * p / 0.04) <= closed / 0.1);
+  // The convex law opens the gap by mu times the slip; friction acts in the middle of it.
+  double slip = 1, opened = p;
+  for (int k = 0; k < 30; ++k) {
+    const double lever = 0.1 + step_s * mu * slip / 2;
+    opened = p + mu * slip;
+    slip = 1 - mu * opened * (1 + lever * lever / 0.004);
+  }
+  const auto convex = judged(scene, Friction::cone);
+  CHECK(std::abs(convex.v(2, 1) - (opened - 3 - gravity * step_s)) <= closed);
+  CHECK(std::abs(convex.v(0, 1) - (1 - mu * opened)) <= closed);
+}
+
+TEST_CASE("a ball bounces by its restitution, and sinks into what gives way") {
+  CHECK(std::abs(judged(falling_ball({.restitution = 0.5}, {0, 0, -3})).v(2, 1) - 1.5) <= closed);
+  const double compliance = 1e-5;
+  const Scene scene = falling_ball({.compliance = compliance}, Vec3::Zero(), 0);
+  CHECK(std::abs(judged(scene).v(2, 1) + gravity * step_s / (1 + step_s * step_s / compliance)) <= closed);
+  // gap + T (gap - 0)/h + A F = 0
+  const double time = 0.02;
+  const Scene damped = falling_ball({.compliance = compliance, .damping = time}, Vec3::Zero(), 0);
+  CHECK(std::abs(judged(damped).v(2, 1) + gravity * step_s / (1 + step_s * (step_s + time) / compliance)) <=
+        closed);
+}
+
+TEST_CASE("edges that cross, corners and balls stop each other where their gap closes") {
+  const ContactLaw law{.friction = 0.3};
+  const auto tilted = [](const Vec3& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, axis));
+  };
+  const double half_diagonal = 0.1 * std::sqrt(2.0), gap = 0.005;
+  BodyScene edges(law, 0);
+  edges.fixed(Box{Vec3::Constant(0.2)}, {.position = Vec3::Zero(), .orientation = tilted(Vec3::UnitX())});
+  edges.box(Vec3::Constant(0.2), 2,
+            {.position = {0, 0, 2 * half_diagonal + gap},
+             .orientation = tilted(Vec3::UnitY()),
+             .velocity = {0, 0, -2}});
+  CHECK(std::abs(judged(edges.finish()).v(2, 1) + gap / step_s) <= closed);
+
+  BodyScene corner(law, 0);  // of a box under a ball, whose middle is above it
+  const Eigen::Quaterniond on_end = Eigen::Quaterniond::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ());
+  corner.fixed(Box{Vec3::Constant(0.2)}, {.position = Vec3::Zero(), .orientation = on_end});
+  corner.ball(0.05, 1, {.position = {0, 0, 0.1 * std::sqrt(3.0) + 0.05 + gap}, .velocity = {0, 0, -2}});
+  CHECK(std::abs(judged(corner.finish()).v(2, 1) + gap / step_s) <= closed);
+
+  BodyScene balls(law, 0);  // v_a - v_b = -gap/h and their momentum is kept
+  balls.ball(0.1, 1, {.position = {0, 0, 0.2 + gap}, .velocity = {0, 0, -2}});
+  balls.ball(0.1, 3, {.position = {0, 0, 0}});
+  const auto j = judged(balls.finish());
+  CHECK(std::abs(j.v(2, 0) - j.v(2, 1) + gap / step_s) <= closed);
+  CHECK(std::abs(j.v(2, 0) + 3 * j.v(2, 1) + 2) <= closed);
+}
+
+TEST_CASE("a triangle's nodes take up what a ball presses on its middle") {
+  BodyScene bodies(ContactLaw{.friction = 0}, 0);
+  const double thickness = 0.01, gap = 0.004, mass = 0.2;
+  bodies.ball(0.1, 1, {.position = {0, 0, 0.1 + thickness / 2 + gap}, .velocity = {0, 0, -2}});
+  Scene scene = bodies.finish();
+  std::array<int, 3> nodes{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = 2 * std::numbers::pi / 3 * static_cast<double>(k);
+    nodes[k] = add_node(scene, Vec3(std::cos(angle), std::sin(angle), 0), mass);
+  }
+  for (Effect& effect : scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect)) {
+      contact->triangle.push_back(nodes);
+      contact->thickness = thickness;
+    }
+  // p (1/m + 1/(3 M)) = 2 - gap/h, a third of it for each node
+  const double p = (2 - gap / step_s) / (1 + 1 / (3 * mass));
+  const auto j = judged(scene);
+  CHECK(std::abs(j.v(2, 0) - (-2 + p)) <= closed);
+  for (const int node : nodes) CHECK(std::abs(j.v(2, node) + p / (3 * mass)) <= closed);
+}
+
+TEST_CASE("the step of a damped constraint is that of its equation") {
+  const double mass = 2, compliance = 1e-4, time = 0.03, stretched = 0.1;
+  Scene scene;
+  add_node(scene, Vec3(stretched, 0, 0), mass);
+  scene.effects.emplace_back(
+      Anchor{.node = {0}, .target = {Vec3::Zero()}, .compliance = {compliance}, .damping = {time}});
+  const double v = -step_s * stretched / compliance / (mass + step_s * (step_s + time) / compliance);
+  CHECK(std::abs(judged(scene).v(0, 0) - v) <= closed * std::abs(v));
+}
+
+TEST_CASE("forces of a soft block on the ground balance its momentum, and nothing is below") {
+  BodyScene bodies(ContactLaw{.friction = 0.4}, gravity);
+  bodies.ground();
+  Scene scene = bodies.finish();
+  const int first =
+      pbdcheck::add_touching_solid(scene, kuhn_grid({2, 2, 1}, Vec3(0.2, 0.2, 0.1), Vec3(0, 0, 0.006)), 500,
+                                   {1e5, 0.3}, Strain::corotational);
+  double mass = 0;
+  for (int i = first; i < scene.nodes(); ++i) {
+    scene.initial.v.col(i) = Vec3(0.5, 0.1, -1);
+    mass += scene.mass[static_cast<std::size_t>(i)];
+  }
+  const auto j = judged(scene);
+  Vec3 force = Vec3::Zero(), gained = Vec3::Zero();
+  for (const JudgedContact& contact : j.all) force.z() += contact.force[0];
+  for (int i = first; i < scene.nodes(); ++i)
+    gained += scene.mass[static_cast<std::size_t>(i)] * (j.v.col(i) - scene.initial.v.col(i));
+  CHECK(j.contacts >= 9);
+  CHECK(std::abs(gained.z() - step_s * (force.z() - mass * gravity)) <= closed * mass);
+  CHECK(j.x.rightCols(scene.nodes() - first).row(2).minCoeff() >= 0.0005 - 1e-12);  // half of 1 mm
+}
+
+TEST_CASE("both cone solvers find the same step, from the state or from what the other claims") {
+  BodyScene boxes(ContactLaw{.friction = 0.4}, gravity);
+  boxes.ground();
+  const Eigen::Quaterniond askew(Eigen::AngleAxisd(0.3, Vec3(1, 2, 0.5).normalized()));
+  boxes.box({0.2, 0.2, 0.1}, 4, {.position = {0, 0, 0.05}});
+  boxes.box({0.1, 0.1, 0.1}, 1,
+            {.position = {0.02, 0.01, 0.19}, .orientation = askew, .velocity = {0.2, 0, -2}});
+  const Scene scene = boxes.finish();
+  const auto one = judged(scene), other = judged(scene, Friction::coulomb, cone_ipopt);
+  CHECK(one.contacts >= 3);
+  CHECK((one.v - other.v).norm() <= 1e-6);
+  const StepClaim claim{.scene = scene,
+                        .start = scene.initial,
+                        .end = {step_s, other.x, other.v, other.orientation, other.spin},
+                        .h = step_s};
+  const auto near =
+      contact_newton(scene, scene.initial, step_s, Friction::coulomb, cone_interior_point, {&claim});
+  CHECK(near.outcome == Outcome::ok);
+  CHECK((near.v - one.v).norm() <= 1e-9);
+}
+
+TEST_CASE("the judge of contact refuses what it does not know") {
+  BodyScene scene(ContactLaw{}, gravity);
+  scene.ground();
+  scene.cylinder(0.1, 0.1, 1, {.position = {0, 0, 1}});
+  const Scene with_cylinder = scene.finish();
+  CHECK_THROWS_WITH(judged(with_cylinder), Catch::Contains("a cylinder"));
+  CHECK_THROWS_WITH(judged(falling_ball({}, Vec3::Zero()), Friction::box), Catch::Contains("coulomb, cone"));
+}

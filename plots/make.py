@@ -15,6 +15,7 @@ import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
 import figure_1  # noqa: F401
+import judged_frames  # noqa: F401
 import first_page  # noqa: F401
 import friction  # noqa: F401
 import friction_cone  # noqa: F401

@@ -19,3 +19,15 @@ def figure_1(directory):
                            *(status if missed else ("ok", ""))))
     write(directory, "figure_1", "scenes", tables.TABLES[("figure_1", "scenes")], scenes)
     write(directory, "figure_1", "series", tables.TABLES[("figure_1", "series")], series)
+
+
+def judged_frames(directory):
+    rows = []
+    for scene in ("incline", "trampoline"):
+        for tolerance in (1e-4, 1e-6, 1e-8):
+            for k in range(1, 6):
+                start = "claim" if k == 3 else "own"
+                status = ("not_converged", "outer iterations spent") if k == 5 and scene == "trampoline" else ("ok", "")
+                rows.append((scene, 0.01, 10 * k, k / 10, tolerance, *status, tolerance, 3 * tolerance, start, 1e-3 * tolerance,
+                             tolerance / 2 if k != 4 else 1e-3, "cone_interior_point", "ok", 1e-15, 0.1))
+    write(directory, "judged_frames", "frames", tables.TABLES[("judged_frames", "frames")], rows)

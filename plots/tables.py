@@ -83,6 +83,8 @@ TABLES = {
                             "judged_steps refuted_steps status reason",
     ("figure_1", "series"): "scene step_s time_s kinetic_energy_j energy_change_j pressing_contacts overlap_m bilateral_error_m "
                             "outer_iterations sweeps residual wall_s status reason",
+    ("judged_frames", "frames"): "scene step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
+                                 "nearest_error_of_scale reference reference_status reference_residual reference_wall_s",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
-#include "harness/judges.h"
 #include "harness/measure.h"
 
 namespace pbdcheck {
@@ -24,12 +23,7 @@ double velocity_distance(const pbd::Scene& scene, const pbd::State& one, const p
   return std::sqrt(squared);
 }
 
-/// How far a step ended from a reference's end.
-struct Distance {
-  double relative = std::nan(""), metres = std::nan(""), of_scale = std::nan("");
-};
-
-Distance distance(const pbd::reference::StepClaim& claim, const Judged& judged) {
+StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judged) {
   if (judged.status != "ok") return {};
   const pbd::Points reached = places(claim.scene, claim.end.x, claim.end.orientation),
                     begin = places(claim.scene, claim.start.x, claim.start.orientation);
@@ -38,25 +32,21 @@ Distance distance(const pbd::reference::StepClaim& claim, const Judged& judged) 
           apart == 0 ? 0 : apart / claim.scale};
 }
 
-/// What a reference says of a claim, by the start from which it ends nearest to it.
-struct Agreement {
-  Distance off;
-  std::string_view start = "own";
-};
-
-Agreement nearest_of(const std::string& reference, const pbd::reference::StepClaim& claim,
-                     const Distance& own) {
-  Agreement best{own};
-  const bool knows_contact = reference != pbd::reference::judges()[0].name;
-  for (const auto& [kept, start] : {std::pair{false, "claim"}, {true, "claim and features kept"}}) {
-    if (best.off.of_scale <= claim.tolerance || !knows_contact) break;
-    const Distance other = distance(claim, judge_near(reference, claim, kept));
-    if (!std::isnan(other.of_scale) && !(other.of_scale >= best.off.of_scale / 2)) best = {other, start};
-  }
-  return best;
-}
-
 }  // namespace
+
+JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim) {
+  JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction), {}, {}};
+  judged.own = judged.nearest = distance(claim, judged.reference);
+  const bool knows_contact = reference == "cone_interior_point" || reference == "cone_ipopt";
+  for (const auto& [kept, start] : {std::pair{false, "claim"}, {true, "claim and features kept"}}) {
+    if (judged.nearest.of_scale <= claim.tolerance || !knows_contact) break;
+    const StepDistance other = distance(claim, judge_near(reference, claim, kept));
+    if (std::isnan(other.of_scale) || other.of_scale >= judged.nearest.of_scale / 2) continue;
+    judged.nearest = other;
+    judged.start = start;
+  }
+  return judged;
+}
 
 StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every)
     : reference_(std::move(reference)),
@@ -68,28 +58,25 @@ StepJudge::StepJudge(const std::filesystem::path& directory, std::string referen
              &totals_) {}
 
 void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report) {
-  const Judged judged = judge_step(reference_, claim.scene, claim.start, claim.h, claim.friction);
-  const Distance own = distance(claim, judged);
-  Agreement nearest{own};
+  const JudgedClaim judged = judge_claim(reference_, claim);
+  const double nearest = judged.nearest.of_scale;
   ++judged_;
-  if (report.status == pbd::Status::ok) {
-    nearest = nearest_of(reference_, claim, own);
-    ambiguous_ += nearest.start == "claim";
-    by_features_ += nearest.start == "claim and features kept";
-    if (!std::isnan(nearest.off.of_scale)) {
-      if (!(nearest.off.of_scale <= worst_error_of_scale_)) worst_step_ = step;
-      worst_error_of_scale_ = pbd::larger(worst_error_of_scale_, nearest.off.of_scale);
-      worst_error_m_ = pbd::larger(worst_error_m_, nearest.off.metres);
-    }
-  } else {
+  unsolved_ += std::isnan(nearest);
+  if (report.status != pbd::Status::ok) {
     ++missed_;
+  } else if (!std::isnan(nearest)) {
+    ambiguous_ += judged.start == "claim";
+    by_features_ += judged.start == "claim and features kept";
+    if (!(nearest <= worst_error_of_scale_)) worst_step_ = step;
+    worst_error_of_scale_ = std::max(worst_error_of_scale_, nearest);
+    worst_error_m_ = std::max(worst_error_m_, judged.nearest.metres);
   }
-  unsolved_ += std::isnan(nearest.off.of_scale);
+  const Judged& own = judged.reference;
   table_.row({step, claim.start.time, claim.h,
               std::string(pbd::status_names[static_cast<std::size_t>(report.status)]), claim.tolerance,
-              own.relative, own.metres, own.of_scale, std::string(nearest.start), nearest.off.metres,
-              nearest.off.of_scale, reference_, judged.status, judged.reason, judged.residual,
-              std::int64_t{judged.iterations}, judged.seconds});
+              judged.own.relative, judged.own.metres, judged.own.of_scale, std::string(judged.start),
+              judged.nearest.metres, nearest, reference_, own.status, own.reason, own.residual,
+              std::int64_t{own.iterations}, own.seconds});
 }
 
 std::string StepJudge::text() const {

@@ -8,15 +8,33 @@
 // those, too.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
+#include "harness/judges.h"
 #include "harness/results.h"
 #include "step/step.h"
 #include "step_claim.h"
 
 namespace pbdcheck {
+
+/// How far a step ended from a reference's end: the worst node over the largest displacement, m, and the end
+/// velocities' distance as a share of the step's scale. NaN where the reference found none.
+struct StepDistance {
+  double relative = std::nan(""), metres = std::nan(""), of_scale = std::nan("");
+};
+
+/// What a reference says of a claim: by itself, and from the start from which it ends nearest to the claim.
+struct JudgedClaim {
+  Judged reference;
+  StepDistance own, nearest;
+  std::string_view start = "own";
+};
+
+/// Throws SetupError for what the reference does not know.
+JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim);
 
 class StepJudge {
  public:
@@ -26,7 +44,6 @@ class StepJudge {
 
   bool due(std::int64_t step) const { return step % every_ == 0; }
 
-  /// Throws SetupError for what the reference does not know.
   void add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report);
 
   void close() { table_.close(); }

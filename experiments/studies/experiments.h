@@ -38,6 +38,7 @@ void restitution(Context& context);
 void stack(Context& context);
 void simbenchmark(Context& context);
 void contact_hard_cases(Context& context);
+void judged_frames(Context& context);
 void cone_problems(Context& context);
 void friction_cone(Context& context);
 void work_precision(Context& context);

@@ -44,3 +44,44 @@ def scenes_table(frame):
                    number(r["most_contacts"]), number(r["most_rows"]), number(r["frame_wall_s"]), number(r["sweeps"] / r["steps"]),
                    number(r["overlap_share"]), number(r["overlap_share_at_end"]), number(r["rest_share"]),
                    f"{r['steps_ok']:.0f} of {r['steps']:.0f}"] for _, r in frame.iterrows()])
+
+
+def judged_frames(results):
+    section = Section(
+        "Do steps of whole scenes end where a judge finds them to end?",
+        "Scenes of bodies, cloth and solids with contact, friction and damping. Sampled steps are solved anew, from where each begins, by a "
+        "judge that states gaps by its own corners, edges and faces and solves everything but the contacts by a sparse factorisation, the "
+        "contacts by an interior point method. Told is the distance of the end velocities, in the metric of masses, over the scale that the "
+        "solver's tolerance refers to.",
+        figures=[Figure("judged_frames_distance", "Distance of sampled steps from the nearest solution that the judge finds, over time, for "
+                        "three tolerances of the solver.")])
+    return section.tell(results.table("judged_frames", "frames"), frames_text, frames_table)
+
+
+def frames_text(frame):
+    ok = frame[frame["status"] == "ok"]
+    missed, unsolved = len(frame) - len(ok), ok["nearest_error_of_scale"].isna()
+    other = ok["nearest_start"] != "own"
+    far = ok[(ok["nearest_error_of_scale"] > 1e-6) & (ok["tolerance"] == ok["tolerance"].min())]
+    text = (f"Of {counted(len(frame), 'step')} that were judged {missed or 'none'} missed the solver's tolerance, and of the others the judge "
+            f"solved all but {int(unsolved.sum())}. {counted(int(other.sum()), 'step')} ended at another solution than the judge finds from the "
+            "state alone: Coulomb's law has several there, or the features that touch changed within the step. ")
+    if far.empty:
+        return text + "At the least tolerance every step ends within 1e-6 of a solution."
+    worst = far.loc[far["nearest_error_of_scale"].idxmax()]
+    return text + (f"At the least tolerance {counted(len(far), 'step')} of {len(ok[ok['tolerance'] == ok['tolerance'].min()])} "
+                   f"{'end' if len(far) > 1 else 'ends'} farther than 1e-6 from any solution found, the worst by "
+                   f"{number(worst['nearest_error_of_scale'])} ({worst['scene']}, step {int(worst['step'])}): what touches an edge of a soft "
+                   "triangle is stated by the solver as it lay where the step began.")
+
+
+def frames_table(frame):
+    rows = []
+    for (scene, tolerance), own in frame.groupby(["scene", "tolerance"], sort=False):
+        ok = own[own["status"] == "ok"]
+        rows.append([f"`{scene}`", number(tolerance), f"{len(ok)} of {len(own)}", number(ok["nearest_error_of_scale"].median()),
+                     number(ok["nearest_error_of_scale"].max()), number(ok["error_of_scale"].max()),
+                     f"{int((ok['nearest_start'] != 'own').sum())}", number(own["reference_wall_s"].median())])
+    return Table("Distance of judged steps from the judge's solutions, over the step's scale. Others: steps at another solution than the "
+                 "judge's own.",
+                 ["scene", "tolerance", "ok", "median", "worst", "worst from its own", "others", "judge (s)"], rows)

@@ -1,0 +1,36 @@
+"""Steps of whole scenes against a judge that solves them anew."""
+
+import numpy as np
+
+from common import figure, footnote, on_log, panels, shared_legend
+from finding import finding
+from styles import BLACK, BLUE, GREEN, ORANGE
+from wording import number, share
+
+LOOKS = {1e-4: ORANGE, 1e-6: GREEN, 1e-8: BLUE}
+HOLLOW = "own"  # the judge's own solution; others are those it finds from what the solver claims
+
+
+@figure("judged_frames", "distance", table="frames")
+def distance(frame):
+    """Distance from the nearest solution over the time, a panel a scene, a colour a tolerance."""
+    scenes = list(frame["scene"].drop_duplicates())
+    fig, axes = panels(len(scenes), columns=3, height=2.0)
+    for ax, scene in zip(axes, scenes):
+        for tolerance, rows in frame[frame["scene"] == scene].groupby("tolerance", sort=False):
+            look = LOOKS.get(tolerance, BLACK)
+            judged = rows[rows["status"].eq("ok")]
+            values = on_log(judged["nearest_error_of_scale"])
+            ax.plot(judged["time_s"], values, color=look, linewidth=0.6, label=f"tolerance {number(tolerance)}")
+            own = judged["nearest_start"].eq(HOLLOW).to_numpy()
+            ax.plot(judged["time_s"][own], np.asarray(values)[own], ".", color=look, markersize=4)
+            ax.plot(judged["time_s"][~own], np.asarray(values)[~own], "o", color=look, markersize=4, fillstyle="none")
+            ax.axhline(tolerance, color=look, linewidth=0.5, linestyle="dotted")
+        ax.set(xlabel="time (s)", title=scene.replace("_", " "), yscale="log")
+    axes[0].set_ylabel("distance over the scale")
+    shared_legend(fig, axes)
+    last = frame[np.isclose(frame["tolerance"], frame["tolerance"].min()) & frame["status"].eq("ok")]
+    near = int((last["nearest_error_of_scale"] <= 1e-6).sum())
+    finding(fig, f"{share(near, len(last))} steps solved to {number(frame['tolerance'].min())} end within 1e-6 of a judge's solution")
+    footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims alone.")
+    return fig

@@ -1,6 +1,8 @@
 #include "contact_newton.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "cone_newton.h"
 #include "error.h"
@@ -173,7 +175,8 @@ bool Linearised::solve(Cones& cones, ContactStep& own, Vector& increment, Vector
 FrictionLaw law_of(Friction friction) {
   if (friction == Friction::coulomb) return FrictionLaw::coulomb;
   if (friction == Friction::cone) return FrictionLaw::cone;
-  throw SetupError("friction", "`" + std::string(friction_names[static_cast<std::size_t>(friction)]) + "`",
+  throw SetupError("method.friction",
+                   "`" + std::string(friction_names[static_cast<std::size_t>(friction)]) + "`",
                    "coulomb, cone: the laws that the judges of contact know");
 }
 
@@ -203,7 +206,9 @@ struct StepSearch {
                    displacement_of(step.step, velocity);
       if (!std::isfinite(correction)) return false;
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
-        if (!step.collide(velocity)) return true;
+        const bool own_features = came_near || features_kept;
+        if (!step.collide(velocity) && own_features) return true;
+        came_near = true;
         correction = infinity;
       }
       previous = correction;
@@ -213,6 +218,11 @@ struct StepSearch {
 };
 
 }  // namespace
+
+void require_judged(const Scene& scene, const State& state, double h, Friction friction) {
+  law_of(friction);
+  ContactStep(scene, state, h);
+}
 
 ContactJudgement contact_newton(const Scene& scene, const State& state, double h, Friction friction,
                                 ConeSolver solver, const ContactStart& start) {
@@ -240,21 +250,30 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   const Vector per_length = own.step.model.radius.cwiseInverse();
   j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
-  own.find_contacts(search.velocity, start.features_kept);
-  j.law = own.law_residual(law, search.velocity) * h / displacement_of(own.step, search.velocity);
+  const auto pressing = [&own] {
+    return std::count_if(own.contacts.begin(), own.contacts.end(),
+                         [](const JudgedContact& each) { return each.force[0] > 0; });
+  };
+  j.contacts = static_cast<int>(pressing());
+  j.all = own.contacts;
+  j.law = own.law_residual(law, search.velocity);
+  own.find_contacts(search.velocity, start.features_kept);  // others may be in each other by now
+  const bool settled = pressing() == j.contacts;
+  j.law =
+      larger(j.law, own.law_residual(law, search.velocity)) * h / displacement_of(own.step, search.velocity);
   j.correction = search.correction;
   j.iterations = search.iterations;
   j.rank = -1;
-  for (const JudgedContact& each : own.contacts) j.contacts += each.force[0] > 0;
-  j.all = own.contacts;
   constexpr double allowed = 1e-9;
-  const bool holds = j.residual <= allowed && j.infeasible <= allowed && j.law <= allowed;
-  j.outcome = converged && holds ? Outcome::ok : Outcome::not_converged;
-  if (!converged)
-    j.reason = "stopped after " + std::to_string(search.iterations) + " iterations";
-  else if (!holds)
-    j.reason = "forces, constraints or contacts off by " +
-               std::to_string(std::max({j.residual, j.infeasible, j.law}));
+  std::ostringstream reason;
+  if (!converged) reason << "stopped after " << search.iterations << " iterations";
+  for (const auto& [name, off] :
+       {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})
+    if (converged && !(off <= allowed))
+      reason << name << " off by " << off << ", allowed " << allowed << "; ";
+  if (converged && !settled) reason << "what touches changes with the last correction";
+  j.reason = reason.str();
+  j.outcome = j.reason.empty() ? Outcome::ok : Outcome::not_converged;
   j.seconds = clock.seconds();
   return j;
 }

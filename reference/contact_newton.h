@@ -28,6 +28,9 @@ struct ContactJudgement : Judgement {
 
 using ConeSolver = ConeSolution (*)(const ConeProblem& problem, FrictionLaw law, double tolerance);
 
+/// Throws SetupError for an invalid scene or what the judge does not know.
+void require_judged(const Scene& scene, const State& state, double h, Friction friction);
+
 /// Throws SetupError for an invalid scene or what the judge does not know; else all is in the judgement: ok
 /// if forces balance, hard constraints and the law are fulfilled to 1e-9 and the last correction was below
 /// that.

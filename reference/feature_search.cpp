@@ -155,6 +155,7 @@ struct Between {
   }
 
   void corners_over_faces(const Placed& a, const Placed& b, double reach, double depth) {
+    if (a.surface.plane) return;  // it has none
     each_near(a, 0, b, 2, reach, [&](std::size_t i, std::size_t k) {
       const Vec3 n = b.face_normal(k);
       if (!b.surface.plane && !b.within_face(k, a.x[i], n)) return;

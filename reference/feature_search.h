@@ -8,9 +8,9 @@
 //
 // A pair of features counts where each rigid surface lies on its side of the plane between them, as far as
 // the corners next to its feature tell: those of rounded features exactly, of others but for `leaning` (rad),
-// since what will lie flat comes down askew. Every corner counts over a half space. Deformable surfaces touch
-// each other by corners over faces and edges across edges alone, without a corner in common, and nodes do not
-// touch nodes. Edges that are `parallel` (rad) are left to their ends.
+// since what will lie flat comes down askew. Over a half space every corner counts, and it has none.
+// Deformable surfaces touch each other by corners over faces and edges across edges alone, without a corner
+// in common, and nodes do not touch nodes. Edges that are `parallel` (rad) are left to their ends.
 #pragma once
 
 #include "touching_features.h"
@@ -23,8 +23,8 @@ class FeatureSearch {
   FeatureSearch(const Scene& scene, const Contact& contact);
 
   /// Appends the pairs that are valid at `at`, nearer than both surfaces have moved since `start` and a
-  /// fiftieth of the smaller one (of all, where nodes meet planes), and not deeper in each other than that.
-  /// Sides of what is deformable are those of `start`.
+  /// fiftieth of the smaller one (at most a thousandth of all together), and not deeper in each other than
+  /// that. Sides of what is deformable are those of `start`.
   void find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const;
 
  private:

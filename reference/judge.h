@@ -65,8 +65,8 @@ struct ContactStart {
   std::function<void()> poll{};  // called now and then; what it throws ends the judge's work
 };
 
-/// Of any scene, named by what solves the contacts' law: cone_interior_point and cone_ipopt. Throw SetupError
-/// for what they do not know (contact_newton.h), the laws box and disc among it.
+/// Of scenes with contact and damping, too, named by what solves the contacts' law: cone_interior_point and
+/// cone_ipopt. Throw SetupError for what they do not know (contact_newton.h), the laws box and disc among it.
 using ContactJudge = Judgement (*)(const Scene& scene, const State& state, double h, Friction friction,
                                    const ContactStart& start);
 struct NamedContactJudge {

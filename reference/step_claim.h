@@ -31,7 +31,7 @@ struct StepClaim {
   Friction friction = Friction::coulomb;
   double direction_blend = 1;
   double tolerance = 0;  // of `scale`
-  double scale = 0;      // sqrt(J), |v - v_l|_M + |v_free - v_l|_M; not read of implicit_euler
+  double scale = 0;      // sqrt(J), |v - v_l|_M + |v_free - v_l|_M; of implicit_euler StepCheck has its own
   std::vector<std::vector<double>> forces{};
   std::vector<ClaimedContact> contacts{};
 };

@@ -68,6 +68,8 @@ Nearest nearest(const FeaturePair& pair, const Placement& at) {
   found.gap = found.normal.dot(at_a - at_b) - pair.a.radius - pair.b.radius;
   if (pair.a.deformable || pair.b.deformable)
     found.place = pair.a.deformable ? at_a : at_b;
+  else if (pair.b.count == 3)
+    found.place = at_a - pair.a.radius * found.normal;
   else
     found.place = (at_a - pair.a.radius * found.normal + at_b + pair.b.radius * found.normal) / 2;
   return found;

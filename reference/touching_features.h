@@ -37,8 +37,8 @@ struct Nearest {
 
 Vec3 placed(const Corner& corner, const Placement& at);
 
-/// A force acts on bodies half way between what touches, beside a deformable triangle in its middle plane,
-/// where its nodes take it up.
+/// A force acts on bodies half way between what touches; on a face at the corner over it; beside a deformable
+/// triangle in its middle plane, where its nodes take it up.
 Nearest nearest(const FeaturePair& pair, const Placement& at);
 
 }  // namespace pbd::reference

@@ -21,7 +21,7 @@ struct Surface {
   std::vector<std::vector<int>> face;                        // of corners, anticlockwise seen from outside
   std::vector<std::vector<int>> beside_corner, beside_edge;  // corners that share an edge or a face with it
   double radius = 0;                                         // m
-  bool plane = false;       // a half space: its only face goes on for ever, and it has no edges
+  bool plane = false;       // a half space: three points of its only face, which goes on for ever; no corners
   bool deformable = false;  // of triangles, from both sides
 
   int body() const { return deformable ? -1 : corner.front().body; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,9 @@ struct SimulateOptions {
   std::filesystem::path scene;
   std::vector<std::string> settings;  // KEY=VALUE
   std::filesystem::path directory = default_directory;
-  std::string export_format;  // empty or "vtk"
-  bool check = false;         // judge what each step claims
-  std::string judge;          // empty, or every=N: compare each Nth step with a reference's
+  std::string export_format;         // empty or "vtk"
+  bool check = false;                // judge what each step claims
+  std::optional<std::string> judge;  // every=N: compare each Nth step with a reference's
 };
 int simulate(const SimulateOptions& options);
 

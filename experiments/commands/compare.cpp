@@ -11,6 +11,7 @@
 
 #include "commands/commands.h"
 #include "commands/contender.h"
+#include "contact_newton.h"
 #include "error.h"
 #include "harness/contact_sums.h"
 #include "harness/files.h"
@@ -128,17 +129,17 @@ void draw(const std::filesystem::path& directory) {
 
 /// Refuses what the reference does not solve, and a step beyond the scene's last.
 void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
-  const auto& for_equations = pbd::reference::judges();
-  const bool knows_contact = std::none_of(for_equations.begin(), for_equations.end(),
-                                          [&](const auto& judge) { return judge.name == reference; });
-  if (contact_of(file.scene) != nullptr && !knows_contact)
+  if (contact_of(file.scene) != nullptr && !knows_contact(reference))
     throw pbd::SetupError(
         "--reference " + reference, "a scene with contact",
         "cone_interior_point, cone_ipopt: this reference solves equations, and a gap is none");
+  if (knows_contact(reference))
+    pbd::reference::require_judged(file.scene, file.scene.initial, file.step_s,
+                                   pbd::friction_by_name(file.method.friction));
   for (const auto& joint : file.joints)
     if (joint.bounded)
       throw pbd::SetupError(joint.where, "a limit or a limited force",
-                            "neither in what is compared: the references solve equations");
+                            "neither in what is compared: the references know no bounds of forces");
   if (options.at_step >= file.steps)
     throw pbd::SetupError("--at-step", std::to_string(options.at_step),
                           fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));

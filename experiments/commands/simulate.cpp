@@ -10,6 +10,7 @@
 
 #include "commands/commands.h"
 #include "commands/simulation_output.h"
+#include "contact_newton.h"
 #include "error.h"
 #include "harness/constraint_name.h"
 #include "harness/files.h"
@@ -115,6 +116,7 @@ nlohmann::ordered_json judged_json(const StepJudge& judge) {
           {"steps", judge.judged()},
           {"unsolved", judge.unsolved()},
           {"missed", judge.missed()},
+          {"from_claim_alone", judge.from_claim_alone()},
           {"another_solution", judge.ambiguous()},
           {"features_of_the_begin", judge.by_features()},
           {"worst_error_m", judge.worst_error_m()},
@@ -131,6 +133,21 @@ std::int64_t every_of(const std::string& text) {
   if (!known || read.ec != std::errc{} || read.ptr != last || every < 1)
     throw pbd::SetupError("--judge", "`" + text + "`", "every=N with N = 1, 2, ...");
   return every;
+}
+
+/// Refuses what the judge does not solve before anything is computed.
+void require_judgeable(const SceneFile& file, std::int64_t every) {
+  if (file.method.integrator != "implicit_euler")
+    throw pbd::SetupError("--judge", "`" + file.method.integrator + "`", "method.integrator implicit_euler");
+  if (file.method.direction_blend != 1)
+    throw pbd::SetupError("--judge", fmt::format("method.direction_blend {}", file.method.direction_blend),
+                          "1");
+  if (every > file.steps)
+    throw pbd::SetupError("--judge", fmt::format("every={}", every),
+                          fmt::format("1 to {} steps", file.steps));
+  if (knows_contact(default_reference(file.scene)))
+    pbd::reference::require_judged(file.scene, file.scene.initial, file.step_s,
+                                   pbd::friction_by_name(file.method.friction));
 }
 
 /// Of each step, if it is asked for.
@@ -179,11 +196,9 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
-  const std::int64_t every = options.judge.empty() ? 0 : every_of(options.judge);
+  const std::int64_t every = options.judge ? every_of(*options.judge) : 0;
   SceneFile file = read_scene_file(options.scene, options.settings);
-  if (every > 0 && (file.method.integrator != "implicit_euler" || file.method.direction_blend != 1))
-    throw pbd::SetupError("--judge", file.method.integrator,
-                          "implicit_euler with directions at the step's end");
+  if (every > 0) require_judgeable(file, every);
   pbd::Workspace workspace = file.workspace();
   SimulationOutput output(options, file);
   PartialFile record(options.directory / "run.json");

@@ -41,6 +41,12 @@ std::vector<std::string> reference_names() {
   return names;
 }
 
+bool knows_contact(const std::string& reference) {
+  const auto& judges = pbd::reference::contact_judges();
+  return std::any_of(judges.begin(), judges.end(),
+                     [&](const auto& judge) { return judge.name == reference; });
+}
+
 std::string default_reference(const pbd::Scene& scene) {
   const bool beyond_equations =
       std::any_of(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {

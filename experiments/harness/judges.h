@@ -14,6 +14,8 @@ namespace pbdcheck {
 /// Names of the references that solve a step; those of `contact_judges()`, which know contact, come last.
 std::vector<std::string> reference_names();
 
+bool knows_contact(const std::string& reference);
+
 /// The first of them that knows the scene's effects: with contact or damping a judge of contact.
 std::string default_reference(const pbd::Scene& scene);
 

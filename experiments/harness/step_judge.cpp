@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <limits>
 
 #include "harness/measure.h"
 
@@ -27,9 +27,12 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
   if (judged.status != "ok") return {};
   const pbd::Points reached = places(claim.scene, claim.end.x, claim.end.orientation),
                     begin = places(claim.scene, claim.start.x, claim.start.orientation);
+  const double metres = relative_error(reached, judged.x, judged.x),
+               size = reached.cols() > 0 ? reached.cwiseAbs().maxCoeff() : 0;
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // where nothing moves is no scale
   const double apart = velocity_distance(claim.scene, claim.end, judged.end);
-  return {relative_error(reached, judged.x, begin), relative_error(reached, judged.x, judged.x),
-          apart == 0 ? 0 : apart / claim.scale};
+  return {relative_error(reached, judged.x, begin), metres,
+          metres <= rounding * size ? 0 : apart / claim.scale};
 }
 
 }  // namespace
@@ -37,9 +40,9 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
 JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim) {
   JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction), {}, {}};
   judged.own = judged.nearest = distance(claim, judged.reference);
-  const bool knows_contact = reference == "cone_interior_point" || reference == "cone_ipopt";
-  for (const auto& [kept, start] : {std::pair{false, "claim"}, {true, "claim and features kept"}}) {
-    if (judged.nearest.of_scale <= claim.tolerance || !knows_contact) break;
+  for (const auto& [kept, start] :
+       {std::pair{false, JudgeStart::claim}, {true, JudgeStart::claim_and_features_kept}}) {
+    if (judged.nearest.of_scale <= claim.tolerance || !knows_contact(reference)) break;
     const StepDistance other = distance(claim, judge_near(reference, claim, kept));
     if (std::isnan(other.of_scale) || other.of_scale >= judged.nearest.of_scale / 2) continue;
     judged.nearest = other;
@@ -65,18 +68,20 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
   if (report.status != pbd::Status::ok) {
     ++missed_;
   } else if (!std::isnan(nearest)) {
-    ambiguous_ += judged.start == "claim";
-    by_features_ += judged.start == "claim and features kept";
-    if (!(nearest <= worst_error_of_scale_)) worst_step_ = step;
-    worst_error_of_scale_ = std::max(worst_error_of_scale_, nearest);
-    worst_error_m_ = std::max(worst_error_m_, judged.nearest.metres);
+    const bool by_itself = judged.reference.status == "ok";
+    from_claim_alone_ += !by_itself;
+    ambiguous_ += by_itself && judged.start == JudgeStart::claim;
+    by_features_ += by_itself && judged.start == JudgeStart::claim_and_features_kept;
+    if (!(worst_error_of_scale_ >= nearest)) worst_error_of_scale_ = nearest, worst_step_ = step;
+    if (!(worst_error_m_ >= judged.nearest.metres)) worst_error_m_ = judged.nearest.metres;
   }
   const Judged& own = judged.reference;
   table_.row({step, claim.start.time, claim.h,
               std::string(pbd::status_names[static_cast<std::size_t>(report.status)]), claim.tolerance,
-              judged.own.relative, judged.own.metres, judged.own.of_scale, std::string(judged.start),
-              judged.nearest.metres, nearest, reference_, own.status, own.reason, own.residual,
-              std::int64_t{own.iterations}, own.seconds});
+              judged.own.relative, judged.own.metres, judged.own.of_scale,
+              std::string(judge_start_names[static_cast<std::size_t>(judged.start)]), judged.nearest.metres,
+              nearest, reference_, own.status, own.reason, own.residual, std::int64_t{own.iterations},
+              own.seconds});
 }
 
 std::string StepJudge::text() const {
@@ -85,9 +90,11 @@ std::string StepJudge::text() const {
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
   if (judged_ > unsolved_ + missed_)
     text += fmt::format(
-        "; the others end within {:.3g} m of a solution, {:.3g} of the scale that the tolerance "
+        "; the others end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance "
         "refers to (step {})",
         worst_error_m_, worst_error_of_scale_, worst_step_);
+  if (from_claim_alone_ > 0)
+    text += fmt::format("; {} of them the reference solved from what is claimed alone", from_claim_alone_);
   if (ambiguous_ > 0) text += fmt::format("; {} at another one than the reference by itself", ambiguous_);
   if (by_features_ > 0) text += fmt::format("; {} by the features where they begin alone", by_features_);
   return text;

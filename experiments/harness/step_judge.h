@@ -26,11 +26,14 @@ struct StepDistance {
   double relative = std::nan(""), metres = std::nan(""), of_scale = std::nan("");
 };
 
+enum class JudgeStart { own, claim, claim_and_features_kept };
+inline constexpr std::array<std::string_view, 3> judge_start_names{"own", "claim", "claim and features kept"};
+
 /// What a reference says of a claim: by itself, and from the start from which it ends nearest to the claim.
 struct JudgedClaim {
   Judged reference;
   StepDistance own, nearest;
-  std::string_view start = "own";
+  JudgeStart start = JudgeStart::own;
 };
 
 /// Throws SetupError for what the reference does not know.
@@ -56,22 +59,24 @@ class StepJudge {
   std::int64_t unsolved() const { return unsolved_; }
   /// Of those judged, by the solver.
   std::int64_t missed() const { return missed_; }
-  /// Of steps that both solved: those that are nearest to another solution than the one that the reference
-  /// finds by itself, and to one by the features of the step's begin.
+  /// Of steps that both solved, the reference by itself, too: those that are nearest to another solution, and
+  /// to one by the features of the step's begin.
   std::int64_t ambiguous() const { return ambiguous_; }
   std::int64_t by_features() const { return by_features_; }
-  /// Of steps that both solved, from the nearest solution: m, and a share of the scale.
+  /// That the reference solved from what is claimed alone.
+  std::int64_t from_claim_alone() const { return from_claim_alone_; }
+  /// Of steps that both solved, from the nearest solution: m, and a share of the scale; NaN of none.
   double worst_error_m() const { return worst_error_m_; }
   double worst_error_of_scale() const { return worst_error_of_scale_; }
 
-  /// One sentence.
+  /// For people, one line.
   std::string text() const;
 
  private:
   std::string reference_;
   std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, ambiguous_ = 0, by_features_ = 0,
-               worst_step_ = 0;
-  double worst_error_m_ = 0, worst_error_of_scale_ = 0;
+               from_claim_alone_ = 0, worst_step_ = 0;
+  double worst_error_m_ = std::nan(""), worst_error_of_scale_ = std::nan("");
   TableTotals totals_;
   Table table_;
 };

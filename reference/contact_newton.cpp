@@ -8,6 +8,7 @@
 #include "error.h"
 #include "newton_search.h"
 #include "rigid_kkt.h"
+#include "step_equations.h"
 #include "step_rows.h"
 
 namespace pbd::reference {
@@ -80,7 +81,8 @@ bool Linearised::compute(const ContactStep& own, const Vector& velocity, const V
   kkt_.solve(-system.load, -system.value, free_, free_gamma_);
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
-  for (const JudgedContact& contact : own.contacts) rows_.push_back(own.row_of(contact, at, end));
+  const auto least = own.least_gaps(at);
+  for (const JudgedContact& contact : own.contacts) rows_.push_back(own.row_of(contact, at, end, least));
   return free_.allFinite();
 }
 
@@ -250,6 +252,7 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   const Vector per_length = own.step.model.radius.cwiseInverse();
   j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
+  constexpr double allowed = 1e-9;
   const auto pressing = [&own] {
     return std::count_if(own.contacts.begin(), own.contacts.end(),
                          [](const JudgedContact& each) { return each.force[0] > 0; });
@@ -259,12 +262,13 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   j.law = own.law_residual(law, search.velocity);
   own.find_contacts(search.velocity, start.features_kept);  // others may be in each other by now
   const bool settled = pressing() == j.contacts;
-  j.law =
-      larger(j.law, own.law_residual(law, search.velocity)) * h / displacement_of(own.step, search.velocity);
+  // Gaps are known to the rounding of positions.
+  const double known = step_rounding * j.x.cwiseAbs().maxCoeff();
+  j.law = larger(j.law, own.law_residual(law, search.velocity)) * h /
+          std::max(displacement_of(own.step, search.velocity), known / allowed);
   j.correction = search.correction;
   j.iterations = search.iterations;
   j.rank = -1;
-  constexpr double allowed = 1e-9;
   std::ostringstream reason;
   if (!converged) reason << "stopped after " << search.iterations << " iterations";
   for (const auto& [name, off] :

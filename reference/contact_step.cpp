@@ -185,9 +185,21 @@ void ContactStep::take_forces(const std::vector<ClaimedContact>& claimed, const 
   }
 }
 
-ContactRow ContactStep::row_of(const JudgedContact& own, const Placement& at, const State& end) const {
+ContactStep::LeastGaps ContactStep::least_gaps(const Placement& at) const {
+  LeastGaps least;
+  for (const JudgedContact& own : contacts) {
+    double& gap = least.try_emplace(own.pair.surface, infinity).first->second;
+    gap = std::min(gap, nearest(own.pair, at).gap);
+  }
+  return least;
+}
+
+ContactRow ContactStep::row_of(const JudgedContact& own, const Placement& at, const State& end,
+                               const LeastGaps& least) const {
   ContactRow row;
   row.found = nearest(own.pair, at);
+  const bool on_face = own.pair.b.count == 3 && !own.pair.a.deformable && !own.pair.b.deformable;
+  if (on_face) row.found.place += (least.at(own.pair.surface) - row.found.gap) * row.found.normal;
   const Eigen::Matrix3d directions = directions_of(row.found.normal, own.reference);
   for (const auto& [feature, weight, sign] : {std::tuple{&own.pair.a, &row.found.weight[0], 1.0},
                                               std::tuple{&own.pair.b, &row.found.weight[1], -1.0}})
@@ -200,7 +212,11 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const Placement& at, co
   row.seen = row.velocity;
   const double apart = (row.found.gap - (own.collides ? own.rebound : own.target)) / step.h;
   if (own.collides) {
-    const double bounced = row.velocity[0] + own.law.restitution * row.found.normal.dot(against(step.start));
+    State before = step.start;
+    for (Eigen::Index b = 0; b < before.spin.cols(); ++b)
+      before.spin.col(b) = solve(Eigen::MatrixXd(inverse_right_jacobian(step.h * end.spin.col(b))),
+                                 Vector(before.spin.col(b)));
+    const double bounced = row.velocity[0] + own.law.restitution * row.found.normal.dot(against(before));
     row.by_velocity = bounced < apart;
     row.seen[0] = std::min(bounced, apart);
   } else {
@@ -213,10 +229,11 @@ bool ContactStep::collide(const Vector& velocity) {
   constexpr double touching = 1e-6;  // of the speed at the start
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
+  const LeastGaps least = least_gaps(at);
   bool any = false;
   for (JudgedContact& own : contacts) {
     if (own.collides || !(own.law.restitution > 0) || !(own.closing > 0)) continue;
-    const ContactRow row = row_of(own, at, end);
+    const ContactRow row = row_of(own, at, end, least);
     const double slack = touching * own.closing;
     if (row.seen[0] + own.compliance * own.force[0] / step.h > slack) continue;
     if (row.velocity[0] < own.law.restitution * own.closing - slack) own.collides = any = true;
@@ -228,9 +245,10 @@ Vector ContactStep::push(const Vector& velocity, Vector& magnitude) const {
   Vector sum = Vector::Zero(step.model.unknowns);
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
+  const LeastGaps least = least_gaps(at);
   for (const JudgedContact& own : contacts) {
     if (own.force.isZero(0)) continue;
-    for (const auto& [unknown, c] : row_of(own, at, end).parts) {
+    for (const auto& [unknown, c] : row_of(own, at, end, least).parts) {
       sum.segment<3>(unknown) += c.transpose() * own.force;
       magnitude.segment<3>(unknown) += c.cwiseAbs().transpose() * own.force.cwiseAbs();
     }
@@ -241,12 +259,13 @@ Vector ContactStep::push(const Vector& velocity, Vector& magnitude) const {
 SparseMatrix ContactStep::stiffness(const Vector& velocity) const {
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
+  const LeastGaps least = least_gaps(at);
   const Moving moving(step.model);
   Triplets entries;
   for (const JudgedContact& own : contacts) {
     if (own.force.isZero(0)) continue;
     std::vector<int> unknowns;
-    for (const auto& [unknown, c] : row_of(own, at, end).parts)
+    for (const auto& [unknown, c] : row_of(own, at, end, least).parts)
       for (int k = 0; k < 3; ++k) unknowns.push_back(unknown + k);
     const auto size = static_cast<Eigen::Index>(unknowns.size());
     Eigen::MatrixXd bent = Eigen::MatrixXd::Zero(size, size);  // inertia being one
@@ -256,7 +275,7 @@ SparseMatrix ContactStep::stiffness(const Vector& velocity) const {
         Placement shifted = at;
         moving.move(unknowns[static_cast<std::size_t>(k)], sign * change, shifted);
         Eigen::Index part = 0;
-        for (const auto& [unknown, c] : row_of(own, shifted, end).parts)
+        for (const auto& [unknown, c] : row_of(own, shifted, end, least).parts)
           bent.block<3, 1>(3 * part++, k) -= sign / (2 * change) * (c.transpose() * own.force);
       }
     }
@@ -279,9 +298,10 @@ SparseMatrix ContactStep::stiffness(const Vector& velocity) const {
 double ContactStep::law_residual(FrictionLaw law, const Vector& velocity) const {
   const State end = step.end(velocity);
   const Placement at = placement_of(end);
+  const LeastGaps least = least_gaps(at);
   double worst = 0;
   for (const JudgedContact& own : contacts) {
-    const ContactRow row = row_of(own, at, end);
+    const ContactRow row = row_of(own, at, end, least);
     double inverse = 0;
     for (const ContactFeature* feature : {&own.pair.a, &own.pair.b}) {
       double least = infinity;

@@ -6,7 +6,8 @@
 // C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
 // contact is, in m/s,
 //   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
-//         and n . (u + e u_l), u their velocities against each other
+//         and n . (u + e u_l), u their velocities against each other; in u_l a body turns by J_r(h w) w_l, as
+//         what the step's turn makes of w_l (rigid_step.h)
 //   u_t = t . u
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, and what is parting too slowly for its e, collides.
@@ -56,7 +57,13 @@ struct ContactStep {
   /// Gives the contacts the forces that somebody claims, each to the nearest one of its sides.
   void take_forces(const std::vector<ClaimedContact>& claimed, const Vector& velocity);
 
-  ContactRow row_of(const JudgedContact& contact, const Placement& at, const State& end) const;
+  /// The least gap of each pair of sides, m.
+  using LeastGaps = std::map<std::array<int, 2>, double>;
+  LeastGaps least_gaps(const Placement& at) const;
+
+  /// Forces on a body's face act in one plane, so that all of them can stick at once: `least` off it.
+  ContactRow row_of(const JudgedContact& contact, const Placement& at, const State& end,
+                    const LeastGaps& least) const;
 
   /// Lets those collide that touch at `velocity` and part by less than their e; returns whether any do anew.
   bool collide(const Vector& velocity);

@@ -6,9 +6,7 @@
 #include "dense.h"
 
 namespace pbd::reference {
-namespace {
 
-/// J_r(t)^-1 with exp(t + dt) = exp(t) exp(J_r(t) dt): 1 + [t]/2 + (1 - |t|/2 cot(|t|/2)) / |t|^2 [t]^2.
 Eigen::Matrix3d inverse_right_jacobian(const Vec3& t) {
   const double angle = t.norm();
   constexpr double small = 1e-3;  // the series' next term is angle^4/30240
@@ -17,6 +15,8 @@ Eigen::Matrix3d inverse_right_jacobian(const Vec3& t) {
   const Eigen::Matrix3d cross = cross_matrix(t);
   return Eigen::Matrix3d::Identity() + cross / 2 + factor * cross * cross;
 }
+
+namespace {
 
 void add_square(Triplets& entries, int row, int column, const Eigen::Matrix3d& square) {
   for (int i = 0; i < 3; ++i)

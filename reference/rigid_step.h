@@ -52,6 +52,9 @@ struct RigidSystem {
 };
 RigidSystem system_at(const RigidStep& step, const Vector& velocity, const Vector& gamma);
 
+/// J_r(t)^-1 with exp(t + dt) = exp(t) exp(J_r(t) dt): 1 + [t]/2 + (1 - |t|/2 cot(|t|/2)) / |t|^2 [t]^2.
+Eigen::Matrix3d inverse_right_jacobian(const Vec3& t);
+
 /// Change of the velocities by increments (dx, d).
 Vector velocity_change(const RigidStep& step, const Vector& velocity, const Vector& increment);
 

@@ -105,7 +105,7 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       ActiveContact& contact = contacts[i];
-      if (contact.restitution > 0 || !(contact.law.restitution > 0)) continue;
+      if (contact.restitution > 0 || !(contact.law.restitution > 0) || !(contact.closing > 0)) continue;
       const double unsolved = accuracy / std::sqrt(block.inverse_diagonal[i](0, 0));
       const double slack = std::max(touching * std::abs(contact.closing), unsolved);
       if (!(block.residual(v, i, block.impulse[i])[0] <= slack)) continue;

@@ -191,3 +191,15 @@ TEST_CASE("a ball in free flight that ends in a box's side is stopped there") {
   REQUIRE(step(workspace, 0.01, state).status == Status::ok);
   CHECK(state.x(0, 1) >= 0.6 - 1e-4 * 0.1);
 }
+
+TEST_CASE("what parts as a step begins and comes down in it closes its gap and does not collide") {
+  const double h = 0.01, gap = 1e-4;
+  pbdcheck::BodyScene build({.friction = 0, .restitution = 0.5}, 9.81);
+  build.ground();
+  build.ball(0.1, 1, {.position = {0, 0, 0.1 + gap}, .velocity = {0, 0, 0.01}});
+  const Scene scene = build.finish();
+  State state = scene.initial;
+  Workspace workspace(scene, Method{.tolerance = 1e-12});
+  REQUIRE(step(workspace, h, state).status == Status::ok);
+  CHECK(std::abs(state.v(2, 1) + gap / h) <= 1e-10);
+}

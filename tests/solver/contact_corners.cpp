@@ -199,7 +199,9 @@ TEST_CASE("what parts as a step begins and comes down in it closes its gap and d
   build.ball(0.1, 1, {.position = {0, 0, 0.1 + gap}, .velocity = {0, 0, 0.01}});
   const Scene scene = build.finish();
   State state = scene.initial;
-  Workspace workspace(scene, Method{.tolerance = 1e-12});
+  Method method;
+  method.tolerance = 1e-12;
+  Workspace workspace(scene, method);
   REQUIRE(step(workspace, h, state).status == Status::ok);
   CHECK(std::abs(state.v(2, 1) + gap / h) <= 1e-10);
 }

@@ -8,7 +8,7 @@ from styles import BLACK, BLUE, GREEN, ORANGE
 from wording import number, share
 
 LOOKS = {1e-4: ORANGE, 1e-6: GREEN, 1e-8: BLUE}
-HOLLOW = "own"  # the judge's own solution; others are those it finds from what the solver claims
+FILLED = "own"  # the judge's own solution; hollow are those it finds from what the solver claims
 
 
 @figure("judged_frames", "distance", table="frames")
@@ -22,7 +22,7 @@ def distance(frame):
             judged = rows[rows["status"].eq("ok")]
             values = on_log(judged["nearest_error_of_scale"])
             ax.plot(judged["time_s"], values, color=look, linewidth=0.6, label=f"tolerance {number(tolerance)}")
-            own = judged["nearest_start"].eq(HOLLOW).to_numpy()
+            own = judged["nearest_start"].eq(FILLED).to_numpy()
             ax.plot(judged["time_s"][own], np.asarray(values)[own], ".", color=look, markersize=4)
             ax.plot(judged["time_s"][~own], np.asarray(values)[~own], "o", color=look, markersize=4, fillstyle="none")
             ax.axhline(tolerance, color=look, linewidth=0.5, linestyle="dotted")
@@ -32,5 +32,5 @@ def distance(frame):
     last = frame[np.isclose(frame["tolerance"], frame["tolerance"].min()) & frame["status"].eq("ok")]
     near = int((last["nearest_error_of_scale"] <= 1e-6).sum())
     finding(fig, f"{share(near, len(last))} steps solved to {number(frame['tolerance'].min())} end within 1e-6 of a judge's solution")
-    footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims alone.")
+    footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims.")
     return fig

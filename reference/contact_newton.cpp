@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cone_newton.h"
+#include "contact_check.h"
 #include "error.h"
 #include "newton_search.h"
 #include "rigid_kkt.h"
@@ -146,7 +147,7 @@ bool Linearised::solve(Cones& cones, ContactStep& own, Vector& increment, Vector
     Triplets entries;
     for (Eigen::Index k = 0; k < w.cols(); ++k)
       for (Eigen::Index i = 0; i < w.rows(); ++i)
-        if (w(i, k) != 0) entries.emplace_back(i, k, (w(i, k) + w(k, i)) / 2);  // but for rounding the same
+        if (w(i, k) != 0) entries.emplace_back(i, k, (w(i, k) + w(k, i)) / 2);
     problem.delassus = from_triplets(w.rows(), w.cols(), entries);
     problem.friction.resize(static_cast<Eigen::Index>(count));
     problem.free_velocity.resize(w.rows());
@@ -219,6 +220,17 @@ struct StepSearch {
   }
 };
 
+/// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
+/// functions: the features may all have been overlooked.
+Findings depths_of(const Scene& scene, const ContactStep& own, const Vector& velocity) {
+  const State end = own.step.end(velocity);
+  const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
+  Findings findings;
+  if (!own.contact.collider.empty() || !own.contact.triangle.empty())
+    check_depths(claim, own.contact, 0, findings);
+  return findings;
+}
+
 }  // namespace
 
 void require_judged(const Scene& scene, const State& state, double h, Friction friction) {
@@ -266,11 +278,17 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   j.iterations = search.iterations;
   j.rank = -1;
   std::ostringstream reason;
-  if (!converged) reason << "stopped after " << search.iterations << " iterations";
+  const auto say = [&reason]() -> std::ostringstream& {
+    if (!reason.str().empty()) reason << ", ";
+    return reason;
+  };
+  if (!converged)
+    say() << "stopped after " << search.iterations << " iterations, the last correction " << j.correction;
   for (const auto& [name, off] :
        {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})
-    if (converged && !(off <= allowed))
-      reason << name << " off by " << off << ", allowed " << allowed << "; ";
+    if (converged && !(off <= allowed)) say() << name << " off by " << off << ", allowed " << allowed;
+  if (const Findings deep = depths_of(scene, own, search.velocity); converged && !deep.refuted.empty())
+    say() << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
   j.reason = reason.str();
   j.outcome = j.reason.empty() ? Outcome::ok : Outcome::not_converged;
   j.seconds = clock.seconds();

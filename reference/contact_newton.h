@@ -6,10 +6,11 @@
 //   [ K  -J^T ] [ (dx, d) ]   [ -load + C^T lambda ]
 //   [ J   A   ] [  gamma  ] = [ -c                 ]      (UMFPACK; K holds the last iterate's forces)
 //
-// so that W = G [..]^-1 C^T and what the contacts see without forces pose a cone problem (cone_problem.h), G
-// being the derivative of what the law sees by (dx, d). W's skew part, and the convex or Coulomb's law, are
-// left to the cone judges: the skew part is brought up to date by a few solutions. Features are searched at
-// every iterate, where it comes near the solution by its own pose alone.
+// so that W = C [..]^-1 C^T/h^2 and what the contacts see without forces pose a cone problem
+// (cone_problem.h). K enters by its symmetric part, and forces of contacts by what is positive semidefinite
+// of their change with the pose: W is then symmetric and semidefinite, and the iteration converges linearly,
+// the faster the less the bodies turn in a step. Features are searched at every iterate, near the solution by
+// its own pose alone.
 //
 // Limits: no limits of joints, motors of limited force, damped point joints or attachments, cylinders, nor
 // the laws box and disc. Overlaps that a missed step has left part as `recovery` says, not by a tenth.
@@ -22,7 +23,7 @@ namespace pbd::reference {
 
 struct ContactJudgement : Judgement {
   int contacts = 0;  // that carry a force
-  double law = 0;    // residual of their law over the step's largest speed
+  double law = 0;    // residual of their law, times h over the displacement
   std::vector<JudgedContact> all{};
 };
 

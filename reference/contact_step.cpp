@@ -217,7 +217,6 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const Placement& at, co
       before.spin.col(b) = solve(Eigen::MatrixXd(inverse_right_jacobian(step.h * end.spin.col(b))),
                                  Vector(before.spin.col(b)));
     const double bounced = row.velocity[0] + own.law.restitution * row.found.normal.dot(against(before));
-    row.by_velocity = bounced < apart;
     row.seen[0] = std::min(bounced, apart);
   } else {
     row.seen[0] = apart;
@@ -304,11 +303,11 @@ double ContactStep::law_residual(FrictionLaw law, const Vector& velocity) const 
     const ContactRow row = row_of(own, at, end, least);
     double inverse = 0;
     for (const ContactFeature* feature : {&own.pair.a, &own.pair.b}) {
-      double least = infinity;
+      double lightest = infinity;
       for (std::size_t k = 0; k < static_cast<std::size_t>(feature->count); ++k)
         if (const int i = step.model.nodes.first[static_cast<std::size_t>(feature->corner[k].node)]; i >= 0)
-          least = std::min(least, 1 / step.model.inertia(i));
-      if (std::isfinite(least)) inverse += least;
+          lightest = std::min(lightest, step.model.inertia(i));
+      if (std::isfinite(lightest)) inverse += 1 / lightest;
     }
     const double mass = inverse > 0 ? 1 / inverse : 1;
     Vec3 seen = row.seen;

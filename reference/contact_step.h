@@ -38,7 +38,6 @@ struct ContactRow {
   Nearest found;
   Vec3 velocity = Vec3::Zero();  // u along the directions
   Vec3 seen = Vec3::Zero();      // what the law sees, without the compliance's part
-  bool by_velocity = false;      // the normal's part is n . (u + e u_l)
 };
 
 struct ContactStep {

@@ -107,6 +107,7 @@ struct Between {
   const Placement& start;
   const Placement& at;
   std::vector<FeaturePair>& found;
+  double moved = 0;  // m, by both since the start
 
   /// f(i, k) for the features of both that are near.
   template <class F>
@@ -149,9 +150,11 @@ struct Between {
     if (nearest(pair, start).gap + radii < 0) pair.side = -pair.side;
   }
 
+  /// What is deeper than `depth` counts if it has come so deep since the start.
   void add_if(const FeaturePair& pair, double reach, double depth) {
     const double gap = nearest(pair, at).gap;
-    if (gap + pair.a.radius + pair.b.radius <= reach && gap >= -depth) found.push_back(pair);
+    if (gap + pair.a.radius + pair.b.radius > reach || gap < -depth - moved) return;
+    if (gap >= -depth || nearest(pair, start).gap >= -depth) found.push_back(pair);
   }
 
   void corners_over_faces(const Placed& a, const Placed& b, double reach, double depth) {
@@ -211,7 +214,8 @@ struct Between {
 
   void find(const Placed& a, const Placed& b, double depth) {
     const double radii = a.surface.radius + b.surface.radius;
-    const double reach = a.moved + b.moved + depth + radii;
+    moved = a.moved + b.moved;
+    const double reach = moved + depth + radii;
     if (!a.surface.plane && !b.surface.plane && !a.all.near(b.all, reach)) return;
     const bool same = &a == &b;
     corners_over_faces(a, b, reach, depth);

@@ -24,7 +24,8 @@ class FeatureSearch {
 
   /// Appends the pairs that are valid at `at`, nearer than both surfaces have moved since `start` and a
   /// fiftieth of the smaller one (at most a thousandth of all together), and not deeper in each other than
-  /// that. Sides of what is deformable are those of `start`.
+  /// that fiftieth, or than they have moved where they were not so deep at `start`. Sides of what is
+  /// deformable are those of `start`.
   void find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const;
 
  private:

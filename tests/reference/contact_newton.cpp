@@ -94,9 +94,9 @@ TEST_CASE("edges that cross, corners and balls stop each other where their gap c
 TEST_CASE("a half space has no corners where its frame is: what slides over them goes on") {
   BodyScene scene(ContactLaw{.friction = 0}, gravity);
   scene.ground();
-  scene.box(Vec3::Constant(0.2), 1, {.position = {0.095, 0.005, 0.1}, .velocity = {1, 0.5, 0}});
+  scene.box(Vec3::Constant(0.2), 1, {.position = {0.099, 0.005, 0.1}, .velocity = {0.05, 0.02, 0}});
   const auto j = judged(scene.finish());
-  CHECK((Vec3(j.v.col(1)) - Vec3(1, 0.5, 0)).norm() <= closed);
+  CHECK((Vec3(j.v.col(1)) - Vec3(0.05, 0.02, 0)).norm() <= closed);
 }
 
 TEST_CASE("a triangle's nodes take up what a ball presses on its middle") {

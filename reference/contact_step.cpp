@@ -19,7 +19,7 @@ Contact contact_of(const Scene& scene) {
 }
 
 Vec3 velocity_of(const Corner& corner, const Placement& at, const State& state, const Vec3& place) {
-  const Vec3 v = state.v.col(corner.node);
+  Vec3 v = state.v.col(corner.node);
   if (corner.body < 0) return v;
   const Vec3 w = at.orientation[static_cast<std::size_t>(corner.body)] * Vec3(state.spin.col(corner.body));
   return v + w.cross(place - at.x.col(corner.node));

@@ -8,7 +8,7 @@ namespace {
 
 /// 1 + T/h of a constraint of `rows` rows, T by the moduli of both stresses where it is a strain.
 Eigen::MatrixXd slowed(const Effect& effect, int constraint, int rows, double h) {
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::MatrixXd one = Eigen::MatrixXd::Identity(rows, rows);
   return std::visit(
       [&]<class E>(const E& own) -> Eigen::MatrixXd {
         if constexpr (std::is_same_v<E, TetStrain>) {

@@ -56,7 +56,7 @@ std::span<const NamedJudge> judges();
 
 /// Where a judge of contact starts, since there may be several solutions: from the velocities where the step
 /// begins, or from the end and the forces that somebody claims for it. What touches is decided by the poses
-/// where the step ends; with `features_kept` it is whatever features are near where it begins, too, which go
+/// where the step ends; with `features_kept` it is the features that are near where it begins, too, which go
 /// on as planes and lines that have no end.
 struct StepClaim;
 struct ContactStart {

@@ -1,11 +1,11 @@
 // A simulation's steps against a reference that solves them anew from where each begins, and how far from it
 // the solver ended, in the metric of masses and as a share of the scale that the step's tolerance refers to.
 //
-// That may be more than the tolerance, which bounds residuals. Two reasons can be told apart: where the
-// distance is more than the tolerance, a reference that knows contact starts again from what the solver
-// claims. Coulomb's law may have several solutions: then it ends next to the solver. And the solver goes on
-// with the features that are near where a step begins (solver/effects/contact.h): then it does if it keeps
-// those, too.
+// That may be more than the tolerance, which bounds residuals. Where it is, a reference that knows contact
+// starts again from what the solver claims: Coulomb's law may have several solutions, and then it ends next
+// to the solver. And it starts so with the features that are near where the step begins, with which the
+// solver goes on (solver/effects/contact.h), as far as it states the same ones. A distance that is left may
+// be either's fault, or come from how each states what touches.
 #pragma once
 
 #include <cmath>
@@ -41,8 +41,8 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
 
 class StepJudge {
  public:
-  /// Judges every step whose number `every` divides, by the reference of that name, into `directory`'s
-  /// judged.csv.
+  /// Judges every step whose number `every` divides, each part of those that are made in parts, by the
+  /// reference of that name, into `directory`'s judged.csv.
   StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every);
 
   bool due(std::int64_t step) const { return step % every_ == 0; }

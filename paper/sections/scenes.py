@@ -3,6 +3,7 @@
 from content import Figure, Section, Table, counted, number, share, span
 from selecting import step_text
 
+NEAR = 1e-6  # of the scale, the goal judged_frames.nearest
 MODELS = (
     "The paper shows three scenes in its first figure and tells no more of them. Here they are 125 boxes that fall on the ground, five "
     "rigid bunnies that fall on a cloth held at its corners, and a flexible cow that falls on the ground. Bunny and cow are surfaces of "
@@ -60,19 +61,25 @@ def judged_frames(results):
 
 def frames_text(frame):
     ok = frame[frame["status"] == "ok"]
-    missed, unsolved = len(frame) - len(ok), ok["nearest_error_of_scale"].isna()
-    other = ok["nearest_start"] != "own"
-    far = ok[(ok["nearest_error_of_scale"] > 1e-6) & (ok["tolerance"] == ok["tolerance"].min())]
-    text = (f"Of {counted(len(frame), 'step')} that were judged {missed or 'none'} missed the solver's tolerance, and of the others the judge "
-            f"solved all but {int(unsolved.sum())}. {counted(int(other.sum()), 'step')} ended at another solution than the judge finds from the "
-            "state alone: Coulomb's law has several there, or the features that touch changed within the step. ")
+    missed, unsolved = len(frame) - len(ok), int(ok["nearest_error_of_scale"].isna().sum())
+    itself = ok["reference_status"] == "ok"
+    other = int(((ok["nearest_start"] != "own") & itself).sum())
+    helped = int((ok["nearest_error_of_scale"].notna() & ~itself).sum())
+    last = ok[ok["tolerance"] == frame["tolerance"].min()]
+    far = last[~(last["nearest_error_of_scale"] <= NEAR)]
+    text = (f"{counted(len(frame), 'step')} were judged. {missed or 'None'} missed the solver's tolerance. Of the others the judge left "
+            f"{unsolved or 'none'} unsolved, solved {helped or 'none'} only from what the solver claims, and found {other or 'none'} "
+            "beside another solution of its own: Coulomb's law may have several. ")
     if far.empty:
-        return text + "At the least tolerance every step ends within 1e-6 of a solution."
-    worst = far.loc[far["nearest_error_of_scale"].idxmax()]
-    return text + (f"At the least tolerance {counted(len(far), 'step')} of {len(ok[ok['tolerance'] == ok['tolerance'].min()])} "
-                   f"{'end' if len(far) > 1 else 'ends'} farther than 1e-6 from any solution found, the worst by "
-                   f"{number(worst['nearest_error_of_scale'])} ({worst['scene']}, step {int(worst['step'])}): what touches an edge of a soft "
-                   "triangle is stated by the solver as it lay where the step began.")
+        return text + f"At the least tolerance every step ends within {number(NEAR)} of a solution."
+    known = far[far["nearest_error_of_scale"].notna()]
+    text += (f"At the least tolerance {len(far)} of {counted(len(last), 'step')} {'are' if len(far) > 1 else 'is'} not seen to end within "
+             f"{number(NEAR)} of a solution")
+    if known.empty:
+        return text + "."
+    worst = known.loc[known["nearest_error_of_scale"].idxmax()]
+    return text + (f", the worst by {number(worst['nearest_error_of_scale'])} (`{worst['scene']}`, step {int(worst['step'])}). Such a distance "
+                   "is a fault of the solver or of the judge, or comes from how each states what touches.")
 
 
 def frames_table(frame):

@@ -17,7 +17,7 @@
 // Coulomb's law may have several solutions, and where it leaves velocities open other solvers find others.
 #pragma once
 
-#include "contact_step.h"
+#include "contact_linear.h"
 
 namespace pbd::reference {
 
@@ -26,8 +26,6 @@ struct ContactJudgement : Judgement {
   double law = 0;    // residual of their law, times h over the displacement
   std::vector<JudgedContact> all{};
 };
-
-using ConeSolver = ConeSolution (*)(const ConeProblem& problem, FrictionLaw law, double tolerance);
 
 /// Throws SetupError for an invalid scene or what the judge does not know.
 void require_judged(const Scene& scene, const State& state, double h, Friction friction);

@@ -35,9 +35,15 @@ struct JudgedContact {
 /// A contact's directions and how its law sees it at one pose.
 struct ContactRow {
   std::vector<std::pair<int, Eigen::Matrix3d>> parts;  // C by each three unknowns, (dx, d)
-  Nearest found;
-  Vec3 velocity = Vec3::Zero();  // u along the directions
-  Vec3 seen = Vec3::Zero();      // what the law sees, without the compliance's part
+  double normal_velocity = 0;                          // n . u, m/s
+  Vec3 seen = Vec3::Zero();  // what the law sees, without the compliance's part, m/s
+};
+
+/// Where a step ends by some velocities, and what all of its contacts' rows need of that.
+struct ContactPose {
+  State end, before;  // the second with u_l's velocities, as the step turns them
+  Placement at;
+  std::map<std::array<int, 2>, double> least;  // gap of each pair of sides, m
 };
 
 struct ContactStep {
@@ -56,13 +62,14 @@ struct ContactStep {
   /// Gives the contacts the forces that somebody claims, each to the nearest one of its sides.
   void take_forces(const std::vector<ClaimedContact>& claimed, const Vector& velocity);
 
-  /// The least gap of each pair of sides, m.
-  using LeastGaps = std::map<std::array<int, 2>, double>;
-  LeastGaps least_gaps(const Placement& at) const;
+  ContactPose pose_at(const Vector& velocity) const;
 
-  /// Forces on a body's face act in one plane, so that all of them can stick at once: `least` off it.
-  ContactRow row_of(const JudgedContact& contact, const Placement& at, const State& end,
-                    const LeastGaps& least) const;
+  /// Forces on a body's face act in one plane, so that all of them can stick at once: `least` off it. `at` is
+  /// the pose's, or next to it.
+  ContactRow row_of(const JudgedContact& contact, const ContactPose& pose, const Placement& at) const;
+  ContactRow row_of(const JudgedContact& contact, const ContactPose& pose) const {
+    return row_of(contact, pose, pose.at);
+  }
 
   /// Lets those collide that touch at `velocity` and part by less than their e; returns whether any do anew.
   bool collide(const Vector& velocity);

@@ -3,104 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "placed_surface.h"
 #include "touching_sides.h"
 
 namespace pbd::reference {
 namespace {
 
 constexpr double leaning = 0.2, parallel = 1e-3;  // rad
-constexpr double beyond = 1e-4;                   // of a face's side
-
-struct Bounds {
-  Vec3 least = Vec3::Constant(infinity), most = Vec3::Constant(-infinity);
-
-  void add(const Vec3& x) {
-    least = least.cwiseMin(x);
-    most = most.cwiseMax(x);
-  }
-  bool near(const Bounds& other, double reach) const {
-    return (least.array() - reach <= other.most.array()).all() &&
-           (other.least.array() - reach <= most.array()).all();
-  }
-};
-
-/// A surface where it stands: its corners, features and the boxes about them.
-struct Placed {
-  const Surface& surface;
-  std::vector<Vec3> x;
-  Bounds all;
-  double moved = 0;  // m, since the start
-  /// 0 corners, 1 edges, 2 faces.
-  std::array<std::vector<Bounds>, 3> bounds;
-
-  Placed(const Surface& own, const Placement& start, const Placement& at) : surface(own) {
-    for (const Corner& corner : own.corner) {
-      all.add(x.emplace_back(placed(corner, at)));
-      moved = std::max(moved, (x.back() - placed(corner, start)).norm());
-      bounds[0].emplace_back().add(x.back());
-    }
-    for (const auto& edge : own.edge) {
-      Bounds& box = bounds[1].emplace_back();
-      for (const int k : edge) box.add(x[static_cast<std::size_t>(k)]);
-    }
-    for (const auto& face : own.face) {
-      Bounds& box = bounds[2].emplace_back();
-      for (const int k : face) box.add(x[static_cast<std::size_t>(k)]);
-    }
-  }
-
-  /// Infinite of planes and points.
-  double size() const {
-    const double own = (all.most - all.least).norm() + 2 * surface.radius;
-    return surface.plane || own == 0 ? infinity : own;
-  }
-
-  ContactFeature feature(int kind, std::size_t i) const {
-    ContactFeature own;
-    own.radius = surface.radius;
-    own.deformable = surface.deformable;
-    own.count = kind + 1;
-    if (kind == 0) {
-      own.corner[0] = surface.corner[i];
-    } else if (kind == 1) {
-      for (std::size_t k = 0; k < 2; ++k)
-        own.corner[k] = surface.corner[static_cast<std::size_t>(surface.edge[i][k])];
-    } else {
-      const auto& face = surface.face[i];
-      for (std::size_t k = 0; k < 3; ++k)  // far from each other
-        own.corner[k] = surface.corner[static_cast<std::size_t>(face[k * face.size() / 3])];
-    }
-    return own;
-  }
-
-  /// True if the corners next to a feature, of which `from` is a point, lie along n (or across it), but for a
-  /// slope. Deformable surfaces may bend as they like.
-  bool lies_along(const Vec3& n, const Vec3& from, int kind, std::size_t i, double slope) const {
-    if (surface.deformable || kind == 2) return true;
-    const auto& beside = kind == 0 ? surface.beside_corner[i] : surface.beside_edge[i];
-    return std::all_of(beside.begin(), beside.end(), [&](int k) {
-      const Vec3 way = x[static_cast<std::size_t>(k)] - from;
-      return n.dot(way) >= -slope * way.norm();
-    });
-  }
-
-  bool within_face(std::size_t i, const Vec3& point, const Vec3& n) const {
-    const auto& face = surface.face[i];
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const Vec3& from = x[static_cast<std::size_t>(face[k])];
-      const Vec3 side = x[static_cast<std::size_t>(face[(k + 1) % face.size()])] - from;
-      if (side.cross(point - from).dot(n) < -beyond * side.squaredNorm()) return false;
-    }
-    return true;
-  }
-
-  Vec3 face_normal(std::size_t i) const {
-    const auto& face = surface.face[i];
-    const Vec3& first = x[static_cast<std::size_t>(face[0])];
-    const auto corner = [&](std::size_t k) { return x[static_cast<std::size_t>(face[k * face.size() / 3])]; };
-    return (corner(1) - first).cross(corner(2) - first).normalized();
-  }
-};
 
 /// The features of two surfaces.
 struct Between {
@@ -111,8 +20,9 @@ struct Between {
 
   /// f(i, k) for the features of both that are near.
   template <class F>
-  static void each_near(const Placed& a, int kind_a, const Placed& b, int kind_b, double reach, F&& f) {
-    const auto near_all = [&](const Placed& own, int kind, const Placed& other) {
+  static void each_near(const PlacedSurface& a, int kind_a, const PlacedSurface& b, int kind_b, double reach,
+                        F&& f) {
+    const auto near_all = [&](const PlacedSurface& own, int kind, const PlacedSurface& other) {
       std::vector<std::size_t> list;
       const auto& boxes = own.bounds[static_cast<std::size_t>(kind)];
       for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -136,8 +46,8 @@ struct Between {
     return false;
   }
 
-  static FeaturePair pair_of(const Placed& a, int kind_a, std::size_t i, const Placed& b, int kind_b,
-                             std::size_t k) {
+  static FeaturePair pair_of(const PlacedSurface& a, int kind_a, std::size_t i, const PlacedSurface& b,
+                             int kind_b, std::size_t k) {
     FeaturePair pair{a.feature(kind_a, i), b.feature(kind_b, k)};
     pair.surface = {a.surface.side, b.surface.side};
     pair.name = {a.surface.side, kind_a, static_cast<int>(i), b.surface.side, kind_b, static_cast<int>(k)};
@@ -157,7 +67,7 @@ struct Between {
     if (gap >= -depth || nearest(pair, start).gap >= -depth) found.push_back(pair);
   }
 
-  void corners_over_faces(const Placed& a, const Placed& b, double reach, double depth) {
+  void corners_over_faces(const PlacedSurface& a, const PlacedSurface& b, double reach, double depth) {
     if (a.surface.plane) return;  // it has none
     each_near(a, 0, b, 2, reach, [&](std::size_t i, std::size_t k) {
       const Vec3 n = b.face_normal(k);
@@ -172,9 +82,9 @@ struct Between {
     });
   }
 
-  void edges_across_edges(const Placed& a, const Placed& b, double reach, double depth) {
+  void edges_across_edges(const PlacedSurface& a, const PlacedSurface& b, double reach, double depth) {
     each_near(a, 1, b, 1, reach, [&](std::size_t i, std::size_t k) {
-      const auto end = [](const Placed& own, std::size_t edge, std::size_t which) -> const Vec3& {
+      const auto end = [](const PlacedSurface& own, std::size_t edge, std::size_t which) -> const Vec3& {
         return own.x[static_cast<std::size_t>(own.surface.edge[edge][which])];
       };
       const Vec3 u = end(a, i, 1) - end(a, i, 0), v = end(b, k, 1) - end(b, k, 0);
@@ -199,7 +109,7 @@ struct Between {
   }
 
   /// Corners beside edges (kind 1) or corners (0), n being the way between them.
-  void corners_beside(const Placed& a, const Placed& b, int kind, double reach) {
+  void corners_beside(const PlacedSurface& a, const PlacedSurface& b, int kind, double reach) {
     each_near(a, 0, b, kind, reach, [&](std::size_t i, std::size_t k) {
       const FeaturePair pair = pair_of(a, 0, i, b, kind, k);
       const Nearest found_at = nearest(pair, at);
@@ -212,7 +122,7 @@ struct Between {
     });
   }
 
-  void find(const Placed& a, const Placed& b, double depth) {
+  void find(const PlacedSurface& a, const PlacedSurface& b, double depth) {
     const double radii = a.surface.radius + b.surface.radius;
     moved = a.moved + b.moved;
     const double reach = moved + depth + radii;
@@ -274,7 +184,7 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
 }
 
 void FeatureSearch::find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const {
-  std::vector<Placed> placed;
+  std::vector<PlacedSurface> placed;
   placed.reserve(surfaces_.size());
   Bounds all;
   for (const Surface& surface : surfaces_) {
@@ -283,7 +193,7 @@ void FeatureSearch::find(const Placement& start, const Placement& at, std::vecto
   }
   const double extent = (all.most - all.least).norm() / 20;
   for (const auto& [i, k] : pairs_) {
-    const Placed &a = placed[i], &b = placed[k];
+    const PlacedSurface &a = placed[i], &b = placed[k];
     Between{start, at, found}.find(a, b, std::min({a.size(), b.size(), extent}) / 50);
   }
 }

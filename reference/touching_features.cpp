@@ -41,6 +41,23 @@ Vec3 weighted(const Places& x, const std::array<double, 3>& weight, int count) {
   return sum;
 }
 
+Vec3 velocity_of(const Corner& corner, const Placement& at, const State& state, const Vec3& place) {
+  Vec3 v = state.v.col(corner.node);
+  if (corner.body < 0) return v;
+  const Vec3 w = at.orientation[static_cast<std::size_t>(corner.body)] * Vec3(state.spin.col(corner.body));
+  return v + w.cross(place - at.x.col(corner.node));
+}
+
+/// Of a feature, where a force acts on it, m/s.
+Vec3 velocity_of(const ContactFeature& feature, const std::array<double, 3>& weight, const Placement& at,
+                 const State& state, const Vec3& place) {
+  if (feature.of_body()) return velocity_of(feature.corner[0], at, state, place);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(feature.count); ++k)
+    sum += weight[k] * velocity_of(feature.corner[k], at, state, place);
+  return sum;
+}
+
 }  // namespace
 
 Vec3 placed(const Corner& corner, const Placement& at) {
@@ -73,6 +90,18 @@ Nearest nearest(const FeaturePair& pair, const Placement& at) {
   else
     found.place = (at_a - pair.a.radius * found.normal + at_b + pair.b.radius * found.normal) / 2;
   return found;
+}
+
+Vec3 against(const FeaturePair& pair, const Nearest& found, const Placement& at, const State& state) {
+  return velocity_of(pair.a, found.weight[0], at, state, found.place) -
+         velocity_of(pair.b, found.weight[1], at, state, found.place);
+}
+
+Eigen::Matrix3d directions_of(const Vec3& normal, const Vec3& reference) {
+  Eigen::Matrix3d directions;
+  const Vec3 tangent = (reference - normal.dot(reference) * normal).normalized();
+  directions << normal.transpose(), tangent.transpose(), normal.cross(tangent).transpose();
+  return directions;
 }
 
 }  // namespace pbd::reference

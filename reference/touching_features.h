@@ -41,4 +41,10 @@ Vec3 placed(const Corner& corner, const Placement& at);
 /// triangle in its middle plane, where its nodes take it up.
 Nearest nearest(const FeaturePair& pair, const Placement& at);
 
+/// Velocity of a against b where a force acts, by those of `state`, m/s.
+Vec3 against(const FeaturePair& pair, const Nearest& found, const Placement& at, const State& state);
+
+/// In rows: the normal, and two tangents seen from `reference`.
+Eigen::Matrix3d directions_of(const Vec3& normal, const Vec3& reference);
+
 }  // namespace pbd::reference

@@ -23,8 +23,6 @@ struct Surface {
   double radius = 0;                                         // m
   bool plane = false;       // a half space: three points of its only face, which goes on for ever; no corners
   bool deformable = false;  // of triangles, from both sides
-
-  int body() const { return deformable ? -1 : corner.front().body; }
 };
 
 /// Colliders and nodes in the order of a claim, then the deformable surface if there is one. Throws

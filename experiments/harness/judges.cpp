@@ -32,6 +32,13 @@ Judged judged_of(const pbd::Scene& scene, const pbd::State& state, double h,
           judged.residual};
 }
 
+/// Null if there is none of that name.
+pbd::reference::ContactJudge contact_judge(const std::string& name) {
+  for (const auto& judge : pbd::reference::contact_judges())
+    if (judge.name == name) return judge.judge;
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<std::string> reference_names() {
@@ -42,9 +49,7 @@ std::vector<std::string> reference_names() {
 }
 
 bool knows_contact(const std::string& reference) {
-  const auto& judges = pbd::reference::contact_judges();
-  return std::any_of(judges.begin(), judges.end(),
-                     [&](const auto& judge) { return judge.name == reference; });
+  return contact_judge(reference) != nullptr;
 }
 
 std::string default_reference(const pbd::Scene& scene) {
@@ -60,19 +65,16 @@ Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::S
                   pbd::Friction friction) {
   for (const auto& judge : pbd::reference::judges())
     if (judge.name == name) return judged_of(scene, state, h, judge.judge(scene, state, h));
-  for (const auto& judge : pbd::reference::contact_judges())
-    if (judge.name == name)
-      return judged_of(scene, state, h,
-                       judge.judge(scene, state, h, friction, {.poll = throw_if_interrupted}));
+  if (const auto judge = contact_judge(name))
+    return judged_of(scene, state, h, judge(scene, state, h, friction, {.poll = throw_if_interrupted}));
   throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
 }
 
 Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept) {
-  for (const auto& judge : pbd::reference::contact_judges())
-    if (judge.name == name)
-      return judged_of(claim.scene, claim.start, claim.h,
-                       judge.judge(claim.scene, claim.start, claim.h, claim.friction,
-                                   {&claim, features_kept, throw_if_interrupted}));
+  if (const auto judge = contact_judge(name))
+    return judged_of(claim.scene, claim.start, claim.h,
+                     judge(claim.scene, claim.start, claim.h, claim.friction,
+                           {&claim, features_kept, throw_if_interrupted}));
   throw pbd::SetupError("--reference", "`" + name + "`", "a judge of contact");
 }
 

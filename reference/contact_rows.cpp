@@ -64,10 +64,6 @@ ContactPose ContactStep::pose_at(const Vector& velocity) const {
   ContactPose pose;
   pose.end = step.end(velocity);
   pose.at = placement_of(pose.end);
-  pose.before = step.start;
-  for (Eigen::Index b = 0; b < pose.before.spin.cols(); ++b)
-    pose.before.spin.col(b) = solve(Eigen::MatrixXd(inverse_right_jacobian(step.h * pose.end.spin.col(b))),
-                                    Vector(pose.before.spin.col(b)));
   for (const JudgedContact& own : contacts) {
     double& gap = pose.least.try_emplace(own.pair.surface, infinity).first->second;
     gap = std::min(gap, nearest(own.pair, pose.at).gap);
@@ -90,7 +86,7 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const ContactPose& pose
   if (own.collides)
     row.seen[0] = std::min(
         row.seen[0], row.normal_velocity +
-                         own.law.restitution * found.normal.dot(against(own.pair, found, at, pose.before)));
+                         own.law.restitution * found.normal.dot(against(own.pair, found, at, step.start)));
   return row;
 }
 

@@ -36,8 +36,19 @@ ContactStep::ContactStep(const Scene& scene, const State& state, double h)
   const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
   const Vector free = step.start_velocity() - h * system.load.cwiseQuotient(step.model.inertia);
   const State end = step.end(free);
+  free_end_ = placement_of(end);
   free_.v = end.v;
   free_.spin = end.spin;
+}
+
+/// Whether a pair touches by its features where its gap vanishes on the way of the free motion.
+bool ContactStep::meets_freely(const FeaturePair& pair, double gap, double ahead) const {
+  const double share = gap > 0 ? gap / (gap - ahead) : 0;
+  Placement at = start_;
+  at.x += share * (free_end_.x - start_.x);
+  for (std::size_t b = 0; b < at.orientation.size(); ++b)
+    at.orientation[b] = start_.orientation[b].slerp(share, free_end_.orientation[b]);
+  return search.on_both(pair, at);
 }
 
 JudgedContact ContactStep::begun(const FeaturePair& pair) const {
@@ -54,7 +65,9 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   const double h = step.h;
   made.target = std::min(0.0, found.gap + contact.recovery * h);
   made.closing = -along(step.start);
-  made.collides = made.law.restitution > 0 && made.closing > 0 && found.gap + h * along(free_) < 0;
+  const double ahead = found.gap + h * along(free_);
+  made.collides =
+      made.law.restitution > 0 && made.closing > 0 && ahead < 0 && meets_freely(pair, found.gap, ahead);
   made.rebound = made.closing > 0 ? std::min(made.target, found.gap + h * made.law.restitution * made.closing)
                                   : made.target;
   const double elastic = 1 / (1 + made.law.damping / h);  // the spring's share

@@ -6,8 +6,8 @@
 // C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
 // contact is, in m/s,
 //   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
-//         and n . (u + e u_l), u their velocities against each other; in u_l a body turns by J_r(h w) w_l, as
-//         what the step's turn makes of w_l (rigid_step.h)
+//         and n . (u + e u_l), u their velocities against each other; in u_l a body's spin is what it is
+//         where the step begins, in the body's own axes
 //   u_t = t . u
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, and what is parting too slowly for its e, collides.
@@ -41,7 +41,7 @@ struct ContactRow {
 
 /// Where a step ends by some velocities, and what all of its contacts' rows need of that.
 struct ContactPose {
-  State end, before;  // the second with u_l's velocities, as the step turns them
+  State end;
   Placement at;
   std::map<std::array<int, 2>, double> least;  // gap of each pair of sides, m
 };
@@ -88,7 +88,9 @@ struct ContactStep {
  private:
   JudgedContact begun(const FeaturePair& pair) const;
 
-  Placement start_;
+  bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;
+
+  Placement start_, free_end_;
   State free_;  // where the step begins, with the velocities of its free motion's end
 };
 

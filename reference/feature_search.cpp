@@ -198,4 +198,20 @@ void FeatureSearch::find(const Placement& start, const Placement& at, std::vecto
   }
 }
 
+bool FeatureSearch::on_both(const FeaturePair& pair, const Placement& at) const {
+  constexpr double beyond = 1e-4;  // of a side, as above
+  const Nearest found = nearest(pair, at);
+  const auto between_corners = [&](const std::array<double, 3>& weight) {
+    return *std::min_element(weight.begin(), weight.end()) >= -beyond;
+  };
+  if (!between_corners(found.weight[0])) return false;
+  if (pair.b.count < 3 || pair.b.deformable) return between_corners(found.weight[1]);
+  const auto surface = std::find_if(surfaces_.begin(), surfaces_.end(),
+                                    [&](const Surface& own) { return own.side == pair.name[3]; });
+  if (surface->plane) return true;
+  const PlacedSurface face(*surface, at, at);
+  const auto number = static_cast<std::size_t>(pair.name[5]);
+  return face.within_face(number, placed(pair.a.corner[0], at), face.face_normal(number));
+}
+
 }  // namespace pbd::reference

@@ -28,6 +28,9 @@ class FeatureSearch {
   /// deformable are those of `start`.
   void find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const;
 
+  /// True if what touches of a pair at `at` is on both of its features.
+  bool on_both(const FeaturePair& pair, const Placement& at) const;
+
  private:
   std::vector<Surface> surfaces_;
   std::vector<std::array<std::size_t, 2>> pairs_;

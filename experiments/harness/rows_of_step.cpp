@@ -67,6 +67,8 @@ StepBegin StepRows::step_begin(const Configuration& start) const {
           .v = start_v_,
           .a = no_acceleration_,
           .inverse_mass = rows_.inverse_mass,
+          .tolerance = 0,
+          .solved = false,
           .warm_start = false};
 }
 

@@ -174,6 +174,12 @@ struct PolyhedronPair {
     }
   }
 
+  /// That the nearest points of two edges are ends of neither.
+  bool nearest_inside(const PolyhedronAxis& edges) const {
+    const Nearest at = nearest(segment(a, edges.i), segment(b, edges.j));
+    return end(a, edges.i, at.s) < 0 && end(b, edges.j, at.t) < 0;
+  }
+
   void write_axis(const PolyhedronAxis& edges) const {
     const Segment of_a = segment(a, edges.i), of_b = segment(b, edges.j);
     const Nearest at = nearest(of_a, of_b);
@@ -208,7 +214,7 @@ struct PolyhedronPair {
     if (edges.apart > limit) return;
     const bool across = edges.apart > flat.apart + tiny;
     const PolyhedronAxis& axis = across ? edges : flat;
-    if (across && edges.apart <= tiny) write_axis(edges);
+    if (across && (edges.apart <= tiny || nearest_inside(edges))) write_axis(edges);
     if (flat.j >= 0) {
       const double floor = axis.apart - radii - tiny;
       if (b_refers)

@@ -110,4 +110,15 @@ void generate(const RoundedTriangle& a, const Shape& shape_b, const Frame& at_b,
       shape_b);
 }
 
+bool is_at(const Shape& shape, const Frame& at, const Vec3& place, double distance, CollisionScratch& scratch,
+           std::vector<ContactPoint>& found) {
+  if (const auto* mesh = std::get_if<ClosedMesh>(&shape)) {
+    MeshPlace nearest;
+    return nearest_of_mesh(*mesh, at.rotation.transpose() * (place - at.origin), distance, nearest);
+  }
+  found.clear();
+  generate(shape, at, Sphere{distance}, {place, Eigen::Matrix3d::Identity()}, {.margin = 0}, scratch, found);
+  return !found.empty();
+}
+
 }  // namespace pbd

@@ -38,4 +38,8 @@ void generate(const Shape& a, const Frame& at_a, const Shape& b, const Frame& at
 void generate(const RoundedTriangle& a, const Shape& b, const Frame& at_b, const Reach& reach,
               CollisionScratch& scratch, std::vector<ContactPoint>& found);
 
+/// True if a place in the world is in a shape, or no farther from it than `distance`, m. `found` is scratch.
+bool is_at(const Shape& shape, const Frame& at, const Vec3& place, double distance, CollisionScratch& scratch,
+           std::vector<ContactPoint>& found);
+
 }  // namespace pbd

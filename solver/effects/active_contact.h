@@ -34,9 +34,11 @@ struct ActiveContact {
   double restitution = 0;          // e where the shapes collide in this step, else 0
   double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
   bool late = false;               // seen where a solved iterate ended; `target` is set there
-  ContactLaw law;                  // of its materials
-  double offset = 0;               // m, of the gap by damping
-  double compliance = 0;           // m/N, with damping's share
+  std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with
+  bool acts = false;          // it has an impulse where a solved iterate ended
+  ContactLaw law;             // of its materials
+  double offset = 0;          // m, of the gap by damping
+  double compliance = 0;      // m/N, with damping's share
 
   std::array<int, 2> pair() const {
     return {std::min(collider[0], collider[1]), std::max(collider[0], collider[1])};

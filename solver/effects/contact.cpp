@@ -62,7 +62,9 @@ ContactRows::ContactRows(const Scene& scene, const Contact& effect, Friction law
     : Source({.fills_space = false, .limited = true, .contacts = true}),
       effect_(effect),
       law_(law),
-      search_(scene, effect) {}
+      search_(scene, effect),
+      bounces_(std::any_of(effect.law.begin(), effect.law.end(),
+                           [](const ContactLaw& own) { return own.restitution > 0; })) {}
 
 void ContactRows::allocate(bool, BlockList& blocks) {
   if (effect_.collider.empty() && effect_.triangle.empty()) return;
@@ -85,15 +87,25 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   if (blocks.empty()) return false;
   start_v_ = begin.v;
   recovering_ = begin.after_miss || (begin.continued && recovering_);
-  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.map.v_free, begin.inverse_mass);
+  free_.x = begin.map.x0 + begin.map.d * begin.map.v_free;
+  begin.bodies.place(free_.x, free_.pose);
+  search_.begin(begin.bodies, begin.at, free_.x, begin.inverse_mass);
+  collided_.clear();
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
   return fill(begin, blocks);
 }
 
 Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) {
-  if (blocks.empty()) return Widened::no;
-  if (!search_.extend(begin.bodies, begin.at, reached.x) && !search_.look_again(begin.at, reached, contacts_))
+  // What has collided does so for the rest of the step: nothing is told of it before the iterate solves the
+  // step.
+  if (blocks.empty() || (bounces_ && !begin.solved)) return Widened::no;
+  with_contacts(blocks, contacts_, [](const auto& block, auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i) contacts[i].acts = block.impulse[i][0] > 0;
+  });
+  if (!search_.extend(begin.bodies, begin.at, reached.x) &&
+      !search_.look_again(begin.at, reached, {free_.x, free_.pose, begin.at.time}, begin.tolerance,
+                          contacts_))
     return Widened::no;
   keep_impulses(blocks);
   return fill(begin, blocks) ? Widened::others : Widened::alike;
@@ -112,6 +124,7 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
       const double parting = (block.jacobian[i] * block.gather(v, i))[0];
       if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
       contact.restitution = contact.law.restitution;
+      collided_.emplace(contact.pair(), contact.features.key);
       any = true;
     }
   });
@@ -203,16 +216,30 @@ double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, doub
 /// The impulse that a contact had in the last step, as its law lets it be.
 template <class Block>
 void ContactRows::take_seed(const ActiveContact& contact, Block& block, std::size_t i) const {
-  const Vec3* seed = seeds_.find(contact.collider, contact.features.key);
+  const auto& [a, b] = contact.collider;
+  const Vec3* seed = seeds_.find({a, b}, contact.features.key);
+  double sign = 1;
+  if (seed == nullptr && contact.heir_of != 0) {
+    seed = seeds_.find({a, b}, contact.heir_of);
+    if (seed == nullptr) seed = seeds_.find({b, a}, contact.heir_of), sign = -1;
+  }
   if (seed == nullptr) return;
-  block.impulse[i] = directions_in<Block>(contact, block.jacobian[i]) * *seed;
+  block.impulse[i] = sign * (directions_in<Block>(contact, block.jacobian[i]) * *seed);
   block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
+}
+
+/// True if what a gap falls to zero between touches there, on the way of the free motion, which the gap of
+/// the contact ends as `ahead`, m.
+bool ContactRows::meets_freely(const StepBegin& begin, const ActiveContact& contact, double gap,
+                               double ahead) {
+  const double share = gap > 0 ? gap / (gap - ahead) : 0;
+  return search_.on_features(contact, begin.at, {free_.x, free_.pose, begin.at.time}, share);
 }
 
 /// What a contact asks for in this step, and the impulse it begins with.
 template <class Block>
 void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact,
-                                Block& block, std::size_t i) const {
+                                Block& block, std::size_t i) {
   auto& jacobian = block.jacobian[i];
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
@@ -220,7 +247,10 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   if (!contact.late) contact.target = target_of(begin, shifts, gap, from, block, i);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  contact.restitution = contact.closing > 0 && ahead < 0 ? contact.law.restitution : 0.0;
+  const bool meets = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0 &&
+                     meets_freely(begin, contact, gap, ahead);
+  const bool collides = meets || collided_.contains({contact.pair(), contact.features.key});
+  contact.restitution = collides ? contact.law.restitution : 0.0;
   contact.rebound =
       contact.closing > 0
           ? std::min(contact.target, from + begin.map.d * contact.law.restitution * contact.closing)

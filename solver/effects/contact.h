@@ -36,6 +36,8 @@
 // are of first order in h. What one round has let collide does so for the rest of the step, solved or missed.
 #pragma once
 
+#include <set>
+
 #include "effects/contact_search.h"
 #include "effects/contact_seeds.h"
 #include "rows/source.h"
@@ -61,6 +63,10 @@ class ContactRows final : public Source {
   struct Shifts {  // m, from the step's start to the free motion's end, to x0, and by the step's forces
     Points free, own, forced;
   };
+  struct FreeEnd {  // of the free motion
+    Points x;
+    std::vector<Pose> pose;
+  };
 
   void keep_impulses(ConstBlockSpan blocks);
   bool fill(const StepBegin& begin, BlockSpan blocks);
@@ -71,14 +77,18 @@ class ContactRows final : public Source {
   void take_seed(const ActiveContact& contact, Block& block, std::size_t i) const;
   template <class Block>
   void begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact, Block& block,
-                     std::size_t i) const;
+                     std::size_t i);
+  bool meets_freely(const StepBegin& begin, const ActiveContact& contact, double gap, double ahead);
 
   const Contact& effect_;
   Friction law_;
   ContactSearch search_;
   ContactLists contacts_;
   ContactSeeds seeds_;
-  Points start_v_;           // m/s, where the step begins
+  Points start_v_;                                                   // m/s, where the step begins
+  FreeEnd free_;                                                     // where the step's free motion ends
+  std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
+  bool bounces_ = false;                                             // some law has restitution
   bool recovering_ = false;  // from what missed steps have left overlapping
 };
 

@@ -141,11 +141,10 @@ double ContactSearch::round_radius_of(const Motion& one, const Motion& two) {
   return std::min(round(one), round(two));
 }
 
-/// The late contact of a pair (lower collider first) and a key as `active` gives it, if there is one.
-std::vector<ActiveContact>::iterator ContactSearch::late_contact(const std::array<int, 2>& pair,
-                                                                 std::uint64_t key) {
+/// The late contact of a pair's features, if there is one.
+std::vector<ActiveContact>::iterator ContactSearch::late_contact(const PairFeatures& features) {
   return std::find_if(late_.begin(), late_.end(), [&](const ActiveContact& contact) {
-    return contact.features.key == key && contact.pair() == pair;
+    return contact.features.key == features.key && contact.pair() == features.collider;
   });
 }
 
@@ -165,15 +164,20 @@ void ContactSearch::add_pair(int first, int second, const Configuration& start, 
   for (const ContactPoint& point : found_) {
     nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
     const ActiveContact contact = active(point, first, second);
-    if (late_contact({first, second}, contact.features.key) != late_.end()) continue;
+    const PairFeatures features{{first, second}, contact.features.key};
+    if (is_left(features) || late_contact(features) != late_.end()) continue;
     if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) add(contact);
   }
   for (const ActiveContact& contact : late_)
     if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
   const double round = round_radius_of(one, two), deepest = std::min(nearest, 0.0);
-  if (bounded && wary * travel * travel > 8 * round * (overlooked * round + deepest))
-    far_.push_back({{first, second}, nearest, deepest});
+  const bool left = std::any_of(left_.begin(), left_.end(), [&](const PairFeatures& own) {
+    return own.collider == std::array{first, second};
+  });
+  const double depth = (left ? std::min(besides_, overlooked) : overlooked) * round;
+  if (bounded && (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
+    far_.push_back({{first, second}, nearest, deepest, depth, left});
 }
 
 void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
@@ -190,6 +194,7 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
                           const std::vector<double>& inverse_mass) {
   place_colliders(bodies, start, inverse_mass);
   late_.clear();
+  left_.clear();
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = farthest_travel(motion, moved);

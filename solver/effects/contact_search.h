@@ -61,13 +61,20 @@ class ContactSearch {
   /// The contacts of what is as near as that.
   void find(const Configuration& start, ContactLists& contacts);
 
-  /// True if pairs that went far overlap at `end` as none of the contacts tells: `find` adds those that do.
-  bool look_again(const Configuration& start, const Configuration& end, const ContactLists& contacts);
+  /// True if `find` will give other contacts, where a step is solved by these to `tolerance` and ends at
+  /// `end`: some act where their features have parted, or pairs overlap as none tells.
+  bool look_again(const Configuration& start, const Configuration& end, const Configuration& free,
+                  double tolerance, const ContactLists& contacts);
+
+  /// True if what touches of a contact is on both shapes at a share of the way from `start` to `end`.
+  bool on_features(const ActiveContact& contact, const Configuration& start, const Configuration& end,
+                   double share);
 
  private:
   /// How deep pairs may be that are not looked at again, of the radius of what is round of them.
   static constexpr double overlooked = 1e-4;
-  static constexpr double wary = 16;  // times what a ball makes of its travel: measured, see above
+  static constexpr double least_beside = 1e-9;  // what lies edge on edge comes and goes by rounding
+  static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
 
   enum class Carrier : std::uint8_t { body, node, triangle };
 
@@ -89,7 +96,15 @@ class ContactSearch {
     std::array<int, 2> collider;
     double nearest = infinity;    // m, gap as it begins
     double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
+    double overlooked = 0;        // m, depth that is not looked at
+    bool left = false;            // by a contact that had held it apart
     double least_end = infinity;  // m, gap that its contacts tell of
+  };
+  struct PairFeatures {
+    std::array<int, 2> collider;  // the lower one first
+    std::uint64_t key;            // as `active` gives it
+
+    bool operator==(const PairFeatures&) const = default;
   };
   struct TriangleName {  // of a contact: the same for all triangles that share the feature
     int body;            // as the effect counts colliders
@@ -117,7 +132,7 @@ class ContactSearch {
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void add_pair(int first, int second, const Configuration& start, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;
-  std::vector<ActiveContact>::iterator late_contact(const std::array<int, 2>& pair, std::uint64_t key);
+  std::vector<ActiveContact>::iterator late_contact(const PairFeatures& features);
   Frame placed_frame(int collider, const Configuration& at) const;
   /// Sets `found_`; a triangle is the one that was placed last.
   void find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
@@ -135,21 +150,41 @@ class ContactSearch {
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
   // Late contacts: late_contacts.cpp. The way between is that of turns below pi, and straight for nodes.
+  static Eigen::Matrix3d turned_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double share);
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                           double share, double reach);
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
-  bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
+  bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
+             double slack);
   double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,
                   double apart, double& overlapping);
   bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
+  void add_late(const ActiveContact& found, double target);
+  bool see_overlaps(const Configuration& start, const Configuration& end, const ContactLists& contacts);
+
+  // Contacts that leave their features: left_contacts.cpp.
+  bool is_cylinder(int collider) const;
+  double beside(const std::array<int, 2>& pair) const;
+  bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
+  bool on_shapes(const ActiveContact& contact, const Configuration& at);
+  bool is_left(const PairFeatures& features) const;
+  bool restate(ActiveContact& contact, const Configuration& start, const Configuration& end);
+  void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
+                    const Configuration& end, const Configuration& free);
+  bool drop_left(const Configuration& start, const Configuration& end, const Configuration& free,
+                 const ContactLists& contacts);
 
   const Contact& effect_;
   AllowedPairs allowed_;
   std::vector<Motion> motions_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
+  double besides_ = least_beside;   // that a contact may touch a shape beside it, of the same radius
+  std::vector<PairFeatures> left_;  // whose contacts acted in this step where they are not
+  Points between_x_;                // m, on the way of a contact's carriers; the others' are of no use
+  std::vector<Pose> between_pose_;
   std::vector<ContactPoint> found_;
   std::vector<ActiveContact> overlapping_;
   std::vector<MovingBox> boxes_;

@@ -8,12 +8,15 @@ double ContactSearch::gap_of(const ContactPoint& point, const Frame& at_first, c
   return point.swapped ? touching(point, at_second, at_first).gap : touching(point, at_first, at_second).gap;
 }
 
+Eigen::Matrix3d ContactSearch::turned_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
+                                              double share) {
+  return Eigen::Quaterniond(from).slerp(share, Eigen::Quaterniond(to)).toRotationMatrix();
+}
+
 Frame ContactSearch::frame_between(int collider, const Configuration& start, const Configuration& end,
                                    double share) const {
   const Frame from = placed_frame(collider, start), to = placed_frame(collider, end);
-  const Eigen::Quaterniond turned(from.rotation);
-  return {from.origin + share * (to.origin - from.origin),
-          turned.slerp(share, Eigen::Quaterniond(to.rotation)).toRotationMatrix()};
+  return {from.origin + share * (to.origin - from.origin), turned_between(from.rotation, to.rotation, share)};
 }
 
 /// Sets `found_` to the points of a pair that are within reach at a share of the way from `start` to `end`;
@@ -52,10 +55,9 @@ void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& star
 double ContactSearch::entering(const Pair& pair, const Configuration& start, const Configuration& end,
                                double behind, double apart, double& overlapping) {
   constexpr int halvings = 15;  // of the way: less than `overlooked` of r where a shape goes as far as 3 r
-  const double slack = overlooked * round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
   for (int k = 0; k < halvings; ++k) {
     const double middle = (apart + overlapping) / 2;
-    (generate_between(pair, start, end, middle, slack) < behind ? overlapping : apart) = middle;
+    (generate_between(pair, start, end, middle, pair.overlooked) < behind ? overlapping : apart) = middle;
   }
   return apart;
 }
@@ -65,11 +67,10 @@ double ContactSearch::entering(const Pair& pair, const Configuration& start, con
 /// features, if there are any. A gap falls by no more than both travel, so that no smaller share needs to be
 /// looked at; what touches goes on by half a radius at most.
 bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Configuration& end,
-                          double allowed) {
+                          double allowed, double slack) {
   constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
-  const double travel = travel_near(one, two) + travel_near(two, one), round = round_radius_of(one, two),
-               slack = overlooked * round;
+  const double travel = travel_near(one, two) + travel_near(two, one), round = round_radius_of(one, two);
   double gap = pair.nearest, share = 0, apart = 0, touching_for = 0;
   for (int k = 0; k < most; ++k) {
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
@@ -96,11 +97,16 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
 /// across a face. Without any the step cannot be solved.
 bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
-  const double round = round_radius_of(one, two), slack = overlooked * round;
+  const double slack = pair.overlooked, round = round_radius_of(one, two);
   const double rounded = 1e-12 * (one.radius + one.travel + two.radius + two.travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);
-  if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed)) return true;
+  if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;
+  if (pair.left) {
+    const double travel = travel_near(one, two) + travel_near(two, one);
+    const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
+    if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed)) return true;
+  }
   if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
   double overlapping = 1;
   const double apart = entering(pair, start, end, behind, 0, overlapping);
@@ -113,8 +119,17 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   return true;
 }
 
-bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
-                               const ContactLists& contacts) {
+/// In the place of the late contact of the same features, if there is one.
+void ContactSearch::add_late(const ActiveContact& found, double target) {
+  const auto known = late_contact({found.pair(), found.features.key});
+  ActiveContact& contact = known == late_.end() ? late_.emplace_back() : *known;
+  contact = found;
+  contact.late = true;
+  contact.target = target;
+}
+
+bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,
+                                 const ContactLists& contacts) {
   if (far_.empty()) return false;
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
   for (Pair& pair : far_) pair.least_end = infinity;
@@ -129,15 +144,15 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
   for (const Pair& pair : far_) {
     if (!find_overlapping(pair, start, end)) continue;
     seen = true;
-    for (const ActiveContact& found : overlapping_) {
-      const auto known = late_contact(pair.collider, found.features.key);
-      ActiveContact& contact = known == late_.end() ? late_.emplace_back() : *known;
-      contact = found;
-      contact.late = true;
-      contact.target = pair.deepest;
-    }
+    for (const ActiveContact& found : overlapping_) add_late(found, pair.deepest);
   }
   return seen;
+}
+
+bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
+                               const Configuration& free, double tolerance, const ContactLists& contacts) {
+  besides_ = std::max(tolerance, least_beside);
+  return drop_left(start, end, free, contacts) || see_overlaps(start, end, contacts);
 }
 
 }  // namespace pbd

@@ -50,7 +50,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, 
   return changed;
 }
 
-/// Of a step along the direction until the first impulse is at a bound.
+/// Of a step along the direction until the first impulse is at a bound, of friction that of its normal part.
 double ConjugateGradients::length_to_bounds(const Rows& rows) const {
   double length = infinity;
   std::size_t first_row = 0;
@@ -62,6 +62,10 @@ double ConjugateGradients::length_to_bounds(const Rows& rows) const {
         if (along != 0 && block.bounds[i].freedom == Freedom::lawful)
           length = std::min(length, std::max(0.0, (bound - block.impulse[i][0]) / along));
       }
+    if constexpr (Block::rows == 3)
+      for (std::size_t i = 0; block.frictional() && i < block.size(); ++i)
+        if (const double along = direction_[first_row + 3 * i]; along < 0)
+          length = std::min(length, std::max(0.0, -block.impulse[i][0] / along));
     first_row += block.size() * Block::rows;
   });
   return length;
@@ -108,7 +112,10 @@ PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds 
     if (beta > 0) return {std::sqrt(moved + product)};  // begin anew
     return {std::sqrt(moved), moved == 0};              // nothing left to gain along J
   }
-  const double length = std::min(-slope / curvature, rows.contacts ? infinity : length_to_bounds(rows));
+  // Contacts that nearly contradict each other share their impulses out until one of them has none.
+  constexpr double shared = 1e-5;
+  const bool to_all = rows.contacts && curvature > shared * square_;
+  const double length = std::min(-slope / curvature, to_all ? infinity : length_to_bounds(rows));
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     for (std::size_t i = 0; i < block.size(); ++i)
       block.impulse[i] += length * entries(direction_, block, first_row, i);

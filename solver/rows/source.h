@@ -56,6 +56,8 @@ struct StepBegin {
   const Points& v;                      // m/s
   const Points& a;                      // m/s^2, that the integrator carries on, if it does
   const std::vector<double>& inverse_mass;
+  double tolerance;  // of the step's scale, to which the iterate is solved that rows are found for
+  bool solved;       // that is enough
   bool warm_start;
   bool continued = false;   // from where the last step ended
   bool after_miss = false;  // the last step was not solved

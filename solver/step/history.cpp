@@ -108,14 +108,18 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .v = problem.start_v,
           .a = a_,
           .inverse_mass = problem.inverse_mass,
+          .tolerance = problem.method.tolerance,
+          .solved = false,
           .warm_start = problem.method.warm_start,
           .continued = continued_,
           .after_miss = after_miss()};
 }
 
-bool History::widen(StepSystem& system) const {
+bool History::widen(StepSystem& system, double tolerance) const {
   const Configuration start = system.problem.start();
-  const StepBegin begin = step_begin(system.problem, start, start, start);
+  StepBegin begin = step_begin(system.problem, start, start, start);
+  begin.tolerance = tolerance;
+  begin.solved = tolerance <= system.problem.method.tolerance;
   const Configuration reached{system.at.x, system.at.poses, system.problem.x_time};
   bool widened = false;
   for (Slot& slot : system.slots) {

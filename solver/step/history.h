@@ -15,8 +15,9 @@ class History {
   /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
-  /// Lets sources find rows anew that the solved iterate calls for: true if one did, perhaps the same rows.
-  bool widen(StepSystem& system) const;
+  /// Lets sources find rows anew that the iterate calls for, which is solved to a tolerance of the scale:
+  /// true if one did, perhaps the same rows.
+  bool widen(StepSystem& system, double tolerance) const;
 
   /// Carries the map on to the step's end; it may have been missed.
   void end_step(double h, const StepSystem& system, bool missed, State& state);

@@ -28,12 +28,15 @@ bool collide(StepSystem& system, double accuracy) {
   return any;
 }
 
+constexpr double nearly = 1e-4;  // of the scale: solved far enough to tell what else is met
+
 /// One step in the making.
 struct StepRun {
   WorkspaceData& w;
   Levels levels{};
   Progress progress{};
   Report report{};
+  bool looked = false;  // for other rows than these
 
   void begin(double h, const State& state);
   void solve(const Observer& observer);
@@ -43,6 +46,7 @@ struct StepRun {
  private:
   bool settle_here(bool stalled);
   bool stalls();
+  bool looks_early();
   bool find_other_rows();
   void begin_rows();
   void take_best();
@@ -88,14 +92,23 @@ bool StepRun::settle_here(bool stalled) {
   return false;
 }
 
+/// True once of these rows, where the iterate is nearly solved: others that it calls for need not wait.
+bool StepRun::looks_early() {
+  if (looked || w.method.tolerance >= nearly || on_potential(w.outer)) return false;
+  looked = progress.iterations_of_rows > 0 && progress.residual() <= nearly * progress.scale;
+  return looked;
+}
+
 /// Finds rows that the solved iterate calls for; true if there are any.
 bool StepRun::find_other_rows() {
-  return w.history.widen(w.system) || collide(w.system, w.method.tolerance * progress.scale);
+  return w.history.widen(w.system, w.method.tolerance) ||
+         collide(w.system, w.method.tolerance * progress.scale);
 }
 
 /// The step begins, with these rows, at the iterate.
 void StepRun::begin_rows() {
   progress.begin_rows(w.method);
+  looked = false;
   w.best_early.residual = w.best.residual = levels.last_residual = infinity;
   w.previous = w.system.at.v;
   measure_here();
@@ -127,6 +140,11 @@ void StepRun::solve(const Observer& observer) {
       report.reason = "a joint turns a body by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
+    if (looks_early() && w.history.widen(system, nearly) && ++solved_anew <= w.method.max_outer) {
+      forget(w.outer);
+      begin_rows();
+      continue;
+    }
     if (stalled) {
       report.reason = "stalled away from the solution";
       break;

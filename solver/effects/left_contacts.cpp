@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+
+#include "effects/contact_search.h"
+
+namespace pbd {
+
+bool ContactSearch::is_cylinder(int collider) const {
+  const Motion& own = motions_[collider];
+  return own.kind == Carrier::body && std::holds_alternative<Cylinder>(*own.shape);
+}
+
+/// How far beside a shape its contacts may touch it, m: of cylinders by what lies between them and the planes
+/// that stand for their sides where they have moved along these, too.
+double ContactSearch::beside(const std::array<int, 2>& pair) const {
+  const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
+  const double round = round_radius_of(one, two);
+  if (!is_cylinder(pair[0]) && !is_cylinder(pair[1])) return besides_ * round;
+  const double travel = travel_near(one, two) + travel_near(two, one);
+  return besides_ * round + travel * travel / (2 * round);
+}
+
+/// True if a collider is no farther from a point than `slack`, m.
+bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuration& at, double slack) {
+  const Motion& own = motions_[collider];
+  if (own.kind == Carrier::node) return true;  // it is round
+  if (own.kind != Carrier::triangle)
+    return is_at(*own.shape, placed_frame(collider, at), point, slack, scratch_, found_);
+  found_.clear();
+  triangle_.place(corners(own, at.x));
+  generate(triangle_, Sphere{slack}, {point, Eigen::Matrix3d::Identity()}, Reach{0}, scratch_, found_);
+  return !found_.empty();
+}
+
+/// True of what is endless, or two cylinders, too: the planes that stand for their rims are on neither.
+bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at) {
+  if (contact.of_surfaces) return true;
+  const auto& [a, b] = contact.collider;
+  if (std::isinf(motions_[a].radius) || std::isinf(motions_[b].radius)) return true;
+  if (is_cylinder(a) && is_cylinder(b)) return true;
+  const Touching found = touching_at(contact, at);
+  const double slack = beside(contact.pair());
+  return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
+}
+
+bool ContactSearch::is_left(const PairFeatures& features) const {
+  return std::find(left_.begin(), left_.end(), features) != left_.end();
+}
+
+bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
+                                const Configuration& end, double share) {
+  if (between_x_.cols() != start.x.cols()) between_x_ = start.x;
+  between_pose_.resize(start.pose.size());
+  const auto place = [&](int node) {
+    between_x_.col(node) = start.x.col(node) + share * (end.x.col(node) - start.x.col(node));
+  };
+  for (const int side : {0, 1}) {
+    const int carrier = contact.carrier[side];
+    if (side == contact.node_side) {
+      place(carrier);
+    } else if (side == contact.triangle_side) {
+      for (const int node : effect_.triangle[carrier]) place(node);
+    } else {
+      const Pose &from = start.pose[carrier], &to = end.pose[carrier];
+      Pose& pose = between_pose_[carrier];
+      pose.x = from.x + share * (to.x - from.x);
+      pose.rotation = turned_between(from.rotation, to.rotation, share);
+    }
+  }
+  return on_shapes(contact, {between_x_, between_pose_, start.time});
+}
+
+/// Makes a contact of two edges that is stated as a plane one of lines, where the shapes at `end` say so and
+/// that is another one there.
+bool ContactSearch::restate(ActiveContact& contact, const Configuration& start, const Configuration& end) {
+  const std::uint64_t key = contact.features.key;
+  if (contact.features.kind != ContactPoint::Kind::face || first_of(key).of != Feature::edge ||
+      second_of(key).of != Feature::edge)
+    return false;
+  const Pair pair{contact.pair()};
+  generate_between(pair, start, end, 1, beside(pair.collider));
+  for (const ContactPoint& point : found_) {
+    ActiveContact stated = active(point, pair.collider[0], pair.collider[1]);
+    if (stated.features.key != key || stated.features.kind != ContactPoint::Kind::edges) continue;
+    const Touching now = touching_at(contact, end), exact = touching_at(stated, end);
+    if ((now.normal - exact.normal).norm() <= besides_ &&
+        std::abs(now.gap - exact.gap) <= beside(pair.collider))
+      return false;
+    contact = stated;
+    return true;
+  }
+  return false;
+}
+
+/// Adds what touches of a pair at `end` to the late contacts, but for what has left its features, in the
+/// place of those of its contacts that have.
+void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
+                                 const Configuration& end, const Configuration& free) {
+  Pair pair{left.front().pair()};
+  const double slack = pair.overlooked = beside(pair.collider);
+  pair.nearest = generate_between(pair, start, end, 0, slack);
+  pair.deepest = std::min(pair.nearest, 0.0);
+  if (left.front().law.restitution > 0) {
+    overlapping_.clear();
+    find_overlapping(pair, start, free);
+  } else {
+    generate_between(pair, start, end, 1, slack);
+    keep_overlapping(pair, start, end, slack, pair.deepest - slack);
+  }
+  const auto place = [&](const ActiveContact& own) { return touching_at(own, end).point_a; };
+  for (ActiveContact& found : overlapping_) {
+    const PairFeatures features{pair.collider, found.features.key};
+    if (is_left(features) || late_contact(features) != late_.end()) continue;
+    const Vec3 here = place(found);
+    found.heir_of = std::min_element(left.begin(), left.end(), [&](const auto& one, const auto& other) {
+                      return (place(one) - here).norm() < (place(other) - here).norm();
+                    })->features.key;
+    add_late(found, pair.deepest);
+  }
+}
+
+/// True if contacts act where their features are not, or state them as they are not: they are left out of the
+/// rest of the step, and `find` has their pairs looked at again. What then overlaps by the same features
+/// keeps them.
+bool ContactSearch::drop_left(const Configuration& start, const Configuration& end, const Configuration& free,
+                              const ContactLists& contacts) {
+  const std::size_t before = left_.size();
+  std::vector<std::vector<ActiveContact>> left;  // of each pair
+  for (const auto& list : contacts)
+    for (const ActiveContact& contact : list) {
+      const PairFeatures features{contact.pair(), contact.features.key};
+      if (!contact.acts || is_left(features)) continue;
+      ActiveContact stated = contact;
+      const bool restated = restate(stated, start, end);
+      if (!restated && (contact.restitution > 0 || on_shapes(contact, end))) continue;
+      left_.push_back(features);
+      const auto late = late_contact(features);
+      if (restated)
+        add_late(stated, contact.target);
+      else if (late != late_.end())
+        late_.erase(late);
+      if (restated) continue;
+      if (left.empty() || left.back().front().pair() != features.collider) left.emplace_back();
+      left.back().push_back(contact);
+    }
+  for (const auto& of_pair : left) add_touching(of_pair, start, end, free);
+  return left_.size() > before;
+}
+
+}  // namespace pbd

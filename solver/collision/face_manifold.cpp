@@ -113,10 +113,11 @@ struct Manifold {
     writer.write(contact, writer.key(Feature::edge, i, Feature::edge, j), own_gap);
   }
 
-  /// b's node against a's face, if that has b's normal and is above the node; else as a point on b.
+  /// b's node against a's face, if that looks at b and is above the node; else as a point on b.
   void write_node_of_b(const Corner& corner, double gap) const {
     const Vec3& node = b.node(corner.j);
-    if (facing < 0 || -a.face_normal(facing).dot(normal) < same_normal || !a.above(facing, node, slack))
+    constexpr double looking = 0.9;  // cosine: the others lie askew, and touch by other features first
+    if (facing < 0 || -a.face_normal(facing).dot(normal) < looking || !a.above(facing, node, slack))
       return writer.write(on_b(corner.x),
                           writer.key(facing < 0 ? Feature::edge : Feature::face, std::max(facing, 0),
                                      Feature::node, corner.j),

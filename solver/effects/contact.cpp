@@ -100,8 +100,13 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   // What has collided does so for the rest of the step: nothing is told of it before the iterate solves the
   // step.
   if (blocks.empty() || (bounces_ && !begin.solved)) return Widened::no;
-  with_contacts(blocks, contacts_, [](const auto& block, auto& contacts) {
-    for (std::size_t i = 0; i < block.size(); ++i) contacts[i].acts = block.impulse[i][0] > 0;
+  double most = 0;  // N s
+  with_contacts(blocks, contacts_, [&](const auto& block, auto&) {
+    for (std::size_t i = 0; i < block.size(); ++i) most = std::max(most, block.impulse[i][0]);
+  });
+  with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      contacts[i].acts = block.impulse[i][0] > begin.tolerance * most;
   });
   if (!search_.extend(begin.bodies, begin.at, reached.x) &&
       !search_.look_again(begin.at, reached, {free_.x, free_.pose, begin.at.time}, begin.tolerance,

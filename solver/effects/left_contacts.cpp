@@ -129,7 +129,10 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       const PairFeatures features{contact.pair(), contact.features.key};
-      if (!contact.acts || is_left(features)) continue;
+      if (contact.of_surfaces || is_left(features)) continue;
+      // However a solver shares the impulses of what touches.
+      if (!contact.acts && touching_at(contact, end).gap > contact.target + beside(features.collider))
+        continue;
       ActiveContact stated = contact;
       const bool restated = restate(stated, start, end);
       if (!restated && (contact.restitution > 0 || on_shapes(contact, end))) continue;

@@ -35,6 +35,7 @@ struct ActiveContact {
   double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
   bool late = false;               // seen where a solved iterate ended; `target` is set there
   std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with
+  bool passes = false;        // its features have parted where the free motion closes its gap
   bool acts = false;          // has more of an impulse than an iterate's tolerance where that ended
   ContactLaw law;             // of its materials
   double offset = 0;          // m, of the gap by damping

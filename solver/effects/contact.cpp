@@ -93,7 +93,10 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   collided_.clear();
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
-  return fill(begin, blocks);
+  const bool others = fill(begin, blocks);
+  if (!bounces_ || !search_.find_met(begin.at, {free_.x, free_.pose, begin.at.time}, contacts_))
+    return others;
+  return fill(begin, blocks) || others;
 }
 
 Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) {
@@ -252,8 +255,9 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   if (!contact.late) contact.target = target_of(begin, shifts, gap, from, block, i);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  const bool meets = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0 &&
-                     meets_freely(begin, contact, gap, ahead);
+  const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
+  const bool meets = closes && meets_freely(begin, contact, gap, ahead);
+  contact.passes = closes && !meets;
   const bool collides = meets || collided_.contains({contact.pair(), contact.features.key});
   contact.restitution = collides ? contact.law.restitution : 0.0;
   contact.rebound =

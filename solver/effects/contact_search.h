@@ -66,6 +66,10 @@ class ContactSearch {
   bool look_again(const Configuration& start, const Configuration& end, const Configuration& free,
                   double tolerance, const ContactLists& contacts);
 
+  /// True if `find` will give other contacts: some of these pass, and their pairs meet by other features on
+  /// the way of the free motion.
+  bool find_met(const Configuration& start, const Configuration& free, const ContactLists& contacts);
+
   /// True if what touches of a contact is on both shapes at a share of the way from `start` to `end`.
   bool on_features(const ActiveContact& contact, const Configuration& start, const Configuration& end,
                    double share);

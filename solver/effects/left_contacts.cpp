@@ -92,6 +92,25 @@ bool ContactSearch::restate(ActiveContact& contact, const Configuration& start, 
   return false;
 }
 
+bool ContactSearch::find_met(const Configuration& start, const Configuration& free,
+                             const ContactLists& contacts) {
+  const std::size_t before = late_.size();
+  std::array<int, 2> last{-1, -1};
+  for (const auto& list : contacts)
+    for (const ActiveContact& contact : list) {
+      if (!contact.passes || contact.pair() == last) continue;
+      last = contact.pair();
+      Pair pair{last};
+      pair.overlooked = beside(last);
+      pair.nearest = generate_between(pair, start, free, 0, pair.overlooked);
+      pair.deepest = std::min(pair.nearest, 0.0);
+      overlapping_.clear();
+      find_overlapping(pair, start, free);
+      for (const ActiveContact& found : overlapping_) add_late(found, pair.deepest);
+    }
+  return late_.size() > before;
+}
+
 /// Adds what touches of a pair at `end` to the late contacts, but for what has left its features, in the
 /// place of those of its contacts that have.
 void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const Configuration& start,

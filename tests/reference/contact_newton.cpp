@@ -63,6 +63,39 @@ TEST_CASE("a ball bounces by its restitution, and sinks into what gives way") {
         closed);
 }
 
+TEST_CASE("what falls past a box meets nothing, whatever its restitution") {
+  const double restitution = GENERATE(0.0, 0.5);
+  BodyScene build({.friction = 0.3, .restitution = restitution}, gravity);
+  build.fixed(Box{Vec3::Ones()}, {.position = {0, 0, -0.5}});
+  // 6 mm beside it, from 30 mm above its top to 30 mm below.
+  build.box(Vec3::Constant(0.4), 1, {.position = {0.706, 0.05, 0.23}, .velocity = {0, 0, -6}});
+  const auto j = judged(build.finish());
+  CHECK((j.v.col(1) + (6 + gravity * step_s) * Vec3::UnitZ()).norm() <= closed);
+  CHECK(j.spin.col(1).norm() <= closed);
+}
+
+TEST_CASE("a corner that bounces returns the speed that the spin in the body's own axes gives it") {
+  const Vec3 size(0.4, 0.3, 0.2), velocity(-1, 0, -3), spin(1, 5, 2);
+  constexpr double restitution = 0.5;
+  BodyScene build({.friction = 0, .restitution = restitution}, 0);
+  build.ground();
+  const Eigen::Quaterniond askew(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  const Points corners = box_surface(size).x;
+  double low = 0;
+  for (Eigen::Index i = 0; i < corners.cols(); ++i) low = std::min(low, (askew * Vec3(corners.col(i))).z());
+  build.box(size, 1,
+            {.position = {0, 0, 5e-3 - low}, .orientation = askew, .velocity = velocity, .spin = spin});
+  const auto j = judged(build.finish());
+  const Eigen::Quaterniond turned(j.orientation[1]);
+  Vec3 arm = Vec3::Zero();
+  for (Eigen::Index i = 0; i < corners.cols(); ++i)
+    if (const Vec3 own = turned * Vec3(corners.col(i)); own.z() < arm.z()) arm = own;
+  const Vec3 before = velocity + (turned * spin).cross(arm),
+             after = j.v.col(1) + (turned * Vec3(j.spin.col(1))).cross(arm);
+  CHECK(before.z() < -1);
+  CHECK(std::abs(after.z() + restitution * before.z()) <= closed);
+}
+
 TEST_CASE("edges that cross, corners and balls stop each other where their gap closes") {
   const ContactLaw law{.friction = 0.3};
   const auto tilted = [](const Vec3& axis) {

@@ -1,0 +1,89 @@
+// What a shape's edges end: nothing is held or thrown back where a face is no more.
+#include "contact_runs.h"
+#include "mesh.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using pbdcheck::BodyScene;
+
+namespace {
+
+constexpr double half = 0.5, own_half = 0.2, h = 0.01;  // m, of the fixed box and of the other one; s
+const Vec3 under_at(0, 0, -half);                       // its top is at z = 0
+
+/// A fixed box, and one of 1 kg above it.
+Scene over_box(const ContactLaw& law, const Vec3& at, const Vec3& velocity, bool mesh = false) {
+  BodyScene build(law);
+  build.fixed(Box{Vec3::Constant(2 * half)}, {.position = under_at});
+  build.box(Vec3::Constant(2 * own_half), 1, {.position = at, .velocity = velocity});
+  if (mesh) build.contact().collider.back().shape = ClosedMesh(box_surface(Vec3::Constant(2 * own_half)));
+  return build.finish();
+}
+
+}  // namespace
+
+TEST_CASE("what falls past a box, 6 mm beside it, falls freely") {
+  const double restitution = GENERATE(0.0, 0.5), tolerance = GENERATE(1e-4, 1e-12);
+  const bool mesh = GENERATE(false, true);
+  const Vec3 at(half + own_half + 6e-3, 0.05, 0.35), velocity(0, 0, -6);
+  const Scene scene = over_box({.friction = 0.3, .restitution = restitution}, at, velocity, mesh);
+  Method method = contact_method("direct");
+  method.tolerance = tolerance;
+  constexpr int steps = 8;
+  const State end = run(scene, method, h, steps);
+  const double fallen = steps * h * 6 + pbdcheck::gravity * h * h * steps * (steps + 1) / 2;
+  INFO("restitution " << restitution << " tolerance " << tolerance << " mesh " << mesh);
+  CHECK((end.x.col(1) - (at - fallen * Vec3::UnitZ())).norm() <= 1e-12);
+  CHECK(end.spin.col(1).norm() <= 1e-12);
+}
+
+TEST_CASE("what slides over an edge is carried where both are") {
+  const Scene scene = over_box({.friction = 0.2}, Vec3(half - own_half / 4, 0.05, own_half), Vec3(3, 0, 0));
+  Workspace workspace(scene, contact_method("direct"));
+  State state = scene.initial;
+  constexpr double beside = 1e-8;  // m: more than the share of the radius that contact_search.h tells
+  double carried = 0;
+  for (int k = 0; k < 12; ++k) {
+    REQUIRE(step(workspace, h, state).status == Status::ok);
+    for (const ContactForce& each : workspace.contacts()) {
+      if (!(each.force.norm() > 1e-6)) continue;
+      carried += each.force.z();
+      const Vec3 on_top = each.point - under_at,
+                 on_own = state.orientation[1].conjugate() * Vec3(each.point - state.x.col(1));
+      INFO("step " << k << " at " << each.point.transpose());
+      CHECK(on_top.cwiseAbs().maxCoeff() <= half + beside);
+      CHECK(on_own.cwiseAbs().maxCoeff() <= own_half + beside);
+    }
+  }
+  CHECK(std::abs(carried) > 0.5 * 9.81);  // N in sum: it was carried before it tipped
+}
+
+// Its leading edge comes over the top within the step and would end 0.5 mm below it; its centre is beside the
+// fixed box, about whose edge it tips.
+TEST_CASE("what comes over an edge within a step lies on it at its end") {
+  const Vec3 at(half + own_half + 0.02, 0.05, own_half + 0.06);
+  const Scene scene = over_box({.friction = 0}, at, Vec3(-4, 0, -6));
+  const State end = run(scene, contact_method("direct"), h, 1);
+  const Vec3 edge = end.orientation[1].conjugate() * Vec3(Vec3(half, 0.05, 0) - end.x.col(1));
+  CHECK(std::abs(edge.z() + own_half) <= 1e-9);
+  CHECK(end.spin(1, 1) > 0);  // the far side goes down
+}
+
+TEST_CASE("what meets a face before it leaves it bounces, and what has left it does not") {
+  // 1 mm above the top and 10 mm from its edge: it meets the top after 1 ms, or after 8 ms, 16 mm on.
+  const double fast = GENERATE(1.0, 0.125);
+  const Vec3 ball_at(half - 0.01, 0, 0.1 + 1e-3), velocity(2, 0, -fast);
+  BodyScene build({.friction = 0, .restitution = 1}, 0);
+  build.fixed(Box{Vec3::Constant(2 * half)}, {.position = under_at});
+  build.ball(0.1, 1, {.position = ball_at, .velocity = velocity});
+  const State end = run(build.finish(), contact_method("direct"), h, 1);
+  if (fast == 1) {
+    CHECK(std::abs(end.v(2, 1) - fast) <= 1e-9);
+    CHECK(std::abs(end.v(0, 1) - 2) <= 1e-9);
+  } else {
+    // It meets the edge, whose normal leans towards where it goes.
+    CHECK(end.v(0, 1) >= 2 - 1e-12);
+    CHECK(std::abs(end.v.col(1).norm() - velocity.norm()) <= 1e-9);
+  }
+}

@@ -10,7 +10,8 @@
 //         where the step begins, in the body's own axes
 //   u_t = t . u
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
-// `recovery` at most; what would meet in free motion, and what is parting too slowly for its e, collides.
+// `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
+// what is parting too slowly for its e, collides.
 #pragma once
 
 #include "cone_problem.h"

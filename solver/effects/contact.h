@@ -4,36 +4,38 @@
 //   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l where the step begins,
 //               g_0 at x0: overlaps part at `recovery` at most and get no deeper. Sigma = A/(h d); a damper
 //               is met where the shapes touch. Where shapes collide with restitution e in this step, the
-//               smaller of this and n . (u(v) + e u(v_l)), u the relative velocity of what touches: what
-//               rolls sinks by the curvature of its path if it is kept from approaching alone. The gap may
-//               then be the one to which that speed leads from x0: with newmark and alpha = 1/2 energy is
-//               kept for e = 1
+//               smaller of this and n . (u(v) + e u(v_l)), u the relative velocity of what touches, in
+//               u(v_l) by a body's spin in its own axes: what rolls sinks by the curvature of its path if it
+//               is kept from approaching alone. The gap may then be the one to which that speed leads from
+//               x0: with newmark and alpha = 1/2 energy is kept for e = 1
 //   tangential  t_j . u(v), two directions across n that follow it
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
-// Limits: features stay those of the step's beginning, and of its end where something overlaps there, so that
-// a face goes on as its plane within a step. Impulses act at a step's end alone, under newmark, too, on both
-// bodies at one place, so that they turn nothing together. Nodes do not touch nodes. Deformable surfaces
-// touch each other by nodes over triangles and edges that cross, where the nearest points lie on them as the
-// step begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side;
-// a node that comes over an edge or a corner within a step is held by whatever else is near. Bodies touch
-// each triangle half a thickness from it, by all features of both; features that triangles share count
-// once, and where a body is nearer to a triangle beside them, not at all. `thickness` should
-// be well below the shortest edge; a crease so sharp that its triangles are nearer than that parts them by
-// force, and such steps may not converge.
+// Features are those of the step's beginning, and of its end where something overlaps there or a contact has
+// left its features: one that touches where its shapes are not (left_contacts.cpp) acts no more in the step.
+//
+// Limits: impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they
+// turn nothing together. Nodes do not touch nodes. Deformable surfaces touch each other by nodes over
+// triangles and edges that cross, where the nearest points lie on them as the step begins; the side is the
+// one on which it begins. What overlaps from the start stays on the wrong side; a node that comes over an
+// edge or a corner within a step is held by whatever else is near. Bodies touch each triangle half a
+// thickness from it, by all features of both; features that triangles share count once, and where a body is
+// nearer to a triangle beside them, not at all. `thickness` should be well below the shortest edge; a crease
+// so sharp that its triangles are nearer than that parts them by force, and such steps may not converge.
 //
 // What a missed step leaves overlapping, or a diverged one began with, parts by a tenth of that a step, and
 // what forces move in one, until nothing overlaps: to part at once would throw it, by all the speed that has
 // gone into the overlap.
 //
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
-// meets; and whatever approached and touches in the solved step, but parts by less than e of its speed at the
-// start: such are let collide, and the step is solved again, until there are no more. What parts where the
-// step begins, and forces bring back in it, does not collide. So what collides depends on the velocities that
-// solve a step, not on how a solver shares impulses among contacts; where friction leaves velocities open,
-// what collides is open, too. A collision falls at its step's end: the speed that comes back is e times that
-// at the step's start, g h too small at most, from a place up to v h above the ground: heights of rebounds
-// are of first order in h. What one round has let collide does so for the rest of the step, solved or missed.
+// meets, by features that are there when their gap closes; and whatever approached and touches in the solved
+// step, but parts by less than e of its speed at the start: such are let collide, and the step is solved
+// again, until there are no more. What parts where the step begins, and forces bring back in it, does not
+// collide. So what collides depends on the velocities that solve a step, not on how a solver shares impulses
+// among contacts; where friction leaves velocities open, what collides is open, too. A collision falls at its
+// step's end: the speed that comes back is e times that at the step's start, g h too small at most, from a
+// place up to v h above the ground: heights of rebounds are of first order in h. What one round has let
+// collide does so for the rest of the step, solved or missed.
 #pragma once
 
 #include <set>

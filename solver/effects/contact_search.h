@@ -18,6 +18,12 @@
 // Of polyhedra r is half their least width. Sixteen and 1e-4 are no bounds: they are measured, and random
 // steps hold to them (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
 // generate.h says of them, which may be too large.
+//
+// A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
+// one of its shapes, by more than the tolerance's share of r there (of cylinders by what a plane is off their
+// side, too), leaves the step; its pair is looked at again from then on, along the way from the start, too,
+// so that nothing thin is passed for it. A contact of two edges that is stated as a plane is stated as the
+// edges.
 #pragma once
 
 #include <array>

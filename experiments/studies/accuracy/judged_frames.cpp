@@ -23,7 +23,8 @@ struct JudgedScene {
   double duration;
   std::int64_t every;
 };
-constexpr std::array<JudgedScene, 6> judged_scenes{{{"incline", 0.2, 10},
+constexpr std::array<JudgedScene, 7> judged_scenes{{{"incline", 0.2, 10},
+                                                    {"boxes_at_edges", 0.15, 1},
                                                     {"dominoes", 0.6, 20},
                                                     {"trampoline", 0.5, 10},
                                                     {"box_on_soft_block", 0.6, 10},

@@ -172,9 +172,8 @@ void ContactSearch::add_pair(int first, int second, const Configuration& start, 
     if (contact.pair() == std::array{first, second}) add(contact);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
   const double round = round_radius_of(one, two), deepest = std::min(nearest, 0.0);
-  const bool left = std::any_of(left_.begin(), left_.end(), [&](const PairFeatures& own) {
-    return own.collider == std::array{first, second};
-  });
+  const auto of_pair = left_.lower_bound({{first, second}, 0});
+  const bool left = of_pair != left_.end() && of_pair->collider == std::array{first, second};
   const double depth = (left ? std::min(besides_, overlooked) : overlooked) * round;
   if (bounded && (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
     far_.push_back({{first, second}, nearest, deepest, depth, left});

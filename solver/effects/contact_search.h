@@ -27,7 +27,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -114,7 +116,7 @@ class ContactSearch {
     std::array<int, 2> collider;  // the lower one first
     std::uint64_t key;            // as `active` gives it
 
-    bool operator==(const PairFeatures&) const = default;
+    auto operator<=>(const PairFeatures&) const = default;
   };
   struct TriangleName {  // of a contact: the same for all triangles that share the feature
     int body;            // as the effect counts colliders
@@ -191,9 +193,9 @@ class ContactSearch {
   std::vector<Motion> motions_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
-  double besides_ = least_beside;   // that a contact may touch a shape beside it, of the same radius
-  std::vector<PairFeatures> left_;  // whose contacts acted in this step where they are not
-  Points between_x_;                // m, on the way of a contact's carriers; the others' are of no use
+  double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
+  std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
+  Points between_x_;               // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;
   std::vector<ContactPoint> found_;
   std::vector<ActiveContact> overlapping_;

@@ -44,7 +44,7 @@ bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration&
 }
 
 bool ContactSearch::is_left(const PairFeatures& features) const {
-  return std::find(left_.begin(), left_.end(), features) != left_.end();
+  return left_.contains(features);
 }
 
 bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
@@ -155,7 +155,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       ActiveContact stated = contact;
       const bool restated = restate(stated, start, end);
       if (!restated && (contact.restitution > 0 || on_shapes(contact, end))) continue;
-      left_.push_back(features);
+      left_.insert(features);
       const auto late = late_contact(features);
       if (restated)
         add_late(stated, contact.target);

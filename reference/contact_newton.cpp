@@ -47,8 +47,8 @@ struct StepSearch {
                    displacement_of(step.step, velocity);
       if (!std::isfinite(correction)) return false;
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
-        const bool own_features = came_near || features_kept;
-        if (!step.collide(velocity) && own_features) return true;
+        // What is near at the start alone lets nothing collide.
+        if ((came_near || features_kept) && !step.collide(velocity)) return true;
         came_near = true;
         correction = infinity;
       }

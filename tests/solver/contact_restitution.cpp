@@ -33,7 +33,7 @@ TEST_CASE("restitution gives every solver, outer iteration and start the same mo
           method.tolerance = 1e-10;
           method.max_sweeps = 20000;
           method.max_outer =
-              200;  // of up to eight problems a step: what collides and what leaves its features
+              200;  // a step of these is solved anew for what collides and what leaves its features
           method.warm_start = warm;
           const State end = run(scene, method, h, static_cast<int>(std::lround(0.04 / h)));
           if (expected.size() == 0) expected = end.v;

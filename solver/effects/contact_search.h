@@ -182,7 +182,9 @@ class ContactSearch {
   bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
   bool is_left(const PairFeatures& features) const;
-  bool restate(ActiveContact& contact, const Configuration& start, const Configuration& end);
+  std::optional<ActiveContact> as_edges(const ActiveContact& contact, const Configuration& start,
+                                        const Configuration& end);
+  Pair begun(const std::array<int, 2>& colliders, const Configuration& start);
   void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                     const Configuration& end, const Configuration& free);
   bool drop_left(const Configuration& start, const Configuration& end, const Configuration& free,

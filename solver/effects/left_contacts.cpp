@@ -70,13 +70,14 @@ bool ContactSearch::on_features(const ActiveContact& contact, const Configuratio
   return on_shapes(contact, {between_x_, between_pose_, start.time});
 }
 
-/// Makes a contact of two edges that is stated as a plane one of lines, where the shapes at `end` say so and
+/// A contact of two edges that is stated as a plane, as one of lines, where the shapes at `end` say so and
 /// that is another one there.
-bool ContactSearch::restate(ActiveContact& contact, const Configuration& start, const Configuration& end) {
+std::optional<ActiveContact> ContactSearch::as_edges(const ActiveContact& contact, const Configuration& start,
+                                                     const Configuration& end) {
   const std::uint64_t key = contact.features.key;
   if (contact.features.kind != ContactPoint::Kind::face || first_of(key).of != Feature::edge ||
       second_of(key).of != Feature::edge)
-    return false;
+    return std::nullopt;
   const Pair pair{contact.pair()};
   generate_between(pair, start, end, 1, beside(pair.collider));
   for (const ContactPoint& point : found_) {
@@ -85,11 +86,19 @@ bool ContactSearch::restate(ActiveContact& contact, const Configuration& start, 
     const Touching now = touching_at(contact, end), exact = touching_at(stated, end);
     if ((now.normal - exact.normal).norm() <= besides_ &&
         std::abs(now.gap - exact.gap) <= beside(pair.collider))
-      return false;
-    contact = stated;
-    return true;
+      return std::nullopt;
+    return stated;
   }
-  return false;
+  return std::nullopt;
+}
+
+/// A pair as the step begins, of which contacts beside their shapes tell.
+ContactSearch::Pair ContactSearch::begun(const std::array<int, 2>& colliders, const Configuration& start) {
+  Pair pair{colliders};
+  pair.overlooked = beside(colliders);
+  pair.nearest = generate_between(pair, start, start, 0, pair.overlooked);
+  pair.deepest = std::min(pair.nearest, 0.0);
+  return pair;
 }
 
 bool ContactSearch::find_met(const Configuration& start, const Configuration& free,
@@ -100,10 +109,7 @@ bool ContactSearch::find_met(const Configuration& start, const Configuration& fr
     for (const ActiveContact& contact : list) {
       if (!contact.passes || contact.pair() == last) continue;
       last = contact.pair();
-      Pair pair{last};
-      pair.overlooked = beside(last);
-      pair.nearest = generate_between(pair, start, free, 0, pair.overlooked);
-      pair.deepest = std::min(pair.nearest, 0.0);
+      const Pair pair = begun(last, start);
       overlapping_.clear();
       find_overlapping(pair, start, free);
       for (const ActiveContact& found : overlapping_) add_late(found, pair.deepest);
@@ -115,10 +121,8 @@ bool ContactSearch::find_met(const Configuration& start, const Configuration& fr
 /// place of those of its contacts that have.
 void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                                  const Configuration& end, const Configuration& free) {
-  Pair pair{left.front().pair()};
-  const double slack = pair.overlooked = beside(pair.collider);
-  pair.nearest = generate_between(pair, start, end, 0, slack);
-  pair.deepest = std::min(pair.nearest, 0.0);
+  const Pair pair = begun(left.front().pair(), start);
+  const double slack = pair.overlooked;
   if (left.front().law.restitution > 0) {
     overlapping_.clear();
     find_overlapping(pair, start, free);
@@ -152,16 +156,14 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       // However a solver shares the impulses of what touches.
       if (!contact.acts && touching_at(contact, end).gap > contact.target + beside(features.collider))
         continue;
-      ActiveContact stated = contact;
-      const bool restated = restate(stated, start, end);
-      if (!restated && (contact.restitution > 0 || on_shapes(contact, end))) continue;
+      if (const auto edges = as_edges(contact, start, end)) {
+        left_.insert(features);
+        add_late(*edges, contact.target);
+        continue;
+      }
+      if (contact.restitution > 0 || on_shapes(contact, end)) continue;
       left_.insert(features);
-      const auto late = late_contact(features);
-      if (restated)
-        add_late(stated, contact.target);
-      else if (late != late_.end())
-        late_.erase(late);
-      if (restated) continue;
+      if (const auto late = late_contact(features); late != late_.end()) late_.erase(late);
       if (left.empty() || left.back().front().pair() != features.collider) left.emplace_back();
       left.back().push_back(contact);
     }

@@ -1,0 +1,107 @@
+// What contacts ask for where a step begins, or where they are found anew in it.
+#include <algorithm>
+#include <cmath>
+
+#include "effects/contact.h"
+#include "effects/contact_blocks.h"
+#include "rows/row_operations.h"
+
+namespace pbd {
+
+void ContactRows::keep_impulses(ConstBlockSpan blocks) {
+  seeds_.clear();
+  with_contacts(blocks, contacts_, [&]<class Block>(const Block& block, const auto& contacts) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (!(block.impulse[i][0] > 0)) continue;
+      const auto directions = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
+      seeds_.add(contacts[i].collider, contacts[i].features.key, directions.transpose() * block.impulse[i]);
+    }
+  });
+  seeds_.sort();
+}
+
+/// The gap that a contact aims at, `gap` where the step begins and `from` at x0 (m).
+template <class Block>
+double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from,
+                              const Block& block, std::size_t i) const {
+  constexpr double recovered =
+      0.1;  // a step, of what missed steps left: at once it would take a hundred times the energy
+  const double target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  if (!recovering_ || gap >= target) return target;
+  const double forced = std::abs((block.jacobian[i] * block.gather(shifts.forced, i))[0]);
+  return std::min(target, (1 - recovered) * gap + forced);
+}
+
+/// The impulse that a contact had in the last step, as its law lets it be.
+template <class Block>
+void ContactRows::take_seed(const ActiveContact& contact, Block& block, std::size_t i) const {
+  const auto& [a, b] = contact.collider;
+  const Vec3* seed = seeds_.find({a, b}, contact.features.key);
+  double sign = 1;
+  if (seed == nullptr && contact.heir_of != 0) {
+    seed = seeds_.find({a, b}, contact.heir_of);
+    if (seed == nullptr) seed = seeds_.find({b, a}, contact.heir_of), sign = -1;
+  }
+  if (seed == nullptr) return;
+  block.impulse[i] = sign * (directions_in<Block>(contact, block.jacobian[i]) * *seed);
+  block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
+}
+
+/// True if what a gap falls to zero between touches there, on the way of the free motion, which the gap of
+/// the contact ends as `ahead`, m.
+bool ContactRows::meets_freely(const StepBegin& begin, const ActiveContact& contact, double gap,
+                               double ahead) {
+  const double share = gap > 0 ? gap / (gap - ahead) : 0;
+  return search_.on_features(contact, begin.at, {free_.x, free_.pose, begin.at.time}, share);
+}
+
+/// What a contact asks for in this step, and the impulse it begins with.
+template <class Block>
+void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact,
+                                Block& block, std::size_t i) {
+  auto& jacobian = block.jacobian[i];
+  contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
+  const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
+  const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
+  if (!contact.late) contact.target = target_of(begin, shifts, gap, from, block, i);
+  contact.closing = -(jacobian * block.gather(start_v_, i))[0];
+  const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
+  const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
+  const bool meets = closes && meets_freely(begin, contact, gap, ahead);
+  contact.passes = closes && !meets;
+  const bool collides = meets || collided_.contains({contact.pair(), contact.features.key});
+  contact.restitution = collides ? contact.law.restitution : 0.0;
+  contact.rebound =
+      contact.closing > 0
+          ? std::min(contact.target, from + begin.map.d * contact.law.restitution * contact.closing)
+          : contact.target;
+  const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
+  contact.compliance = elastic * contact.law.compliance;
+  // The damper is met with the shape; what is seen late was apart.
+  contact.offset = contact.late ? 0 : (1 - elastic) * (std::min(from, 0.0) - contact.target);
+  take_seed(contact, block, i);
+}
+
+/// True if the rows connect other columns than before.
+bool ContactRows::fill(const StepBegin& begin, BlockSpan blocks) {
+  search_.find(begin.at, contacts_);
+  const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x,
+                      begin.map.d * (begin.map.v_free - begin.v)};
+  bool others = false, apart = true;
+  with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
+    std::vector<typename Block::Shape::Nodes> before;
+    before.swap(block.node);
+    block.resize_contacts(contacts.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      block.node[i] = columns_of_contact<Block>(contacts[i], begin.bodies);
+      if (block.frictional()) block.friction[i] = contacts[i].law.friction;
+      begin_contact(begin, shifts, contacts[i], block, i);
+      apart = apart && contacts[i].target == 0;
+    }
+    others |= block.node != before;
+  });
+  if (apart) recovering_ = false;
+  return others;
+}
+
+}  // namespace pbd

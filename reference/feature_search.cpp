@@ -67,6 +67,17 @@ struct Between {
     if (gap >= -depth || nearest(pair, start).gap >= -depth) found.push_back(pair);
   }
 
+  /// True of a corner that was below a rigid face's plane, but not below the face: it has slid down a side.
+  bool came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const {
+    if (of_face.deformable || of_face.plane) return false;
+    std::vector<Vec3> corners;
+    for (const int corner : of_face.face[k])
+      corners.push_back(placed(of_face.corner[static_cast<std::size_t>(corner)], start));
+    const Nearest begun = nearest(pair, start);
+    if (begun.gap + pair.a.radius + pair.b.radius >= 0) return false;
+    return !is_within(corners, placed(pair.a.corner[0], start), begun.normal);
+  }
+
   void corners_over_faces(const PlacedSurface& a, const PlacedSurface& b, double reach, double depth) {
     if (a.surface.plane) return;  // it has none
     each_near(a, 0, b, 2, reach, [&](std::size_t i, std::size_t k) {
@@ -78,6 +89,7 @@ struct Between {
         take_side_of_start(pair);
       }
       if (!b.surface.plane && !a.lies_along(pair.side * n, a.x[i], 0, i, leaning)) return;
+      if (came_from_beside(pair, b.surface, k)) return;
       add_if(pair, reach, b.surface.plane ? infinity : depth);
     });
   }
@@ -199,7 +211,6 @@ void FeatureSearch::find(const Placement& start, const Placement& at, std::vecto
 }
 
 bool FeatureSearch::on_both(const FeaturePair& pair, const Placement& at) const {
-  constexpr double beyond = 1e-4;  // of a side, as above
   const Nearest found = nearest(pair, at);
   const auto between_corners = [&](const std::array<double, 3>& weight) {
     return *std::min_element(weight.begin(), weight.end()) >= -beyond;

@@ -21,6 +21,18 @@ struct Bounds {
   }
 };
 
+/// Lengths of no account beside a face, of its sides.
+constexpr double beyond = 1e-4;
+
+/// Whether a point is above or below a face with normal n, or next to nothing beside it.
+inline bool is_within(const std::vector<Vec3>& corners, const Vec3& point, const Vec3& n) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 side = corners[(k + 1) % corners.size()] - corners[k];
+    if (side.cross(point - corners[k]).dot(n) < -beyond * side.squaredNorm()) return false;
+  }
+  return true;
+}
+
 /// A surface where it stands: its corners, features and the boxes about them.
 struct PlacedSurface {
   const Surface& surface;
@@ -87,14 +99,9 @@ struct PlacedSurface {
   }
 
   bool within_face(std::size_t i, const Vec3& point, const Vec3& n) const {
-    constexpr double beyond = 1e-4;  // of a side
-    const auto& face = surface.face[i];
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const Vec3& from = x[static_cast<std::size_t>(face[k])];
-      const Vec3 side = x[static_cast<std::size_t>(face[(k + 1) % face.size()])] - from;
-      if (side.cross(point - from).dot(n) < -beyond * side.squaredNorm()) return false;
-    }
-    return true;
+    std::vector<Vec3> corners;
+    for (const int k : surface.face[i]) corners.push_back(x[static_cast<std::size_t>(k)]);
+    return is_within(corners, point, n);
   }
 
   Vec3 face_normal(std::size_t i) const {

@@ -83,6 +83,16 @@ TEST_CASE("a ball that comes down where a face has ended flies on, whatever its 
   CHECK((judged(build.finish()).v.col(1) - velocity).norm() <= closed);
 }
 
+TEST_CASE("corners that slide down a side are not lifted on to the face above it, however large the scene") {
+  BodyScene build({.friction = 0}, gravity);
+  build.fixed(Box{Vec3::Ones()}, {.position = {0, 0, -0.5}});
+  build.fixed(Box{Vec3::Ones()}, {.position = {0, 20, -0.5}});
+  // A plate that moves against the side 0.5 mm away, its lower corners 5 mm below the top.
+  const double apart = 5e-4;
+  build.box({0.4, 0.4, 0.008}, 1, {.position = {0.7 + apart, 0, -0.001}, .velocity = {-1, 0, -1}});
+  CHECK((judged(build.finish()).v.col(2) - Vec3(-apart / step_s, 0, -1 - gravity * step_s)).norm() <= closed);
+}
+
 TEST_CASE("a corner that bounces returns the speed that the spin in the body's own axes gives it") {
   const Vec3 size(0.4, 0.3, 0.2), velocity(-1, 0, -3), spin(1, 5, 2);
   constexpr double restitution = 0.5;

@@ -1,5 +1,7 @@
 #include "collision/mesh_pair.h"
 
+#include <utility>
+
 #include "collision/segments.h"
 
 namespace pbd {
@@ -88,8 +90,8 @@ void MeshPair::nodes() const {
     if (nearest.distance <= 0) {
       write(i, nearest);
     } else {
-      minima_of_mesh(b, a.node(i), limit, scratch.places, scratch.minima);
-      for (const MeshPlace& at : scratch.minima) write(i, at);
+      minima_of_mesh(b, a.node(i), limit, scratch.minima);
+      for (const MeshPlace& at : scratch.minima.found) write(i, at);
     }
   }
 }
@@ -161,13 +163,17 @@ void MeshPair::crossing(int i, int j) const {
 }
 
 void MeshPair::edges() const {
+  scratch.met.assign(b.solid.edges.size(), -1);
   for (int i = 0; i < a.edge_count(); ++i) {
     AxisBox box;
     for (const int node : a.edge(i).node) box.extend(a.node(node));
     box.min().array() -= limit;
     box.max().array() += limit;
     b.tree.find(box, [&](int triangle) {
-      for (std::size_t k = 0; k < 3; ++k) crossing(i, b.solid.sides[3 * triangle + k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int j = b.solid.sides[3 * triangle + k];
+        if (std::exchange(scratch.met[j], i) != i) crossing(i, j);
+      }
     });
   }
 }

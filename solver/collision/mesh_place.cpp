@@ -1,7 +1,9 @@
 #include "collision/mesh_place.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "collision/tolerances.h"
 
@@ -72,46 +74,51 @@ MeshPlace nearest_of_triangle(const ClosedMesh& mesh, int triangle, const Vec3& 
 }
 
 bool nearest_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshPlace& place) {
+  constexpr double begin = 1.0 / 16;  // of the limit: most queries end far below it
   const double most = mesh.box.contains(x) ? mesh.size : limit;
   bool found = false;
-  for (double reach = limit;; reach = std::min(2 * reach + rounding * most, most)) {
-    mesh.tree.find(cube_about(x, reach), [&](int triangle) {
+  for (double reach = begin * limit;; reach = std::min(2 * reach + rounding * most, most)) {
+    AxisBox cube = cube_about(x, reach);
+    mesh.tree.find(cube, [&](int triangle) {
       const MeshPlace at = nearest_of_triangle(mesh, triangle, x);
       if (std::abs(at.distance) > reach || (found && std::abs(at.distance) >= std::abs(place.distance)))
         return;
       place = at;
       found = true;
+      cube = cube_about(x, (1 + rounding) * std::abs(at.distance));
     });
     if (found || reach >= most) return found;
   }
 }
 
-void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, std::vector<MeshPlace>& near,
-                    std::vector<MeshPlace>& found) {
-  near.clear();
+void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshMinima& minima) {
+  auto& [found, near, seen] = minima;
+  const std::size_t edges = mesh.solid.edges.size();
   found.clear();
+  near.clear();
+  seen.resize(std::max(seen.size(), edges + mesh.node_normals.cols()));
+  const auto seen_of = [&](const MeshPlace& at) -> int& {
+    return seen[(at.feature == MeshPlace::Feature::edge ? 0 : edges) + static_cast<std::size_t>(at.i)];
+  };
   mesh.tree.find(cube_about(x, limit), [&](int triangle) {
     const MeshPlace at = nearest_of_triangle(mesh, triangle, x);
-    if (at.distance > limit) return;
-    near.push_back(at);
-    near.back().distance = at.distance;
-    if (at.feature == MeshPlace::Feature::face && at.distance > 0) found.push_back(at);
+    if (at.distance > limit || !(at.distance > 0)) return;
+    if (at.feature == MeshPlace::Feature::face)
+      found.push_back(at);
+    else if (seen_of(at)++ == 0)
+      near.push_back(at);
   });
   // An edge or a node: where all triangles about it have it as their nearest point.
   for (const MeshPlace& at : near) {
-    if (at.feature == MeshPlace::Feature::face || !(at.distance > 0)) continue;
-    const auto same = [&](const MeshPlace& other) { return other.feature == at.feature && other.i == at.i; };
-    if (std::any_of(found.begin(), found.end(), same)) continue;
-    const auto seen = std::count_if(near.begin(), near.end(), same);
-    std::ptrdiff_t about = 2;
+    int about = 2;
     if (at.feature == MeshPlace::Feature::node) {
       about = 0;
       mesh.tree.find(cube_about(at.nearest, 0), [&](int triangle) {
         const auto& nodes = mesh.surface.triangles[triangle];
-        about += std::count(nodes.begin(), nodes.end(), at.i);
+        about += static_cast<int>(std::count(nodes.begin(), nodes.end(), at.i));
       });
     }
-    if (seen == about) found.push_back(at);
+    if (std::exchange(seen_of(at), 0) == about) found.push_back(at);
   }
 }
 

@@ -25,9 +25,15 @@ MeshPlace nearest_of_triangle(const ClosedMesh& mesh, int triangle, const Vec3& 
 /// What is nearest to x, if that is inside or nearer than `limit` (m).
 bool nearest_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshPlace& place);
 
+/// What `minima_of_mesh` found, and its scratch: what is no face, and of all edges and nodes how many
+/// triangles have been met that have it as their nearest point, zero in between.
+struct MeshMinima {
+  std::vector<MeshPlace> found, near;
+  std::vector<int> seen;
+};
+
 /// All features nearer than `limit` (m) to a point x outside whose distance has a minimum over the surface:
-/// nothing for the edges within a flat region, unless x is over one. `near` is scratch.
-void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, std::vector<MeshPlace>& near,
-                    std::vector<MeshPlace>& found);
+/// nothing for the edges within a flat region, unless x is over one.
+void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshMinima& minima);
 
 }  // namespace pbd

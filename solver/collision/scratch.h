@@ -23,8 +23,9 @@ struct CollisionScratch {
   RoundedPolyhedron a, b;                        // the shapes, placed
   std::vector<double> slopes_a, slopes_b;        // 1, of a's edges on b's faces, and of b's on a's
   std::vector<ManifoldCorner> polygon, clipped;  // of two faces
-  std::vector<MeshPlace> places, minima;         // of a mesh about a point
+  MeshMinima minima;                             // of a mesh about a point
   std::vector<int> cut_nodes;                    // of a mesh's triangles that a shape cuts
+  std::vector<int> met;                          // of a mesh's edges, the edge that was last beside it
 };
 
 }  // namespace pbd

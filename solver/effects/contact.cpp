@@ -78,7 +78,7 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   recovering_ = begin.after_miss || (begin.continued && recovering_);
   free_.x = begin.map.x0 + begin.map.d * begin.map.v_free;
   begin.bodies.place(free_.x, free_.pose);
-  search_.begin(begin.bodies, begin.at, free_.x, begin.inverse_mass);
+  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.v, free_.x, begin.inverse_mass);
   collided_.clear();
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();

@@ -40,11 +40,11 @@ ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, co
   const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
   if (motion.kind == Carrier::node) return {shift(motion.carrier).norm(), 0};
   const Pose& pose = start.pose[motion.carrier];
-  return {shift(bodies.node(motion.carrier)).norm(),
+  return {(shift(bodies.node(motion.carrier)) - motion.course).norm(),
           (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm()};
 }
 
-/// Of the points of the collider; of a half space, of its body's centre.
+/// Of the points of the collider, beside its course; of a half space, of its body's centre.
 double ContactSearch::farthest_travel(const Motion& motion, const Displacement& moved) {
   if (motion.kind == Carrier::triangle) return moved.shift;
   return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
@@ -53,7 +53,13 @@ double ContactSearch::farthest_travel(const Motion& motion, const Displacement& 
 /// Of the points that the other one may reach.
 double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
   if (std::isfinite(motion.radius)) return motion.travel;
-  return motion.travel + motion.turn * ((other.centre - motion.centre).norm() + other.radius + other.travel);
+  const double apart = (other.centre - motion.centre).norm() + (other.course - motion.course).norm();
+  return motion.travel + motion.turn * (apart + other.radius + other.travel);
+}
+
+/// By how much a gap between two falls at most.
+double ContactSearch::travel_between(const Motion& one, const Motion& two) {
+  return (one.course - two.course).norm() + travel_near(one, two) + travel_near(two, one);
 }
 
 Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {
@@ -86,8 +92,6 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
 void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
   const int material = effect_.surface_material;
   const ContactLaw& law = effect_.law[material * effect_.materials + material];
-  surface_contacts_.clear();
-  surfaces_->find(x, node_travel_, effect_.thickness, surface_contacts_);
   for (const SurfaceContact& found : surface_contacts_) {
     ActiveContact contact;
     contact.of_surfaces = true;
@@ -148,35 +152,46 @@ std::vector<ActiveContact>::iterator ContactSearch::late_contact(const PairFeatu
   });
 }
 
-void ContactSearch::add_pair(int first, int second, const Configuration& start, ContactLists& contacts) {
+/// What a pair's features make where the step begins.
+void ContactSearch::search_pair(int first, int second, const Configuration& start) {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
-  const double travel = travel_near(one, two) + travel_near(two, one);
+  const double travel = travel_between(one, two);
   if (two.kind == Carrier::triangle) triangle_.place(corners(two, start.x));
   find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn});
+  double nearest = infinity;
+  for (const ContactPoint& point : found_) {
+    nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
+    const ActiveContact contact = active(point, first, second);
+    if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) near_.push_back(contact);
+  }
+  near_pairs_.push_back({{first, second}, nearest, near_.size()});
+}
+
+/// Of what is near, and what came to touch later, the contacts of a pair.
+void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact> near,
+                             ContactLists& contacts) {
+  const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const auto add = [&](const ActiveContact& contact) {
     const std::size_t group = two.kind == Carrier::body   ? bodies_rough
                               : two.kind == Carrier::node ? nodes_rough
                                                           : triangles_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
   };
-  double nearest = infinity;
-  for (const ContactPoint& point : found_) {
-    nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
-    const ActiveContact contact = active(point, first, second);
-    const PairFeatures features{{first, second}, contact.features.key};
-    if (is_left(features) || late_contact(features) != late_.end()) continue;
-    if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) add(contact);
+  for (const ActiveContact& contact : near) {
+    const PairFeatures features{pair.collider, contact.features.key};
+    if (!is_left(features) && late_contact(features) == late_.end()) add(contact);
   }
   for (const ActiveContact& contact : late_)
-    if (contact.pair() == std::array{first, second}) add(contact);
+    if (contact.pair() == pair.collider) add(contact);
+  const double travel = travel_between(one, two);
   const bool bounded = std::isfinite(one.radius) && std::isfinite(two.radius);
-  const double round = round_radius_of(one, two), deepest = std::min(nearest, 0.0);
-  const auto of_pair = left_.lower_bound({{first, second}, 0});
-  const bool left = of_pair != left_.end() && of_pair->collider == std::array{first, second};
+  const double round = round_radius_of(one, two), deepest = std::min(pair.nearest, 0.0);
+  const auto of_pair = left_.lower_bound({pair.collider, 0});
+  const bool left = of_pair != left_.end() && of_pair->collider == pair.collider;
   const double depth = (left ? std::min(besides_, overlooked) : overlooked) * round;
   if (bounded && (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
-    far_.push_back({{first, second}, nearest, deepest, depth, left});
+    far_.push_back({pair.collider, pair.nearest, deepest, depth, left});
 }
 
 void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
@@ -189,17 +204,21 @@ void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_
   for (ContactPoint& point : found_) point.swapped = !point.swapped;
 }
 
-void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& free,
-                          const std::vector<double>& inverse_mass) {
+void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& straight,
+                          const Points& free, const std::vector<double>& inverse_mass) {
   place_colliders(bodies, start, inverse_mass);
+  searched_ = false;
   late_.clear();
   left_.clear();
   for (Motion& motion : motions_) {
+    const bool body = motion.kind == Carrier::body;
+    if (body)
+      motion.course = straight.col(bodies.node(motion.carrier)) - start.x.col(bodies.node(motion.carrier));
     const Displacement moved = displacement(motion, bodies, start, free);
-    motion.travel = farthest_travel(motion, moved);
+    motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
     motion.turn = moved.turn;
-    if (motion.kind == Carrier::body && motion.radius > 0)
-      motion.turn = std::max(moved.turn, motion.travel / motion.radius);
+    if (body && motion.radius > 0)
+      motion.turn = std::max(moved.turn, (motion.course.norm() + motion.travel) / motion.radius);
   }
   if (!surfaces_) return;
   node_travel_.assign(bodies.nodes(), 0.0);
@@ -209,9 +228,8 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
 bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
   bool farther = false;
   const auto extend = [&](double& searched, double reached) {
-    constexpr double rounding = 1e-9, room = 2;  // a second widening is rare
     if (!(reached > (1 + rounding) * searched)) return;
-    searched = room * reached;
+    searched = (1 + room) * reached;
     farther = true;
   };
   for (Motion& motion : motions_) {
@@ -222,24 +240,41 @@ bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, con
   if (surfaces_)
     for (const int node : surfaces_->nodes())
       extend(node_travel_[node], (x.col(node) - start.x.col(node)).norm());
+  if (farther) searched_ = false;
   return farther;
 }
 
-void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
-  for (auto& list : contacts) list.clear();
-  far_.clear();
+void ContactSearch::search(const Configuration& start) {
+  near_.clear();
+  near_pairs_.clear();
   boxes_.clear();
   for (const Motion& motion : motions_) {
-    const AxisBox box = box_of(motion, start.x);
+    AxisBox box = box_of(motion, start.x);
+    box.extend(AxisBox(box.min() + motion.course, box.max() + motion.course));
     const Vec3 slack = Vec3::Constant(motion.travel + effect_.margin);
     // Nodes and triangles are not paired with each other here, nor bodies with themselves.
     const int group = motion.kind == Carrier::body ? motion.carrier : -1;
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
-  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) add_pair(first, second, start, contacts);
+  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) search_pair(first, second, start);
+  surface_contacts_.clear();
+  if (surfaces_ && effect_.surfaces_touch)
+    surfaces_->find(start.x, node_travel_, effect_.thickness, surface_contacts_);
+  searched_ = true;
+}
+
+void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
+  if (!searched_) search(start);
+  for (auto& list : contacts) list.clear();
+  far_.clear();
+  std::size_t begin = 0;
+  for (const NearPair& pair : near_pairs_) {
+    add_pair(pair, std::span(near_).subspan(begin, pair.end - begin), contacts);
+    begin = pair.end;
+  }
   keep_each_once(contacts[triangles_rough]);
   keep_each_once(contacts[triangles_smooth]);
-  if (surfaces_ && effect_.surfaces_touch) add_surfaces(start.x, contacts);
+  add_surfaces(start.x, contacts);
 }
 
 }  // namespace pbd

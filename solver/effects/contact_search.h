@@ -1,13 +1,16 @@
 // Which contacts a step has. Where it begins, the shapes that may touch in it give contact points
 // (collision/), each a pair of features carried by a body or a node. Shapes take part that are nearer than
-// their motions go: to the free motion's end, and where a solved iterate went farther, twice as far as that.
+// their motions go: to the free motion's end, and where a solved iterate went farther, a quarter farther than
+// that. A body's motion is told from its course, where its velocity takes it, so that bodies that fly side by
+// side are not near for their speed.
 //
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
-// chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel, and
-// what is generated is every feature whose gap is less. A half space has no r: its travel is that of its
-// points within the other's reach. Which features lie lowest changes as bodies turn: those of meshes are
-// told by how much; other shapes write all corners of the faces that meet. A body that is stopped
-// on one side turns although it goes no farther: it is expected to turn by its travel over r at least.
+// chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel beside
+// their courses, and the courses against each other, and what is generated is every feature whose gap is
+// less. A half space has no r: its travel is that of its points within the other's reach. Which features lie
+// lowest changes as bodies turn: those of meshes are told by how much; other shapes write all corners of the
+// faces that meet. A body that is stopped on one side turns although it goes no farther: it is expected to
+// turn by its travel over r at least.
 //
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
@@ -30,6 +33,7 @@
 #include <compare>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -59,11 +63,12 @@ class ContactSearch {
  public:
   ContactSearch(const Scene& scene, const Contact& effect);
 
-  /// Places the colliders where a step begins; they go as far as to `free`, the free motion's end.
-  void begin(const Bodies& bodies, const Configuration& start, const Points& free,
+  /// Places the colliders where a step begins; they go as far as to `free`, the free motion's end. Courses
+  /// end at `straight`.
+  void begin(const Bodies& bodies, const Configuration& start, const Points& straight, const Points& free,
              const std::vector<double>& inverse_mass);
 
-  /// True if some collider goes farther to x than was thought of; it is thought to go twice as far then.
+  /// True if some collider goes farther to x than was thought of; it is thought to go a quarter farther then.
   bool extend(const Bodies& bodies, const Configuration& start, const Points& x);
 
   /// The contacts of what is as near as that.
@@ -87,6 +92,8 @@ class ContactSearch {
   static constexpr double overlooked = 1e-4;
   static constexpr double least_beside = 1e-9;  // what lies edge on edge comes and goes by rounding
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
+  static constexpr double rounding = 1e-9;      // of a way
+  static constexpr double room = 0.25;          // of a way, so that few steps are searched anew
 
   enum class Carrier : std::uint8_t { body, node, triangle };
 
@@ -95,14 +102,15 @@ class ContactSearch {
     const Shape* shape;  // in `frame`; of a triangle none
     Frame frame;         // in the world
     Carrier kind = Carrier::body;
-    int carrier = -1;    // body, node or triangle
-    bool moves = false;  // by impulses
-    Vec3 centre;         // m, of the body; of a triangle the mean of its nodes
-    double radius = 0;   // m, of the farthest point about it; infinite for a half space
-    double round = 0;    // m, radius of what is round of the shape
-    double travel = 0;   // m, that its points move at most; of a half space, its centre
-    double turn = 0;     // rad, that it turns at most
-    double height = 0;   // m, the least one of a triangle
+    int carrier = -1;            // body, node or triangle
+    bool moves = false;          // by impulses
+    Vec3 centre;                 // m, of the body; of a triangle the mean of its nodes
+    double radius = 0;           // m, of the farthest point about it; infinite for a half space
+    double round = 0;            // m, radius of what is round of the shape
+    Vec3 course = Vec3::Zero();  // m, of a body, where its velocity takes it
+    double travel = 0;  // m, that its points move at most beside its course; of a half space, its centre
+    double turn = 0;    // rad, that it turns at most
+    double height = 0;  // m, the least one of a triangle
   };
   struct Pair {
     std::array<int, 2> collider;
@@ -111,6 +119,11 @@ class ContactSearch {
     double overlooked = 0;        // m, depth that is not looked at
     bool left = false;            // by a contact that had held it apart
     double least_end = infinity;  // m, gap that its contacts tell of
+  };
+  struct NearPair {
+    std::array<int, 2> collider;
+    double nearest;   // m, gap where the step begins
+    std::size_t end;  // of its contacts in `near_`
   };
   struct PairFeatures {
     std::array<int, 2> collider;  // the lower one first
@@ -138,11 +151,14 @@ class ContactSearch {
                             const Points& to) const;
   static double farthest_travel(const Motion& motion, const Displacement& moved);
   static double travel_near(const Motion& motion, const Motion& other);
+  static double travel_between(const Motion& one, const Motion& two);
   void add_surfaces(const Points& x, ContactLists& contacts);
   static double round_radius_of(const Motion& one, const Motion& two);
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
-  void add_pair(int first, int second, const Configuration& start, ContactLists& contacts);
+  void search(const Configuration& start);
+  void search_pair(int first, int second, const Configuration& start);
+  void add_pair(const NearPair& pair, std::span<const ActiveContact> near, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;
   std::vector<ActiveContact>::iterator late_contact(const PairFeatures& features);
   Frame placed_frame(int collider, const Configuration& at) const;
@@ -193,6 +209,9 @@ class ContactSearch {
   const Contact& effect_;
   AllowedPairs allowed_;
   std::vector<Motion> motions_;
+  bool searched_ = false;  // `near_` holds what is as near as motions go
+  std::vector<NearPair> near_pairs_;
+  std::vector<ActiveContact> near_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius

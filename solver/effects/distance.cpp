@@ -31,6 +31,18 @@ auto Constraint<Distance>::geometric_bound(const Distance&, std::size_t, const P
   return NodeBounds::Constant(length > 0 ? std::max(0.0, -impulse[0]) * 2 / length : 0.0);
 }
 
+auto Constraint<Distance>::stiffening(const Distance&, std::size_t, const Positions& x, const Value& impulse)
+    -> Stiffness {
+  const Vec3 link = x.col(1) - x.col(0);
+  const double length = link.norm(), tension = -impulse[0];
+  if (!(length > 0 && tension > 0)) return Stiffness::Zero();
+  const Vec3 along = link / length;
+  const Eigen::Matrix3d across = tension / length * (Eigen::Matrix3d::Identity() - along * along.transpose());
+  Stiffness stiffness;
+  stiffness << across, -across, -across, across;
+  return stiffness;
+}
+
 std::unique_ptr<Source> make_source(const Scene& scene, const Distance& effect) {
   return std::make_unique<EffectRows<Distance>>(scene, effect);
 }

@@ -18,6 +18,9 @@ struct Constraint<Distance> : ConstraintShape<1, 2> {
   /// d2c/dx2 = (I - u u^T)/length [1 -1; -1 1], of norm 2/length.
   static NodeBounds geometric_bound(const Distance& effect, std::size_t i, const Positions& x,
                                     const Value& impulse);
+
+  static Stiffness stiffening(const Distance& effect, std::size_t i, const Positions& x,
+                              const Value& impulse);
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const Distance& effect);

@@ -70,7 +70,7 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
                           double allowed, double slack) {
   constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
-  const double travel = travel_near(one, two) + travel_near(two, one), round = round_radius_of(one, two);
+  const double travel = travel_between(one, two), round = round_radius_of(one, two);
   double gap = pair.nearest, share = 0, apart = 0, touching_for = 0;
   for (int k = 0; k < most; ++k) {
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
@@ -98,19 +98,18 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
 bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double slack = pair.overlooked, round = round_radius_of(one, two);
-  const double rounded = 1e-12 * (one.radius + one.travel + two.radius + two.travel);
+  const double travel = travel_between(one, two), rounded = 1e-12 * (one.radius + two.radius + travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);
   if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;
   if (pair.left) {
-    const double travel = travel_near(one, two) + travel_near(two, one);
     const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
     if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed)) return true;
   }
   if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
   double overlapping = 1;
   const double apart = entering(pair, start, end, behind, 0, overlapping);
-  const double left = (overlapping - apart) * (one.travel + two.travel);
+  const double left = (overlapping - apart) * travel;
   for (const double at : {apart, 1.0}) {
     generate_between(pair, start, end, at, slack + left);
     keep_overlapping(pair, start, end, allowed, behind);

@@ -16,7 +16,7 @@ double ContactSearch::beside(const std::array<int, 2>& pair) const {
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
   const double round = round_radius_of(one, two);
   if (!is_cylinder(pair[0]) && !is_cylinder(pair[1])) return besides_ * round;
-  const double travel = travel_near(one, two) + travel_near(two, one);
+  const double travel = travel_between(one, two);
   return besides_ * round + travel * travel / (2 * round);
 }
 

@@ -32,6 +32,12 @@ Eigen::Matrix2d rest_edges(const Eigen::Matrix3d& rest) {
   return edges;
 }
 
+Eigen::Matrix2d tension_of(const Vec3& impulse) {
+  Eigen::Matrix2d stress;
+  stress << impulse[0], impulse[2], impulse[2], impulse[1];
+  return -stress;
+}
+
 }  // namespace
 
 auto Constraint<TriangleStrain>::node(const TriangleStrain& effect, std::size_t i) -> Nodes {
@@ -67,9 +73,18 @@ void Constraint<TriangleStrain>::evaluate(const TriangleStrain& effect, std::siz
 
 auto Constraint<TriangleStrain>::geometric_bound(const TriangleStrain& effect, std::size_t i,
                                                  const Positions&, const Value& impulse) -> NodeBounds {
-  Eigen::Matrix2d stress;
-  stress << impulse[0], impulse[2], impulse[2], impulse[1];
-  return stress_bound(triangle_gradients(rest_edges(effect.rest[i]).inverse()), Eigen::Matrix2d(-stress));
+  return stress_bound(triangle_gradients(rest_edges(effect.rest[i]).inverse()), tension_of(impulse));
+}
+
+auto Constraint<TriangleStrain>::stiffening(const TriangleStrain& effect, std::size_t i, const Positions&,
+                                            const Value& impulse) -> Stiffness {
+  const Eigen::Matrix3d pairs =
+      stress_stiffness(triangle_gradients(rest_edges(effect.rest[i]).inverse()), tension_of(impulse));
+  Stiffness stiffness;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      stiffness.block<3, 3>(3 * a, 3 * b) = pairs(a, b) * Eigen::Matrix3d::Identity();
+  return stiffness;
 }
 
 std::unique_ptr<Source> make_source(const Scene& scene, const TriangleStrain& effect) {

@@ -12,7 +12,8 @@ class BoxTree {
  public:
   void build(const std::vector<AxisBox>& boxes);
 
-  /// Calls `visit` with the index of every box that intersects `box`, always in the same order.
+  /// Calls `visit` with the index of every box that intersects `box`, always in the same order. `visit` may
+  /// shrink `box`.
   template <class Visit>
   void find(const AxisBox& box, Visit&& visit) const {
     if (!nodes_.empty()) descend(0, box, visit);

@@ -28,6 +28,9 @@ void Automatic::swap_solvers(StepSystem& system) {
 
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
+  taken_over_ = takes_over_ = false;
+  lowest_ = infinity;
+  without_gain_ = 0;
   if (swapped_) swap_solvers(system);
   proximal_.begin(system);
   crowded_ = quasi_newton_ && quasi_newton_->dual_rows(system) > most_dual_rows;
@@ -48,8 +51,24 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
          mass_.update(system, 1) <= slow_contraction;
 }
 
+void Automatic::take_over(StepSystem& system) {
+  taken_over_ = takes_over_ = true;
+  linearise_at(system, system.at.v);
+}
+
+/// True where quasi_newton is near the solution and comes no nearer: its elimination's rounding is met.
+bool Automatic::gains_nothing(const Progress& progress) {
+  constexpr double near = 1e-6;  // of the scale
+  constexpr int patience = 10;
+  without_gain_ = progress.residual() < lowest_ / 2 ? 0 : without_gain_ + 1;
+  if (without_gain_ == 0) lowest_ = progress.residual();
+  return without_gain_ >= patience && progress.residual() <= near * progress.scale;
+}
+
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
+  if (on_potential() && gains_nothing(progress)) take_over(system);
+  progress.other_solver |= std::exchange(takes_over_, false);
   if (on_potential()) {
     quasi_newton_->iterate(system, progress);
   } else if (plain_contracts(system, progress)) {
@@ -67,9 +86,15 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
 }
 
 void Automatic::forget() {
-  slow_changes_ = 0;
+  slow_changes_ = without_gain_ = 0;
+  lowest_ = infinity;
   proximal_.forget();
   if (quasi_newton_) quasi_newton_->forget();
+}
+
+void Automatic::unsettle(StepSystem& system) {
+  quasi_newton_->unsettle(system);
+  take_over(system);
 }
 
 std::optional<RowResidual> Automatic::settle(StepSystem& system, const Progress& progress, bool stalled) {

@@ -1,13 +1,13 @@
-// auto: quasi_newton for compliant solids, in contact too; else plain where that contracts, as predicted by
-// the last step's end and a bound of this one's, and as far as the iterates so far show; else proximal. A
-// step that surprises both predictions shows it in two slow iterations, after which it goes on as proximal.
-// Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted: plain,
-// until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on contacts with
-// friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly get on. Of a
-// sheet of links or triangles quasi_newton's metric counts as stiff what gives way: such rows are left to the
-// other two.
-// Where a step begins with more than a thousand contacts it is left to them, too: quasi_newton's problem of n
-// contacts is dense, n^2 blocks of 72 bytes.
+// auto: quasi_newton for compliant solids, sheets and links, in contact too; else plain where that contracts,
+// as predicted by the last step's end and a bound of this one's, and as far as the iterates so far show; else
+// proximal. A step that surprises both predictions shows it in two slow iterations, after which it goes on as
+// proximal. Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted:
+// plain, until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on
+// contacts with friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly
+// get on.
+// Where quasi_newton arrives, but the rounding of its elimination misses the tolerance, the other two take
+// over for the rest of the step. Where a step begins with more than a thousand contacts it is left to them:
+// quasi_newton's problem of n contacts is dense, n^2 blocks of 72 bytes.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class Automatic {
 
   explicit Automatic(StepSystem& system);
 
-  bool on_potential() const { return quasi_newton_ && !crowded_; }
+  bool on_potential() const { return quasi_newton_ && !crowded_ && !taken_over_; }
 
   void begin(StepSystem& system);
   RowResidual refresh(StepSystem& system);
@@ -35,17 +35,23 @@ class Automatic {
   }
   void end(StepSystem& system) { proximal_.end(system); }
   std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
-  void unsettle(StepSystem& system) { quasi_newton_->unsettle(system); }
+  void unsettle(StepSystem& system);
 
  private:
   static constexpr int most_spent = 3;
   static constexpr std::int64_t most_dual_rows = 3000;
 
+  void take_over(StepSystem& system);
+  bool gains_nothing(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
   void swap_solvers(StepSystem& system);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
   bool crowded_ = false;                     // this step has too many contacts for it
+  bool taken_over_ = false;                  // the others go on from where it arrived
+  bool takes_over_ = false;                  // with the next iteration
+  double lowest_ = infinity;                 // residual of quasi_newton, sqrt(J),
+  int without_gain_ = 0;                     // and iterations since
   LinearSolver other_ = NesterovJacobi{};    // takes over from the solver of the method
   bool swapped_ = false;
   int spent_ = 0;  // iterations in a row whose sweeps were not enough

@@ -35,6 +35,7 @@ QuasiNewton::QuasiNewton(StepSystem& system)
     const Source::Kind& kind = slot.source->kind();
     slot.eliminated = eliminates(slot);
     potential_.eliminated.insert(potential_.eliminated.end(), slot.count, slot.eliminated);
+    follows_ |= slot.eliminated && !kind.fills_space;
     if (slot.eliminated) continue;
     if (kind.limited && !kind.contacts)
       refuse("with limits or motors of limited force", "another outer iteration");
@@ -61,7 +62,7 @@ bool QuasiNewton::suits(const StepSystem& system) {
   for (const Slot& slot : system.slots) {
     if (slot.count > 0 && slot.source->kind().contacts && !takes_local_contacts(system)) return false;
     if (slot.count == 0 || slot.source->kind().contacts) continue;
-    if (!eliminates(slot) || !slot.source->kind().fills_space) return false;
+    if (!eliminates(slot)) return false;
     any = true;
   }
   return any;
@@ -74,7 +75,17 @@ void QuasiNewton::begin(StepSystem& system) {
   potential_.since_factor = 0;
   lowest_ = infinity;
   without_fall_ = 0;
+  last_residual_ = 0;
   potential_.begin_metric(system);
+}
+
+/// True if P is to be factored at the iterate: where rows leave directions free unless it still makes the
+/// residual fall well, else after many descents.
+bool QuasiNewton::outlived(const Progress& progress) {
+  constexpr double good_fall = 0.1;
+  constexpr int most_iterations = 30;
+  if (!follows_) return ++potential_.since_factor > most_iterations;
+  return progress.residual() > good_fall * std::exchange(last_residual_, progress.residual());
 }
 
 RowResidual QuasiNewton::evaluate(StepSystem& system) {
@@ -88,7 +99,7 @@ RowResidual QuasiNewton::refresh(StepSystem& system) {
 
 void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
   if (descends(system))
-    descend(system, progress.outer_iterations == 0);
+    descend(system, progress);
   else
     project(system, progress);
 }
@@ -105,6 +116,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
     lowest_ = progress.residual();
   }
   acceleration_.note(system);
+  if (follows_ && outlived(progress)) potential_.factor_metric(system, MetricShape::current);
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;
@@ -173,15 +185,15 @@ bool QuasiNewton::start_low(StepSystem& system) {
 
 /// One line search down the potential along the direction found. Stays where no length gains anything. The
 /// first iteration of a step goes where the potential is lowest.
-void QuasiNewton::descend(StepSystem& system, bool first) {
+void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   constexpr double sufficient = 1e-4;
   constexpr double flat = 1e-10, flatter = 0.8;  // where the potential's change is lost in its rounding
-  constexpr int most_halvings = 30, most_iterations = 30;
-  if (first) {
+  constexpr int most_halvings = 30;
+  if (progress.outer_iterations == 0) {
     if (start_low(system)) return;
     find_direction();
   }
-  if (++potential_.since_factor > most_iterations) {
+  if (outlived(progress)) {
     potential_.factor_metric(system, MetricShape::current);
     lbfgs_.forget();
     find_direction();

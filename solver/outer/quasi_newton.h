@@ -7,8 +7,11 @@
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,
-// which allocates. Above 1e9 block products (about 18000 nodes of a beam four times as long as high) it falls
-// back to one number a pair of nodes, which takes several times the iterations (measured: `rival_newton`).
+// which allocates. Of sheets, whose stiffness across themselves is their tension, it is that of the current
+// shape with the tension's part, factored anew wherever an iteration leaves more than a tenth of the
+// residual: Newton's method without what is not convex (`Constraint::stiffening`). Above 1e9 block products
+// (about 18000 nodes of a beam four times as long as high) it falls back to one number a pair of nodes, which
+// takes several times the iterations (measured: `rival_newton`).
 #pragma once
 
 #include <optional>
@@ -29,7 +32,7 @@ class QuasiNewton {
   /// Marks the slots that it eliminates. Throws SetupError where there is no potential.
   explicit QuasiNewton(StepSystem& system);
 
-  /// True if `auto` takes it: rows are compliant, of points, and stiff in every direction, or contacts.
+  /// True if `auto` takes it: rows are compliant and of points, or contacts.
   static bool suits(const StepSystem& system);
 
   /// Number of scalar rows that are not eliminated.
@@ -67,18 +70,21 @@ class QuasiNewton {
   std::optional<RowResidual> rest_as_it_is(StepSystem& system, const Progress& progress);
   bool arrived(const StepSystem& system, const Progress& progress);
   bool start_low(StepSystem& system);
-  void descend(StepSystem& system, bool first);
+  bool outlived(const Progress& progress);
+  void descend(StepSystem& system, const Progress& progress);
   void project(StepSystem& system, Progress& progress);
 
   enum class Dual : std::uint8_t { none, hard_rows, contacts };  // besides what is eliminated
 
   Dual dual_ = Dual::none;
   bool bodies_move_ = false;
+  bool follows_ = false;  // the metric is that of the current shape
   Potential potential_;
   Lbfgs lbfgs_;
   Settling settling_;
-  bool evaluated_ = false;  // the potential and the impulses are those of v
-  double slope_ = 0;        // of the potential along `direction`, J
+  double last_residual_ = 0;  // sqrt(J), of the last iteration
+  bool evaluated_ = false;    // the potential and the impulses are those of v
+  double slope_ = 0;          // of the potential along `direction`, J
   Points last_gradient_, direction_, search_from_, zero_;
   double lowest_ = infinity;  // residual of this step, primal where it descends,
   int without_fall_ = 0;      // and iterations since

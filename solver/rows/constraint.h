@@ -4,7 +4,8 @@
 //   and a bound B (N s/m, one a node) of the geometric stiffness of its impulses p:
 //     -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
-// depends on a rest shape states its positions, rest(effect, i).
+// depends on a rest shape states its positions, rest(effect, i). One whose rows leave directions free may
+// state that part itself, stiffening(effect, i, x, p): -sum_r p_r d2c_r/dx2 where that is positive (N s/m).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,6 +28,7 @@ struct ConstraintShape {
   using Value = Eigen::Matrix<double, R, 1>;         // c
   using Jacobian = Eigen::Matrix<double, R, 3 * K>;  // three columns a node
   using Square = Eigen::Matrix<double, R, R>;
+  using Stiffness = Eigen::Matrix<double, 3 * K, 3 * K>;
   using Nodes = std::array<int, K>;
   using NodeBounds = Eigen::Matrix<double, 1, K>;  // of the geometric stiffness, one a node
 };

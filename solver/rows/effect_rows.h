@@ -126,7 +126,12 @@ class EffectRows final : public Source {
           block.stiffness[i] =
               inverse_of(block.offset.empty() ? Square(C::compliance(effect_, i) / (map.s * map.d))
                                               : block.compliance[i]);
-          Operations::append_metric(block, i, jacobian, !C::fills_space, entries);
+          typename Operations::Stiffness stiffening = Operations::Stiffness::Zero();
+          if constexpr (requires { C::stiffening(effect_, i, at, value); })
+            if (shape == MetricShape::current)
+              stiffening = map.d * C::stiffening(effect_, i, at, block.impulse[i]);
+          const bool one_number = !C::fills_space && shape == MetricShape::rest;
+          Operations::append_metric(block, i, jacobian, stiffening, one_number, entries);
         }
       }
   }

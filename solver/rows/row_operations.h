@@ -14,6 +14,7 @@ struct RowOperations {
   using Value = typename Block::Value;
   using Square = typename Block::Square;
   using Jacobian = typename Block::Jacobian;
+  using Stiffness = Eigen::Matrix<double, 3 * K, 3 * K>;
 
   /// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.
   static bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i);
@@ -31,9 +32,10 @@ struct RowOperations {
   static void perturb(const RowError& error, const Value& value, const Jacobian& jacobian, Block& block,
                       std::size_t i, Points& push);
 
-  /// Appends J^T stiffness J of constraint i by pairs of nodes; `one_number`: the mean of its diagonal.
-  static void append_metric(const Block& block, std::size_t i, const Jacobian& jacobian, bool one_number,
-                            std::vector<MetricEntry>& entries);
+  /// Appends J^T stiffness J + `more` of constraint i by pairs of nodes; `one_number`: the mean of its
+  /// diagonal.
+  static void append_metric(const Block& block, std::size_t i, const Jacobian& jacobian,
+                            const Stiffness& more, bool one_number, std::vector<MetricEntry>& entries);
 };
 
 /// Refreshes N_ii^-1 for other inverse masses than the rows were linearised with.

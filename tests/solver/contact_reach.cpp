@@ -47,6 +47,26 @@ TEST_CASE("what passes within reach and meets nothing is not thrown back") {
   CHECK((end.v.col(1) - velocity).norm() <= 1e-12 * velocity.norm());
 }
 
+TEST_CASE("what flies side by side is not near for its speed, and meets where one of it is stopped") {
+  constexpr double h = 0.01, size = 0.2, apart = 0.06, speed = 10;  // half its size a step
+  BodyScene build({.friction = 0.3}, 0);
+  const double height = GENERATE(5.0, 0.005);  // m, above the ground: nothing is stopped, or all
+  build.ground();
+  for (int k = 0; k < 3; ++k)
+    build.box(Vec3::Constant(size), 1,
+              {.position = {0, 0, height + size / 2 + k * (size + apart)}, .velocity = {0, 0, -speed}});
+  const Scene scene = build.finish();
+  const Method method = contact_method("direct");
+  Workspace workspace(scene, method);
+  const State end = run(scene, method, h, 1, workspace);
+  const bool stopped = height < speed * h;
+  CHECK(workspace.contacts().empty() == !stopped);
+  for (int k = 0; k < 3; ++k) {
+    const double free = height + size / 2 + k * (size + apart) - speed * h;
+    CHECK(std::abs(end.x(2, 1 + k) - (stopped ? std::max(free, (0.5 + k) * size) : free)) <= 1e-9);
+  }
+}
+
 TEST_CASE("sheets that approach each other do not pass through each other") {
   // A triangle that stands on its corner and a level one, 50 mm apart, each of which comes 30 mm a step.
   constexpr double thickness = 2e-3, apart = 0.05, speed = 3, h = 0.01;

@@ -14,7 +14,6 @@ import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
-import figure_1  # noqa: F401
 import judged_frames  # noqa: F401
 import first_page  # noqa: F401
 import friction  # noqa: F401
@@ -31,6 +30,7 @@ import point_hard_cases  # noqa: F401
 import redundant  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
+import scenes  # noqa: F401
 import simbenchmark  # noqa: F401
 import softness  # noqa: F401
 import stability_map  # noqa: F401

@@ -1,7 +1,6 @@
-"""Draws the frames that an experiment leaves of its scenes as pictures, by VTK and without a window."""
+"""Draws the frames that experiments leave of their scenes as pictures and animations, by VTK and without a window."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -9,16 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-SIZE = (720, 540)  # pixels
-MESHES = Path(__file__).resolve().parent.parent / "experiments" / "scenes" / "meshes"
-#: By scene: where the camera looks from and at (m), and what the ground is.
-VIEWS = {
-    "boxes_on_ground": {"from": (4.6, -6.0, 3.2), "at": (0, 0, 0.85), "ground": True},
-    "bunnies_on_cloth": {"from": (1.9, -3.0, 1.7), "at": (0, 0, 0.4), "ground": False},
-    "flexible_cow": {"from": (2.4, -3.9, 1.5), "at": (0.05, 0, 0.5), "ground": True},
-}
-COLORS = ((0.33, 0.53, 0.76), (0.89, 0.58, 0.27), (0.42, 0.67, 0.45), (0.80, 0.42, 0.42), (0.60, 0.52, 0.75))
-CLOTH, COW, GROUND = (0.80, 0.74, 0.62), (0.72, 0.55, 0.42), (0.90, 0.90, 0.88)
+from frames import GROUND, SCENES, Frames
+
+SIZE = (640, 400)  # pixels
+ANGLE = 28  # degrees, that the camera sees from bottom to top
+#: By scene: whence the camera looks; it stands as far off as shows every frame.
+SIDES = {"incline": (0.1, -1, 0.15), "boxes_at_edges": (0.45, -0.9, 0.3), "flexible_cow": (0.5, -0.8, 0.25)}
+SIDE = (0.45, -0.8, 0.35)
+SHARES = (0, 0.4, 0.7, 1)  # of the time, at which pictures are kept
+WITH_FORCES = ("scenes",)  # experiments whose pictures show the forces of contacts
+FORCE = (0.80, 0.10, 0.10)
 
 
 def missing():
@@ -32,107 +31,28 @@ def missing():
     return ""
 
 
-def numbers(text, name, kind=float):
-    """Of the data array called `name` of a .vtu file as `pbdcheck` writes it."""
-    found = re.search(rf'<DataArray[^>]*Name="{name}"[^>]*>\s*(.*?)\s*</DataArray>', text, re.DOTALL)
-    return np.array(found.group(1).split(), dtype=kind)
+def unit(vector):
+    return np.asarray(vector, dtype=float) / np.linalg.norm(vector)
 
 
-def read_frame(path):
-    """Positions, and cells as lists of nodes by VTK's type."""
-    text = path.read_text(encoding="utf-8")
-    points = re.search(r"<Points>\s*<DataArray[^>]*>\s*(.*?)\s*</DataArray>", text, re.DOTALL)
-    x = np.array(points.group(1).split(), dtype=float).reshape(-1, 3)
-    connectivity, offsets = numbers(text, "connectivity", int), numbers(text, "offsets", int)
-    types = numbers(text, "types", int)
-    cells = {}
-    for kind, begin, end in zip(types, np.concatenate([[0], offsets[:-1]]), offsets):
-        cells.setdefault(int(kind), []).append(connectivity[begin:end])
-    return x, {kind: np.array(nodes) for kind, nodes in cells.items()}
-
-
-def read_off(path):
-    words = path.read_text(encoding="utf-8").split()[1:]
-    nodes, triangles = int(words[0]), int(words[1])
-    x = np.array(words[3:3 + 3 * nodes], dtype=float).reshape(-1, 3)
-    cells = np.array(words[3 + 3 * nodes:3 + 3 * nodes + 4 * triangles], dtype=int).reshape(-1, 4)
-    return x, cells[:, 1:]
-
-
-def read_msh(path):
-    """Nodes and tetrahedra of a mesh as make_shapes.py writes it."""
-    text = path.read_text(encoding="utf-8")
-    nodes = text.split("$Nodes")[1].split("$EndNodes")[0].split()
-    x = np.array(nodes[1:], dtype=float).reshape(-1, 4)[:, 1:]
-    cells = np.array(text.split("$Elements")[1].split("$EndElements")[0].split()[1:], dtype=int).reshape(-1, 7)
-    return x, cells[:, 3:] - 1
-
-
-class Carried:
-    """A surface that a lattice of tetrahedra carries: each of its nodes by the tetrahedron it is in, or is nearest to."""
-
-    def __init__(self, surface, lattice):
-        x, self.triangles = read_off(surface)
-        nodes, cells = read_msh(lattice)
-        corners = nodes[cells]
-        inverse = np.linalg.inv((corners[:, 1:] - corners[:, :1]).transpose(0, 2, 1))
-        self.cells = np.empty((len(x), 4), dtype=int)
-        self.weights = np.empty((len(x), 4))
-        for i, place in enumerate(x):
-            own = np.einsum("nij,nj->ni", inverse, place - corners[:, 0])
-            weights = np.column_stack([1 - own.sum(axis=1), own])
-            best = np.argmax(weights.min(axis=1))
-            self.cells[i], self.weights[i] = cells[best], weights[best]
-
-    def at(self, nodes):
-        return np.einsum("nk,nkj->nj", self.weights, nodes[self.cells]), self.triangles
-
-
-def connected(triangles, count):
-    """The number of its component for each node."""
-    label = np.arange(count)
-    while True:
-        least = label[triangles].min(axis=1)
-        before = label.copy()
-        for k in range(3):
-            np.minimum.at(label, triangles[:, k], least)
-        if np.array_equal(label, before):
-            return np.unique(label, return_inverse=True)[1]
-
-
-def surfaces(folder, scene, instant, carried):
-    """What to draw: (x, triangles, colour)."""
-    x, cells = read_frame(folder / "frames" / f"frame_{instant:06}.vtu")
-    if scene == "flexible_cow":
-        yield (*carried.at(x), COW)
-    elif 5 in cells:
-        yield x, cells[5], CLOTH
-    bodies = folder / "frames" / f"bodies_{instant:06}.vtu"
-    if not bodies.exists():
-        return
-    x, cells = read_frame(bodies)
-    label = connected(cells[5], len(x))
-    for k in range(label.max() + 1):
-        yield x, cells[5][label[cells[5][:, 0]] == k], COLORS[k % len(COLORS)]
-
-
-def actor(x, triangles, color, smooth):
+def mesh(x, triangles):
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
-    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
     points, polygons, data = vtkPoints(), vtkCellArray(), vtkPolyData()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(x), deep=True))
     rows = np.column_stack([np.full(len(triangles), 3), triangles]).astype(np.int64).ravel()
     polygons.SetCells(len(triangles), numpy_to_vtkIdTypeArray(rows, deep=True))
     data.SetPoints(points)
     data.SetPolys(polygons)
-    normals = vtkPolyDataNormals()
-    normals.SetInputData(data)
-    normals.SetFeatureAngle(50 if smooth else 1)
+    return data
+
+
+def actor(source, color):
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
     mapper, made = vtkPolyDataMapper(), vtkActor()
-    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.ScalarVisibilityOff()
     made.SetMapper(mapper)
     look = made.GetProperty()
     look.SetColor(color)
@@ -141,55 +61,126 @@ def actor(x, triangles, color, smooth):
     return made
 
 
-def draw(folder, scene, instant, path, carried):
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
-    view = VIEWS[scene]
-    renderer = vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    for x, triangles, color in surfaces(folder, scene, instant, carried):
-        renderer.AddActor(actor(x, triangles, color, smooth=scene != "boxes_on_ground"))
-    if view["ground"]:
-        corners = np.array([(-4, -4, 0), (4, -4, 0), (4, 4, 0), (-4, 4, 0)], dtype=float)
-        renderer.AddActor(actor(corners, np.array([(0, 1, 2), (0, 2, 3)]), GROUND, smooth=False))
-    light = vtkLight()
-    light.SetPosition(-3, -4, 8)
-    light.SetIntensity(0.9)
-    renderer.AddLight(light)
-    camera = renderer.GetActiveCamera()
-    camera.SetPosition(view["from"])
-    camera.SetFocalPoint(view["at"])
-    camera.SetViewUp(0, 0, 1)
-    camera.SetViewAngle(28)
-    renderer.ResetCameraClippingRange()
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetMultiSamples(8)
-    window.SetSize(*SIZE)
-    window.AddRenderer(renderer)
-    window.Render()
-    image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
-    image.SetInput(window)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(str(path))
-    writer.Write()
+def surface(x, triangles, color, edges=False):
+    """Smooth but for what turns by more than 50 degrees at an edge; `edges`: the triangles' are seen."""
+    from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(mesh(x, triangles))
+    normals.SetFeatureAngle(50)
+    made = actor(normals, color)
+    made.GetProperty().SetEdgeVisibility(edges)
+    made.GetProperty().SetEdgeColor(*(0.6 * np.array(color)))
+    return made
+
+
+def plane(point, normal, reach):
+    """A square of the ground, of twice the edge `reach`."""
+    along = unit(np.cross(normal, (0, 1, 0)))
+    corners = [point + reach * (a * along + b * np.cross(normal, along)) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    return surface(np.array(corners), np.array([(0, 1, 2), (0, 2, 3)]), GROUND)
+
+
+def arrows(place, force, longest):
+    """One for each force, the largest as long as `longest` (m)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkFiltersCore import vtkGlyph3D
+    from vtkmodules.vtkFiltersSources import vtkArrowSource
+    data, arrow, glyphs = mesh(place, np.empty((0, 3), dtype=int)), vtkArrowSource(), vtkGlyph3D()
+    arrow.SetTipLength(0.3)
+    arrow.SetTipRadius(0.09)
+    arrow.SetShaftRadius(0.03)
+    data.GetPointData().SetVectors(numpy_to_vtk(np.ascontiguousarray(force), deep=True))
+    glyphs.SetInputData(data)
+    glyphs.SetSourceConnection(arrow.GetOutputPort())
+    glyphs.SetScaleModeToScaleByVector()
+    glyphs.SetScaleFactor(longest / np.linalg.norm(force, axis=1).max())
+    return actor(glyphs, FORCE)
+
+
+class Stage:
+    """One window for all pictures; forces are drawn over what would hide them."""
+
+    def __init__(self):
+        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+        from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer, vtkRenderWindow
+        self.solid, self.over, self.window = vtkRenderer(), vtkRenderer(), vtkRenderWindow()
+        light = vtkLight()
+        light.SetPosition(-3, -4, 8)
+        light.SetIntensity(0.9)
+        self.solid.SetBackground(1, 1, 1)
+        self.solid.AddLight(light)
+        glow = vtkLight()
+        glow.SetLightTypeToHeadlight()
+        glow.SetIntensity(0.35)
+        self.solid.AddLight(glow)
+        self.over.SetLayer(1)
+        self.over.SetActiveCamera(self.solid.GetActiveCamera())
+        self.window.SetOffScreenRendering(True)
+        self.window.SetMultiSamples(8)
+        self.window.SetSize(*SIZE)
+        self.window.SetNumberOfLayers(2)
+        for renderer in (self.solid, self.over):
+            self.window.AddRenderer(renderer)
+
+    def look(self, side, points):
+        """Looks from `side` at the middle of all points from as near as shows them; returns how far they reach."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        middle, back = (low + high) / 2, unit(side)
+        right = unit(np.cross((0, 0, 1), back))
+        own, tangent = points - middle, 0.9 * np.tan(np.radians(ANGLE / 2))
+        away = max((np.abs(own @ axis) / (tangent * wide) + own @ back).max()
+                   for axis, wide in ((right, SIZE[0] / SIZE[1]), (np.cross(back, right), 1)))
+        camera = self.solid.GetActiveCamera()
+        camera.SetPosition(middle + away * back)
+        camera.SetFocalPoint(middle)
+        camera.SetViewUp(0, 0, 1)
+        camera.SetViewAngle(ANGLE)
+        return np.linalg.norm(high - low)
+
+    def picture(self, actors, over=()):
+        from PIL import Image
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+        for renderer, shown in ((self.solid, actors), (self.over, over)):
+            renderer.RemoveAllViewProps()
+            for each in shown:
+                renderer.AddActor(each)
+        self.solid.ResetCameraClippingRange()
+        self.window.Render()
+        grabbed = vtkWindowToImageFilter()
+        grabbed.SetInput(self.window)
+        grabbed.Update()
+        pixels = vtk_to_numpy(grabbed.GetOutput().GetPointData().GetScalars())
+        return Image.fromarray(pixels.reshape(SIZE[1], SIZE[0], 3)[::-1])
+
+
+def draw(stage, folder, with_forces):
+    """Writes instant_<k>.png at SHARES of the time and animation.webp, which plays at the pace of the simulation."""
+    frames = Frames(folder)
+    shown = [frames.surfaces(k) for k in range(len(frames.times))]
+    points = np.concatenate([x[np.unique(triangles)] for surfaces in shown for x, triangles, *_ in surfaces])
+    reach = stage.look(SIDES.get(frames.scene, SIDE), points)
+    ground = [plane(point, normal, 3 * reach) for point, normal in frames.grounds]
+    pictures = [stage.picture([*ground, *(surface(*each) for each in surfaces)]) for surfaces in shown]
+    for number, share in enumerate(SHARES):
+        k = int(np.argmin(np.abs(np.array(frames.times) - share * frames.times[-1])))
+        place, force = frames.forces(k)
+        over = [arrows(place, force, 0.2 * reach)] if with_forces and len(force) else []
+        picture = stage.picture([*ground, *(surface(*each) for each in shown[k])], over) if over else pictures[k]
+        picture.save(folder / f"instant_{number}.png")
+    milliseconds = [*(int(round(1000 * step)) for step in np.diff(frames.times)), 1000]
+    pictures[0].save(folder / "animation.webp", save_all=True, append_images=pictures[1:], duration=milliseconds, loop=0, quality=70)
 
 
 def main(directory):
-    """Renders what has frames in DIR/figure_1 and no newer pictures."""
-    carried = None
-    for folder in sorted((directory / "figure_1").glob("*_60")):
-        scene = folder.name.rsplit("_", 1)[0]
-        if scene not in VIEWS:
-            continue
-        if scene == "flexible_cow":
-            carried = Carried(MESHES / "cow.off", MESHES / "cow.msh")
-        for frame in sorted((folder / "frames").glob("frame_*.vtu")):
-            instant = int(frame.stem.split("_")[1])
-            picture = folder / f"instant_{instant}.png"
-            if not picture.exists() or picture.stat().st_mtime < frame.stat().st_mtime:
-                draw(folder, scene, instant, picture, carried)
+    """Renders what has frames in DIR/<experiment>/<scene> and no newer pictures."""
+    stage = Stage()
+    for collection in sorted(directory.glob("*/*/simulation.pvd")):
+        folder = collection.parent
+        drawn = folder / "animation.webp"
+        known = (SCENES / f"{folder.name}.toml").exists()
+        if known and (not drawn.exists() or drawn.stat().st_mtime < collection.stat().st_mtime):
+            draw(stage, folder, folder.parent.name in WITH_FORCES)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ MAP = (" integrator outer relaxation memory predicted_contraction iterations err
        "status reason")
 METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
 ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
+SCENES = ("scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations sweeps frame_wall_s "
+          "overlap_share overlap_share_at_end bilateral_error_m excess_share rest_share judged_steps refuted_steps status reason")
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
 CONES = ("family number contacts condition law relaxation tolerance natural_residual gap feasibility error_m_per_s "
@@ -78,11 +80,10 @@ TABLES = {
     ("joints", "accuracy"): "mechanism integrator alpha outer relaxation step_s error order joint_error missed_steps wall_s status "
                             "reason",
     ("joints", "lengths"): "relaxation bodies cpu_s_per_step cpu_s_per_sweep exponent_step exponent_sweep status reason",
-    ("figure_1", "scenes"): "scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations "
-                            "sweeps frame_wall_s overlap_share overlap_share_at_end bilateral_error_m excess_share rest_share "
-                            "judged_steps refuted_steps status reason",
+    ("figure_1", "scenes"): SCENES,
     ("figure_1", "series"): "scene step_s time_s kinetic_energy_j energy_change_j pressing_contacts overlap_m bilateral_error_m "
                             "outer_iterations sweeps residual wall_s status reason",
+    ("scenes", "scenes"): SCENES,
     ("judged_frames", "frames"): "scene step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
                                  "nearest_error_of_scale reference reference_status reference_residual reference_wall_s",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "

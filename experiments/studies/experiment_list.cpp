@@ -8,6 +8,8 @@ const std::vector<Experiment>& experiments() {
       {"figure_1",
        "Do boxes on the ground, bunnies on cloth and a flexible cow fall and come to rest by one solver?",
        figure_1},
+      {"scenes", "Do the scene files with contact keep energy, constraints and distances, and come to rest?",
+       scenes},
       {"judges", "Do the two reference solvers agree on every scene used below?", judges},
       {"judged_frames",
        "Do steps of whole scenes, with contact and damping, end where a judge finds them to end?",

@@ -1,4 +1,4 @@
-"""Boxes on the ground, bunnies on cloth and a flexible cow, by one solver."""
+"""Scene files as a whole: the paper's three, by one solver, and those with contact, by their own methods."""
 
 from pathlib import Path
 
@@ -7,41 +7,50 @@ import numpy as np
 
 from common import crossed, figure, footnote, on_log, panels, shared_legend
 from finding import finding
-from selecting import reasons_note
+from selecting import reasons_note, scene_gates
+from strips import strips, within
 from styles import BLUE, GREEN, ORANGE
 from wording import number, share
 
-TITLES = {"boxes_on_ground": "boxes on the ground", "bunnies_on_cloth": "bunnies on cloth", "flexible_cow": "flexible cow"}
-LOOKS = dict(zip(TITLES, (BLUE, ORANGE, GREEN)))
+LOOKS = {"boxes_on_ground": BLUE, "bunnies_on_cloth": ORANGE, "flexible_cow": GREEN}
 INSTANTS = 4
-PICTURED = 1 / 60  # s, the step whose frames are drawn
 
 
 def title(scene):
-    return TITLES.get(scene, scene)
+    return scene.replace("_", " ")
 
 
 @figure("figure_1", "pictures", table="scenes")
+@figure("scenes", "pictures", table="scenes")
 def pictures(frame):
     """Four instants of each scene, a row each, as plots/render.py left them, or that it could not."""
     folder = frame.attrs.get("folder", Path())
-    shown = frame[np.isclose(frame["step_s"], PICTURED)]
-    shown = shown if len(shown) else frame
-    fig, axes = plt.subplots(len(shown), 1, figsize=(7.0, 1.45 * len(shown)), squeeze=False)
-    for ax, (_, row) in zip(axes[:, 0], shown.iterrows()):
-        paths = [folder / f"{row['scene']}_60" / f"instant_{k}.png" for k in range(INSTANTS)]
-        if all(path.exists() for path in paths):
-            ax.imshow(np.concatenate([plt.imread(path) for path in paths], axis=1))
+    scenes = list(frame["scene"].drop_duplicates())
+    paths = [[folder / scene / f"instant_{k}.png" for k in range(INSTANTS)] for scene in scenes]
+    rows = [np.concatenate([plt.imread(path) for path in row], axis=1) if all(path.exists() for path in row) else None for row in paths]
+    height, width = next((row.shape[:2] for row in rows if row is not None), (1, 6))
+    fig, ax = plt.subplots(figsize=(7.0, 6.2 * height / width * len(scenes) + 0.4))
+    ax.set(xlim=(0, width), ylim=(height * len(rows), 0), xticks=[], aspect="equal")
+    for k, row in enumerate(rows):
+        if row is not None:
+            ax.imshow(row, extent=(0, width, height * (k + 1), height * k))
         else:
-            ax.text(0.5, 0.5, "not rendered: that needs VTK", ha="center", va="center", fontsize=7)
-        ax.set_xticks([])
-        ax.set_yticks([])
-        ax.set_frame_on(False)
-        ax.set_ylabel(title(row["scene"]), fontsize=7)
+            ax.text(width / 2, height * (k + 0.5), "not rendered: that needs VTK", ha="center", va="center", fontsize=7)
+    ax.set_yticks(height * (np.arange(len(rows)) + 0.5), [title(scene).replace(" on ", "\non ") for scene in scenes])
+    ax.tick_params(length=0)
+    ax.grid(False)
+    ax.set_frame_on(False)
     refuted = int(frame["refuted_steps"].sum())
-    finding(fig, f"One solver: {share(int(frame['steps_ok'].sum()), int(frame['steps'].sum()))} steps meet their tolerance, "
+    finding(fig, f"{share(int(frame['steps_ok'].sum()), int(frame['steps'].sum()))} steps meet their tolerance, "
             f"{refuted or 'none'} of them {'are' if refuted > 1 else 'is'} refuted")
     return fig
+
+
+@figure("scenes", "gates", table="scenes")
+def gates(frame):
+    """Every scene over the bound of each gate, a row a gate."""
+    found = scene_gates(frame)
+    return strips(found.assign(row=found["gate"], ratio=within(found, "measured", "bound"), who=found["scene"].map(title)), "gate")
 
 
 @figure("figure_1", "series", table="series")

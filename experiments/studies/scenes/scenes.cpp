@@ -1,0 +1,35 @@
+// The scene files with contact, each by its own method, step and duration: does what must hold of hard cases
+// hold of them?
+#include <array>
+
+#include "studies/experiments.h"
+#include "studies/scenes/scene_run.h"
+
+namespace pbdcheck {
+namespace {
+
+/// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them.
+constexpr std::array<std::string_view, 8> scene_names{"incline",           "stack",         "dominoes",
+                                                      "boxes_at_edges",    "cloth_on_ball", "trampoline",
+                                                      "box_on_soft_block", "soft_cubes"};
+
+}  // namespace
+
+void scenes(Context& context) {
+  std::vector<ScenePlan> plans;
+  for (const std::string_view name : scene_names) plans.push_back(plan_of(name));
+  if (context.full()) add_shorter(plans, 2);
+  SceneStudy study(context, plans);
+  for (const ScenePlan& plan : plans) study.run(plan, nullptr);
+  study.conclude("scenes", "the scenes");
+  // What tilts over an edge is pushed along the arc, and gains the curvature's work: of first order in the
+  // step, and as much as reference/step_energy.h allows.
+  const std::string quantity = owned("largest excess over m g L", study.excess());
+  context.verdict(Basis::robustness, "scenes.energy", "energy stays below a hundredth above the start's",
+                  quantity, study.excess().value(), 1e-2);
+  context.verdict(Basis::goal, "scenes.energy_gain",
+                  "energy never rises above the start's: nothing does work on the scenes", quantity,
+                  study.excess().value(), 1e-6);
+}
+
+}  // namespace pbdcheck

@@ -40,6 +40,7 @@ class Section:
     page: bool = False  # begins a page of the PDF
     appendix: bool = False  # folded in HTML
     files: list = field(default_factory=list)  # results.File: what it is made from
+    animations: list = field(default_factory=list)  # results.Animation: HTML alone
 
     def tell(self, frame, *parts):
         """Adds the text or Table that each of `parts` makes of a result table, if there is one."""

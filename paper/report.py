@@ -45,6 +45,7 @@ def compose(results):
     cited = {claim.figure for claim, _ in found}
     for section in studies:
         section.files = results.files(section.name)
+        section.animations = results.animations(section.name)
         section.tables.sort(key=lambda table: not table.first)
         section.paragraphs += against(found, section.name)
         for number, figure in enumerate(section.figures):

@@ -20,6 +20,12 @@ class File(NamedTuple):
     sha256: str
 
 
+class Animation(NamedTuple):
+    scene: str
+    path: Path
+    rendered: bool  # from these very frames
+
+
 class Results:
     """Only complete runs are read: beside them, a table may stem from an earlier run."""
 
@@ -76,6 +82,16 @@ class Results:
         paths = [self.directory / "figures" / f"{name}.{kind}" for kind in ("png", "svg", "pdf")]
         record = self.directory / experiment / "run.json"
         return record.is_file() and all(path.is_file() and path.stat().st_mtime >= record.stat().st_mtime for path in paths)
+
+    def animations(self, experiment):
+        """Of the scenes that left frames."""
+        frame = self.table(experiment, "scenes")
+        found = []
+        for scene in frame["scene"].unique() if frame is not None else ():
+            frames, path = (self.directory / experiment / scene / name for name in ("simulation.pvd", "animation.webp"))
+            if frames.is_file():
+                found.append(Animation(scene, path, path.is_file() and path.stat().st_mtime >= frames.stat().st_mtime))
+        return found
 
     def producers(self, experiments):
         """What produced each complete run, as (key, value): the experiments."""

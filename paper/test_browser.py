@@ -166,7 +166,7 @@ class Page(BrowserTest):
             self.assertTrue(said.get(role), role)
         for role in ("heading", "button", "searchbox", "link", "image"):
             self.assertTrue(all(name.strip() for name in said.get(role, [])), role)
-        self.assertEqual(len(said["image"]), len(self.all("figure svg")))
+        self.assertEqual(len(said["image"]), len(self.all("figure svg, figure img")))
         levels = self.run_js("return [...document.querySelectorAll('h1, h2, h3, h4')].map(h => Number(h.tagName[1]))")
         self.assertEqual(len(said["heading"]), len(levels))
         self.assertTrue(all(after <= before + 1 for before, after in zip([0, *levels], levels)), levels)

@@ -174,6 +174,17 @@ class Report(unittest.TestCase):
         with mock.patch.object(report, "write_pdf"):
             self.assertEqual(self.html().count("<details><summary>"), sum(table.detail for section in body.sections for table in section.tables))
 
+    def test_animations_are_part_of_the_page_and_missing_ones_are_told(self):
+        sample.write_all(self.directory)
+        for scene in ("stack", "dominoes", "of an earlier run"):
+            (self.directory / "scenes" / scene).mkdir()
+            (self.directory / "scenes" / scene / "simulation.pvd").touch()
+        (self.directory / "scenes" / "stack" / "animation.webp").write_bytes(b"RIFF")
+        with mock.patch.object(report, "write_pdf"):
+            text = self.html()
+        self.assertEqual(text.count('src="data:image/webp;base64,UklGRg=="'), 1)
+        self.assertIn("Not rendered, which needs VTK: dominoes.", text)
+
     def test_unknown_experiment_is_shown(self):
         sample.write(self.directory, "brand_new", "verdicts", VERDICTS, [sample.verdict("n.1", "It <works>", "share", 1.0, 2.0)])
         sample.write_run(self.directory, "brand_new", holds=1)

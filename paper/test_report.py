@@ -177,9 +177,9 @@ class Report(unittest.TestCase):
     def test_animations_are_part_of_the_page_and_missing_ones_are_told(self):
         sample.write_all(self.directory)
         for scene in ("stack", "dominoes", "of an earlier run"):
-            (self.directory / "scenes" / scene).mkdir()
-            (self.directory / "scenes" / scene / "simulation.pvd").touch()
-        (self.directory / "scenes" / "stack" / "animation.webp").write_bytes(b"RIFF")
+            (self.directory / "contact_scenes" / scene).mkdir()
+            (self.directory / "contact_scenes" / scene / "simulation.pvd").touch()
+        (self.directory / "contact_scenes" / "stack" / "animation.webp").write_bytes(b"RIFF")
         with mock.patch.object(report, "write_pdf"):
             text = self.html()
         self.assertEqual(text.count('src="data:image/webp;base64,UklGRg=="'), 1)

@@ -16,7 +16,7 @@ ANGLE = 28  # degrees, that the camera sees from bottom to top
 SIDES = {"incline": (0.1, -1, 0.15), "boxes_at_edges": (0.45, -0.9, 0.3), "flexible_cow": (0.5, -0.8, 0.25)}
 SIDE = (0.45, -0.8, 0.35)
 SHARES = (0, 0.4, 0.7, 1)  # of the time, at which pictures are kept
-WITH_FORCES = ("scenes",)  # experiments whose pictures show the forces of contacts
+WITH_FORCES = ("contact_scenes",)  # experiments whose pictures show the forces of contacts
 FORCE = (0.80, 0.10, 0.10)
 
 

@@ -6,7 +6,7 @@ None of the numbers means anything.
 from command import command
 from reading import InputError
 from sample_bodies import joints, redundant, rotation
-from sample_scenes import figure_1, judged_frames, scenes
+from sample_scenes import contact_scenes, figure_1, judged_frames
 from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems, friction_cone
 from sample_contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
@@ -44,7 +44,7 @@ VERDICTS = [verdict("outer_convergence.rate", "The fixed point contracts at the 
 
 
 def write_all(directory):
-    for experiment in (figure_1, scenes, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
+    for experiment in (figure_1, contact_scenes, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
                        mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
                        friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, rival_newton,

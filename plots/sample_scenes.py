@@ -21,13 +21,13 @@ def figure_1(directory):
     write(directory, "figure_1", "series", tables.TABLES[("figure_1", "series")], series)
 
 
-def scenes(directory):
+def contact_scenes(directory):
     rows = []
     for name, bodies, excess, rest in (("stack", 4, 0.0, 1e-12), ("dominoes", 12, 1e-5, 1e-9), ("trampoline", 1, 0.0, 0.3)):
         for steps in (100, 200):
             rows.append((name, 1 / steps, 1, bodies, 30, 0, 40, 120, steps, steps, 300, 900, 1e-3, 1e-6, 1e-7, 0.0, excess, rest,
                          steps, 0, "ok", ""))
-    write(directory, "scenes", "scenes", tables.SCENES, rows)
+    write(directory, "contact_scenes", "scenes", tables.SCENES, rows)
 
 
 def judged_frames(directory):

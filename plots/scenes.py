@@ -21,7 +21,7 @@ def title(scene):
 
 
 @figure("figure_1", "pictures", table="scenes")
-@figure("scenes", "pictures", table="scenes")
+@figure("contact_scenes", "pictures", table="scenes")
 def pictures(frame):
     """Four instants of each scene, a row each, as plots/render.py left them, or that it could not."""
     folder = frame.attrs.get("folder", Path())
@@ -46,7 +46,7 @@ def pictures(frame):
     return fig
 
 
-@figure("scenes", "gates", table="scenes")
+@figure("contact_scenes", "gates", table="scenes")
 def gates(frame):
     """Every scene over the bound of each gate, a row a gate."""
     found = scene_gates(frame)

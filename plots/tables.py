@@ -83,7 +83,7 @@ TABLES = {
     ("figure_1", "scenes"): SCENES,
     ("figure_1", "series"): "scene step_s time_s kinetic_energy_j energy_change_j pressing_contacts overlap_m bilateral_error_m "
                             "outer_iterations sweeps residual wall_s status reason",
-    ("scenes", "scenes"): SCENES,
+    ("contact_scenes", "scenes"): SCENES,
     ("judged_frames", "frames"): "scene step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
                                  "nearest_error_of_scale reference reference_status reference_residual reference_wall_s",
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "

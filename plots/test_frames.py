@@ -48,7 +48,7 @@ class FramesTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.directory = Path(folder.name)
-        self.folder = self.directory / "scenes" / "incline"
+        self.folder = self.directory / "contact_scenes" / "incline"
         write_scene(self.folder)
 
     def test_surfaces_grounds_and_forces(self):
@@ -63,7 +63,7 @@ class FramesTest(unittest.TestCase):
         self.assertEqual((place.tolist(), force.tolist()), ([[0.1, 0, 0]], [[-1, 0, 2]]))
 
     def test_what_is_held_is_grey(self):
-        folder = self.directory / "scenes" / "boxes_at_edges"
+        folder = self.directory / "contact_scenes" / "boxes_at_edges"
         apart = np.concatenate([CORNERS + k for k in range(8)])
         cells = [tuple(4 * k + np.array(nodes)) for k in range(8) for nodes in TRIANGLES]
         for collection, frame in (("simulation", (0, [(0, 0, 0)], [(0,)], 1, [(0, 0, 0)])), ("bodies", (0, apart, cells, 5, [(0, 0, 0)]))):

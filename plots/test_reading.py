@@ -183,6 +183,16 @@ class Failures(unittest.TestCase):
         self.assertEqual(found["ratio"].tolist()[:2], [3.0, 5.0])  # of updates; of times where there are none
         self.assertTrue(math.isnan(found["ratio"][2]))
 
+    def test_a_gate_of_a_scene_holds_up_to_its_bound(self):
+        frame = reading.pd.DataFrame({"scene": ["a", "b"], "step_s": 0.01, "steps": 10, "steps_ok": [10, 9], "refuted_steps": 0,
+                                      "overlap_share": [1e-2, 2e-2], "overlap_share_at_end": 0.0, "bilateral_error_m": [0.0, math.nan],
+                                      "excess_share": [1e-6, 2e-6], "rest_share": 0.0})
+        found = selecting.scene_gates(frame)
+        self.assertEqual(len(found), 2 * len(selecting.SCENE_GATES))
+        self.assertTrue(found["holds"][found["scene"] == "a"].all())
+        self.assertEqual(found["gate"][~found["holds"]].tolist(), ["steps that miss their tolerance", "overlap", "bilateral error",
+                                                                 "energy above the start's"])
+
     def test_scenes_read_with_short_numbers(self):
         for scene, text in (("cantilever E=100000 Pa", "cantilever E=1e5 Pa"), ("cantilever E=1e+06 Pa nu=0.49", "cantilever E=1e6 Pa nu=0.49"),
                             ("chain20 tip x100", "chain20 tip x100")):

@@ -25,7 +25,7 @@ void mesh_refinement(Context& context);
 void time_order(Context& context);
 void energy(Context& context);
 void figure_1(Context& context);
-void scenes(Context& context);
+void contact_scenes(Context& context);
 void rotation(Context& context);
 void joints(Context& context);
 void redundant(Context& context);

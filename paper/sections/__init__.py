@@ -16,13 +16,13 @@ from sections.outer import contact_contraction, contraction, outer_convergence, 
 from sections.relaxations import conditioning, inexact, inner_convergence
 from sections.sweeps import contact_convergence, late_friction, softness
 from sections.robustness import generated_scenes, generated_worlds, point_hard_cases
-from sections.scenes import figure_1, judged_frames, scenes
+from sections.scenes import contact_scenes, figure_1, judged_frames
 from sections.time import time_order
 
 NO_TABLE = "The run left no table."
 
 SECTIONS = {function.__name__: function for function in (
-    figure_1, scenes, judges, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
+    figure_1, contact_scenes, judges, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
     mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
     friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
     work_precision, rival_newton,

@@ -20,7 +20,8 @@ using namespace pbd;
 namespace {
 
 constexpr std::int64_t shown = 6;       // steps a line of progress
-constexpr double frames_a_second = 30;  // of simulated time
+constexpr double frames_a_second = 30;  // of simulated time, unless they were more than
+constexpr std::int64_t most_frames = 200;
 
 std::int64_t steps_of(const ScenePlan& plan) {
   return static_cast<std::int64_t>(std::lround(plan.duration / plan.h));
@@ -46,7 +47,7 @@ struct SceneRun {
   StepChecks checks;
 };
 
-/// Frames of nodes, bodies and contacts, `frames_a_second` of them, and the last step's.
+/// Frames of nodes, bodies and contacts, equally far apart but for the last step's.
 class Pictures {
  public:
   Pictures(const std::filesystem::path& directory, const ScenePlan& plan)
@@ -54,7 +55,8 @@ class Pictures {
         contacts_(directory, "contacts", "contacts", VtkCells{}),
         surfaces_(plan.file.scene, plan.file.bodies),
         steps_(steps_of(plan)),
-        every_(std::max<std::int64_t>(1, std::lround(1 / (frames_a_second * plan.h)))) {
+        every_(
+            std::max<std::int64_t>({1, std::lround(1 / (frames_a_second * plan.h)), steps_ / most_frames})) {
     if (!surfaces_.empty()) bodies_.emplace(directory, "bodies", "bodies", surfaces_.cells());
   }
   void add(std::int64_t step, const State& state, const std::vector<ContactForce>& contacts) {
@@ -123,7 +125,7 @@ SceneRun run_scene(const ScenePlan& plan, Table* series, Context& context) {
     std::int64_t rows = 0;
     for (const EffectCost& cost : workspace.costs()) rows += cost.rows;
     run.most_rows = std::max(run.most_rows, rows);
-    run.overlap_at_end = larger(0, -least_gap(contacts).value_or(0));
+    run.overlap_at_end = larger(0, 0 - least_gap(contacts).value_or(0));
     run.overlap.add(run.overlap_at_end);
     const double change = energy_of(scene, state) - start, bilateral = bilateral_error(scene, state);
     run.kinetic_at_end = kinetic_energy(scene, state);

@@ -15,19 +15,19 @@ constexpr std::array<std::string_view, 8> scene_names{"incline",           "stac
 
 }  // namespace
 
-void scenes(Context& context) {
+void contact_scenes(Context& context) {
   std::vector<ScenePlan> plans;
   for (const std::string_view name : scene_names) plans.push_back(plan_of(name));
   if (context.full()) add_shorter(plans, 2);
   SceneStudy study(context, plans);
   for (const ScenePlan& plan : plans) study.run(plan, nullptr);
-  study.conclude("scenes", "the scenes");
+  study.conclude("contact_scenes", "the scenes");
   // What tilts over an edge is pushed along the arc, and gains the curvature's work: of first order in the
   // step, and as much as reference/step_energy.h allows.
   const std::string quantity = owned("largest excess over m g L", study.excess());
-  context.verdict(Basis::robustness, "scenes.energy", "energy stays below a hundredth above the start's",
-                  quantity, study.excess().value(), 1e-2);
-  context.verdict(Basis::goal, "scenes.energy_gain",
+  context.verdict(Basis::robustness, "contact_scenes.energy",
+                  "energy stays below a hundredth above the start's", quantity, study.excess().value(), 1e-2);
+  context.verdict(Basis::goal, "contact_scenes.energy_gain",
                   "energy never rises above the start's: nothing does work on the scenes", quantity,
                   study.excess().value(), 1e-6);
 }

@@ -11,7 +11,7 @@
 #include "harness/files.h"
 #include "harness/probes.h"
 #include "harness/vtk.h"
-#include "scenes/contacts.h"
+#include "scenes/standard.h"
 
 namespace pbdcheck {
 

@@ -28,7 +28,7 @@ def pictures(frame):
     scenes = list(frame["scene"].drop_duplicates())
     paths = [[folder / scene / f"instant_{k}.png" for k in range(INSTANTS)] for scene in scenes]
     rows = [np.concatenate([plt.imread(path) for path in row], axis=1) if all(path.exists() for path in row) else None for row in paths]
-    height, width = next((row.shape[:2] for row in rows if row is not None), (1, 6))
+    height, width = next((row.shape[:2] for row in rows if row is not None), (1, 24))
     fig, ax = plt.subplots(figsize=(7.0, 6.2 * height / width * len(scenes) + 0.4))
     ax.set(xlim=(0, width), ylim=(height * len(rows), 0), xticks=[], aspect="equal")
     for k, row in enumerate(rows):

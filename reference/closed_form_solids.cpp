@@ -114,4 +114,20 @@ double thick_sphere_displacement(const ThickSphere& sphere, double pressure, dou
          (1 - 2 * sphere.poisson + (1 + sphere.poisson) * b3 / (2 * r * r * r));
 }
 
+double loaded_bar_frequency(const LoadedBar& bar) {
+  // Below its pole at pi/2, times the cosine.
+  const double x =
+      find_root([&](double a) { return a * std::sin(a) - bar.ratio * std::cos(a); }, 1e-9, pi / 2);
+  return bar.wave_speed * x / (2 * pi * bar.length);
+}
+
+double loaded_bar_frequency_of_elements(const LoadedBar& bar, int elements) {
+  const double half = 0.5 / elements;
+  const auto above = [&](double a) {
+    return std::sin(a) * std::tan(a * half) - bar.ratio * half * std::cos(a);
+  };
+  const double x = find_root(above, 1e-9, pi / 2);
+  return bar.wave_speed * std::sin(x * half) / (2 * pi * half * bar.length);
+}
+
 }  // namespace pbd::reference

@@ -51,4 +51,14 @@ struct ThickSphere {
 };
 double thick_sphere_displacement(const ThickSphere& sphere, double pressure, double r);
 
+/// A bar held at one end with a rigid mass at the other: slowest frequency along it (Hz) c x/(2 pi L), where
+/// x tan(x) = `ratio`; of n equal linear elements, masses lumped, n c sin(x/(2 n))/(pi L), where tan(x)
+/// tan(x/(2 n)) = ratio/(2 n): u_i = sin(x i/n) meets the equation of each node, and that of the mass.
+struct LoadedBar {
+  double length, wave_speed;  // L (m), c = sqrt(E/rho) (m/s)
+  double ratio;               // the bar's mass over the other
+};
+double loaded_bar_frequency(const LoadedBar& bar);
+double loaded_bar_frequency_of_elements(const LoadedBar& bar, int elements);
+
 }  // namespace pbd::reference

@@ -2,6 +2,7 @@
 
 #include "closed_form.h"
 #include "closed_form_solids.h"
+#include "dense.h"
 #include "known_answers_rows.h"
 #include "linear_fem.h"
 #include "numerics.h"
@@ -105,6 +106,37 @@ void hanging_bars(Rows& rows) {
   }
 }
 
+/// The bar of n elements by its matrices: stiffness n E A/L, c = L = 1, the bar's mass 1.
+double loaded_bar_by_matrices(double ratio, int n) {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = stiffness;
+  for (int i = 0; i < n; ++i) {
+    stiffness(i, i) = i == n - 1 ? n : 2 * n;
+    if (i > 0) stiffness(i, i - 1) = stiffness(i - 1, i) = -n;
+    mass(i, i) = i == n - 1 ? 1 / ratio + 0.5 / n : 1.0 / n;
+  }
+  return std::sqrt(generalised_eigenvalues(stiffness, mass)(0)) / (2 * pi);
+}
+
+void loaded_bars(Rows& rows) {
+  struct Case {
+    double ratio;
+    const char *root, *one, *eight;  // x, frequencies of so many elements
+  };
+  for (const auto& [ratio, root, one, eight] :
+       {Case{0.2, "0.4328", "0.067863896", "0.068872477"}, Case{1, "0.8603", "0.12994947", "0.13681228"},
+        Case{10, "1.4289", "0.20546815", "0.22705569"}}) {
+    // With a wave speed of 2 pi the frequency is the root.
+    const LoadedBar bar{1, 2 * pi, ratio};
+    const auto beyond = [ratio = ratio](double x) { return x * std::tan(x) - ratio; };
+    rows.push_back({"loaded_bar", "bar " + number(ratio) + " times as heavy as the mass at its end: x", "1",
+                    loaded_bar_frequency(bar), root, find_root(beyond, 0.1, 1.5)});
+    for (const auto& [n, stated] : {std::pair{1, one}, {8, eight}})
+      rows.push_back({"loaded_bar", "the same of " + number(n) + " elements, c = L = 1: frequency", "Hz",
+                      loaded_bar_frequency_of_elements({1, 1, ratio}, n), stated,
+                      loaded_bar_by_matrices(ratio, n)});
+  }
+}
+
 /// The elastica's tip by shooting from the clamp, theta'' = -load cos(theta).
 TipPlace elastica_by_ode(double load) {
   const auto slope = [load](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) {
@@ -159,6 +191,7 @@ void solids(Rows& rows) {
   kirchhoff(rows);
   neo_hookean(rows);
   hanging_bars(rows);
+  loaded_bars(rows);
   rows.push_back({"manufactured_cube",
                   "manufactured cube: energy",
                   "J",

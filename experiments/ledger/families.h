@@ -24,6 +24,7 @@ void jams(Ledger& rows);
 void carried(Ledger& rows);
 void solids(Ledger& rows);
 void bars(Ledger& rows);
+void loaded_bars(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);

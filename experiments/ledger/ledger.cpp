@@ -67,8 +67,9 @@ const std::vector<LedgerRow>& ledger_rows() {
           ledger::falling_chains, ledger::free_bodies, ledger::tops,        ledger::mechanisms,
           ledger::sliding,        ledger::rolling,     ledger::impacts,     ledger::contact_springs,
           ledger::thresholds,     ledger::jams,        ledger::carried,     ledger::solids,
-          ledger::bars,           ledger::cantilevers, ledger::elasticas,   ledger::membranes,
-          ledger::shells,         ledger::rates,       ledger::unreachable, ledger::baseline_rows})
+          ledger::bars,           ledger::loaded_bars, ledger::cantilevers, ledger::elasticas,
+          ledger::membranes,      ledger::shells,      ledger::rates,       ledger::unreachable,
+          ledger::baseline_rows})
       family(rows);
     return rows;
   }();

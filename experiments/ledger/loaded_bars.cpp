@@ -1,0 +1,120 @@
+// A rigid mass at the end of a bar of tetrahedra that does not thin, so that the bar moves as one of its
+// bricks' elements along a line.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "closed_form_solids.h"
+#include "ledger/families.h"
+#include "ledger/solids.h"
+#include "scenes/standard.h"
+
+namespace pbdcheck::ledger {
+namespace {
+
+using namespace pbd;
+
+// 1 x 0.1 x 0.1 m along x, held at x = 0: 10 kg, waves of 10 m/s.
+constexpr double area = 0.01, density = 1000, young = 1e5, bar_mass = 10, wave_speed = 10;
+
+/// The mass, body 0, does not turn: the mesh is not symmetric, and bends the bar where its end may.
+Scene loaded_bar(int cells, double ratio) {
+  Scene scene;
+  const Vec3 middle(1, 0.05, 0.05);
+  add_body(scene, middle, bar_mass / ratio, Vec3::Constant(infinity));
+  const TetMesh mesh = kuhn_grid({cells, 1, 1}, Vec3(1, 0.1, 0.1));
+  const int first = add_solid(scene, mesh, density, {young, 0}, Strain::linear);
+  clamp_smallest_x(scene);
+  Attachment held;
+  for (int node = first; node < scene.nodes(); ++node) {
+    const Vec3 x = scene.initial.x.col(node);
+    if (x.x() < 1 - 1e-9) continue;
+    held.body.push_back(0);
+    held.node.push_back(node);
+    held.point.emplace_back(x - middle);
+    held.compliance.push_back(0);
+  }
+  scene.effects.emplace_back(std::move(held));
+  return scene;
+}
+
+double displacement(const State& state) {
+  return state.x(0, 0) - 1;
+}
+
+constexpr double h = 0.1;  // s
+constexpr int settling = 16;
+
+double frequency(const Method& method, int cells, double ratio) {
+  Scene scene = loaded_bar(cells, ratio);
+  for (int node = 0; node < scene.nodes(); ++node) scene.initial.x(0, node) *= 1.5;
+  return slowest_frequency(scene, method, h, settling, displacement);
+}
+
+void hung_row(Ledger& rows) {
+  constexpr int cells = 4;
+  rows.push_back(
+      {.id = "mass_on_bar.hung",
+       .statement = "a bar lengthens under its weight and that of the mass at its end",
+       .quantity = "displacement of the mass",
+       .unit = "m",
+       .formula = "g L (M + m/2)/(E A)",
+       .source = "hughes2000finite",
+       .scene = "50 kg on a bar of 1 m, 10 kg, 1e5 Pa, nu = 0, 4 x 1 x 1 bricks, linear",
+       .method = direct_method(),
+       .bound = {.relative = 1e-9, .derivation = "linear elements are exact at nodes in 1D; tolerance"},
+       .expected = [] { return gravity * (50 + bar_mass / 2) / (young * area); },
+       .run =
+           [](const Method& method) {
+             Scene scene = loaded_bar(cells, 0.2);
+             scene.effects.emplace_back(Gravity{Vec3(gravity, 0, 0)});
+             constexpr double rest_h = 0.3;  // s: 1e-12 of g h^2, what a step may miss, counts as rest
+             return displacement(equilibrium(scene, method, rest_h));
+           }});
+}
+
+void mode_rows(Ledger& rows) {
+  constexpr int cells = 4;
+  for (const double ratio : {0.2, 1.0, 10.0}) {
+    const reference::LoadedBar bar{1, wave_speed, ratio};
+    const LedgerRow row{
+        .quantity = "lowest frequency along the bar", .unit = "Hz", .method = direct_method()};
+    LedgerRow mesh = row, theory = row;
+    mesh.id = fmt::format("mass_on_bar.mesh_{:g}", ratio);
+    mesh.statement = "a mass at the end of a bar swings as the bar's elements say";
+    mesh.formula = "n c sin(x/(2 n))/(pi L), tan(x) tan(x/(2 n)) = m/(2 n M)";
+    mesh.scene =
+        fmt::format("bar {:g} times as heavy as the mass, 4 x 1 x 1 bricks, nu = 0, h = 0.1 s", ratio);
+    // Where the bar is ten times as heavy, a step leaves 1/1.7 of the slowest mode and 1/4.2 of the next one.
+    mesh.bound = {.relative = std::pow(2.4, -settling),
+                  .derivation = "implicit Euler's phase undone; other modes fall 2.4 times as fast a step"};
+    mesh.expected = [bar] { return reference::loaded_bar_frequency_of_elements(bar, cells); };
+    mesh.run = [ratio](const Method& method) { return frequency(method, cells, ratio); };
+    theory.id = fmt::format("mass_on_bar.mode_{:g}", ratio);
+    theory.statement = "and finer meshes approach the continuum's frequency";
+    theory.formula = "c x/(2 pi L), x tan(x) = m/M";
+    theory.scene =
+        fmt::format("bar {:g} times as heavy as the mass, 4 and 8 x 1 x 1 bricks, nu = 0, h = 0.1 s", ratio);
+    const double x = 2 * std::numbers::pi * reference::loaded_bar_frequency(bar) / wave_speed;
+    theory.bound = {.relative = std::pow(x / (2 * cells), 4),
+                    .derivation = "order 2 in x/(2 n), 4 and 8 bricks extrapolated: its fourth power"};
+    theory.expected = [bar] { return reference::loaded_bar_frequency(bar); };
+    theory.run = [ratio](const Method& method) {
+      return extrapolated(
+          [&](double width) { return frequency(method, static_cast<int>(std::lround(1 / width)), ratio); },
+          1.0 / cells, 2);
+    };
+    rows.push_back(std::move(mesh));
+    rows.push_back(std::move(theory));
+  }
+}
+
+}  // namespace
+
+void loaded_bars(Ledger& rows) {
+  hung_row(rows);
+  mode_rows(rows);
+}
+
+}  // namespace pbdcheck::ledger

@@ -108,6 +108,13 @@ double hertz_force(double young, double poisson, double radius, double depth) {
   return 4.0 / 3 * young / (1 - poisson * poisson) * std::sqrt(radius) * std::pow(depth, 1.5);
 }
 
+Sunk point_load_displacement(double young, double poisson, double force, double z, double r) {
+  const double rho = std::hypot(z, r), cube = rho * rho * rho;
+  const double share = force * (1 + poisson) / (2 * pi * young);  // F/(4 pi G)
+  return {share * (z * z / cube + 2 * (1 - poisson) / rho),
+          share * r * (z / cube - (1 - 2 * poisson) / (rho * (rho + z)))};
+}
+
 double thick_sphere_displacement(const ThickSphere& sphere, double pressure, double r) {
   const double a3 = std::pow(sphere.inner, 3), b3 = std::pow(sphere.outer, 3);
   return pressure * a3 * r / (sphere.young * (b3 - a3)) *

@@ -44,6 +44,14 @@ BarState neo_hookean_bar(double young, double poisson, double stretch);
 /// d^(3/2).
 double hertz_force(double young, double poisson, double radius, double depth);
 
+/// Boussinesq: displacements (m) of an elastic half space under a force (N) into it at the origin of its
+/// surface, at the depth z and the distance r from the force's line, rho^2 = r^2 + z^2. Inwards F/(4 pi G)
+/// (z^2/rho^3 + 2 (1 - nu)/rho), outwards F r/(4 pi G) (z/rho^3 - (1 - 2 nu)/(rho (rho + z))).
+struct Sunk {
+  double inwards, outwards;
+};
+Sunk point_load_displacement(double young, double poisson, double force, double z, double r);
+
 /// Lame's thick sphere, `inner` to `outer` radius a to b (m): displacement outwards (m) at radius r under a
 /// pressure (Pa) within, p a^3 r/(E (b^3 - a^3)) (1 - 2 nu + (1 + nu) b^3/(2 r^3)).
 struct ThickSphere {

@@ -175,6 +175,14 @@ void large_deflections(Rows& rows) {
   for (const auto& [depth, stated] : {std::pair{1e-3, "14.6520147"}, {5e-3, "163.814504"}})
     rows.push_back({"hertz", "sphere of .1 m, 1e6 Pa, nu .3, pressed " + number(depth) + " m: force", "N",
                     hertz_force(1e6, 0.3, 0.1, depth), stated, std::nullopt});
+  // Hertz's pressure 3 F/(2 pi a^2) sqrt(1 - r^2/a^2), a^2 = R d, sinks its middle by d as point loads do.
+  const double pressed = 1e-3, a = std::sqrt(0.1 * pressed), force = hertz_force(1e6, 0.3, 0.1, pressed);
+  const auto sunk = [&](double r) {
+    return 3 * force / (a * a) * std::sqrt(1 - r * r / (a * a)) * r *
+           point_load_displacement(1e6, 0.3, 1, 0, r).inwards;
+  };
+  rows.push_back({"hertz", "the same, 0.001 m: depth of the middle under its pressure", "m", pressed, "0.001",
+                  integrate(sunk, 0, a)});
   for (const auto& [r, stated] : {std::pair{1.0, "8.0e-4"}, {2.0, "3.0e-4"}})
     rows.push_back({"thick_sphere",
                     "sphere of 1 to 2 m, 1e6 Pa, nu .3, 1e3 Pa within: displacement at " + number(r) + " m",

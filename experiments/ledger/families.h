@@ -25,6 +25,7 @@ void carried(Ledger& rows);
 void solids(Ledger& rows);
 void bars(Ledger& rows);
 void loaded_bars(Ledger& rows);
+void hertz(Ledger& rows);
 void cantilevers(Ledger& rows);
 void elasticas(Ledger& rows);
 void membranes(Ledger& rows);

@@ -63,13 +63,13 @@ const std::vector<LedgerRow>& ledger_rows() {
   static const std::vector<LedgerRow> list = [] {
     std::vector<LedgerRow> rows;
     for (const auto family :
-         {ledger::oscillators,    ledger::particles,   ledger::pendulums,   ledger::chains,
-          ledger::falling_chains, ledger::free_bodies, ledger::tops,        ledger::mechanisms,
-          ledger::sliding,        ledger::rolling,     ledger::impacts,     ledger::contact_springs,
-          ledger::thresholds,     ledger::jams,        ledger::carried,     ledger::solids,
-          ledger::bars,           ledger::loaded_bars, ledger::cantilevers, ledger::elasticas,
-          ledger::membranes,      ledger::shells,      ledger::rates,       ledger::unreachable,
-          ledger::baseline_rows})
+         {ledger::oscillators,    ledger::particles,    ledger::pendulums, ledger::chains,
+          ledger::falling_chains, ledger::free_bodies,  ledger::tops,      ledger::mechanisms,
+          ledger::sliding,        ledger::rolling,      ledger::impacts,   ledger::contact_springs,
+          ledger::thresholds,     ledger::jams,         ledger::carried,   ledger::solids,
+          ledger::bars,           ledger::loaded_bars,  ledger::hertz,     ledger::cantilevers,
+          ledger::elasticas,      ledger::membranes,    ledger::shells,    ledger::rates,
+          ledger::unreachable,    ledger::baseline_rows})
       family(rows);
     return rows;
   }();

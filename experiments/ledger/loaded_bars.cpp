@@ -16,15 +16,16 @@ namespace {
 using namespace pbd;
 
 // 1 x 0.1 x 0.1 m along x, held at x = 0: 10 kg, waves of 10 m/s.
-constexpr double area = 0.01, density = 1000, young = 1e5, bar_mass = 10, wave_speed = 10;
+constexpr double loaded_area = 0.01, loaded_density = 1000, loaded_young = 1e5, loaded_bar_mass = 10,
+                 loaded_wave_speed = 10;
 
 /// The mass, body 0, does not turn: the mesh is not symmetric, and bends the bar where its end may.
 Scene loaded_bar(int cells, double ratio) {
   Scene scene;
   const Vec3 middle(1, 0.05, 0.05);
-  add_body(scene, middle, bar_mass / ratio, Vec3::Constant(infinity));
+  add_body(scene, middle, loaded_bar_mass / ratio, Vec3::Constant(infinity));
   const TetMesh mesh = kuhn_grid({cells, 1, 1}, Vec3(1, 0.1, 0.1));
-  const int first = add_solid(scene, mesh, density, {young, 0}, Strain::linear);
+  const int first = add_solid(scene, mesh, loaded_density, {loaded_young, 0}, Strain::linear);
   clamp_smallest_x(scene);
   Attachment held;
   for (int node = first; node < scene.nodes(); ++node) {
@@ -39,20 +40,20 @@ Scene loaded_bar(int cells, double ratio) {
   return scene;
 }
 
-double displacement(const State& state) {
+double mass_displacement(const State& state) {
   return state.x(0, 0) - 1;
 }
 
-constexpr double h = 0.1;  // s
+constexpr double loaded_h = 0.1;  // s
 constexpr int settling = 16;
 
-double frequency(const Method& method, int cells, double ratio) {
+double loaded_frequency(const Method& method, int cells, double ratio) {
   Scene scene = loaded_bar(cells, ratio);
   for (int node = 0; node < scene.nodes(); ++node) scene.initial.x(0, node) *= 1.5;
-  return slowest_frequency(scene, method, h, settling, displacement);
+  return slowest_frequency(scene, method, loaded_h, settling, mass_displacement);
 }
 
-void hung_row(Ledger& rows) {
+void loaded_rest_row(Ledger& rows) {
   constexpr int cells = 4;
   rows.push_back(
       {.id = "mass_on_bar.hung",
@@ -64,20 +65,20 @@ void hung_row(Ledger& rows) {
        .scene = "50 kg on a bar of 1 m, 10 kg, 1e5 Pa, nu = 0, 4 x 1 x 1 bricks, linear",
        .method = direct_method(),
        .bound = {.relative = 1e-9, .derivation = "linear elements are exact at nodes in 1D; tolerance"},
-       .expected = [] { return gravity * (50 + bar_mass / 2) / (young * area); },
+       .expected = [] { return gravity * (50 + loaded_bar_mass / 2) / (loaded_young * loaded_area); },
        .run =
            [](const Method& method) {
              Scene scene = loaded_bar(cells, 0.2);
              scene.effects.emplace_back(Gravity{Vec3(gravity, 0, 0)});
              constexpr double rest_h = 0.3;  // s: 1e-12 of g h^2, what a step may miss, counts as rest
-             return displacement(equilibrium(scene, method, rest_h));
+             return mass_displacement(equilibrium(scene, method, rest_h));
            }});
 }
 
-void mode_rows(Ledger& rows) {
+void loaded_mode_rows(Ledger& rows) {
   constexpr int cells = 4;
   for (const double ratio : {0.2, 1.0, 10.0}) {
-    const reference::LoadedBar bar{1, wave_speed, ratio};
+    const reference::LoadedBar bar{1, loaded_wave_speed, ratio};
     const LedgerRow row{
         .quantity = "lowest frequency along the bar", .unit = "Hz", .method = direct_method()};
     LedgerRow mesh = row, theory = row;
@@ -90,19 +91,21 @@ void mode_rows(Ledger& rows) {
     mesh.bound = {.relative = std::pow(2.4, -settling),
                   .derivation = "implicit Euler's phase undone; other modes fall 2.4 times as fast a step"};
     mesh.expected = [bar] { return reference::loaded_bar_frequency_of_elements(bar, cells); };
-    mesh.run = [ratio](const Method& method) { return frequency(method, cells, ratio); };
+    mesh.run = [ratio](const Method& method) { return loaded_frequency(method, cells, ratio); };
     theory.id = fmt::format("mass_on_bar.mode_{:g}", ratio);
     theory.statement = "and finer meshes approach the continuum's frequency";
     theory.formula = "c x/(2 pi L), x tan(x) = m/M";
     theory.scene =
         fmt::format("bar {:g} times as heavy as the mass, 4 and 8 x 1 x 1 bricks, nu = 0, h = 0.1 s", ratio);
-    const double x = 2 * std::numbers::pi * reference::loaded_bar_frequency(bar) / wave_speed;
+    const double x = 2 * std::numbers::pi * reference::loaded_bar_frequency(bar) / loaded_wave_speed;
     theory.bound = {.relative = std::pow(x / (2 * cells), 4),
                     .derivation = "order 2 in x/(2 n), 4 and 8 bricks extrapolated: its fourth power"};
     theory.expected = [bar] { return reference::loaded_bar_frequency(bar); };
     theory.run = [ratio](const Method& method) {
       return extrapolated(
-          [&](double width) { return frequency(method, static_cast<int>(std::lround(1 / width)), ratio); },
+          [&](double width) {
+            return loaded_frequency(method, static_cast<int>(std::lround(1 / width)), ratio);
+          },
           1.0 / cells, 2);
     };
     rows.push_back(std::move(mesh));
@@ -113,8 +116,8 @@ void mode_rows(Ledger& rows) {
 }  // namespace
 
 void loaded_bars(Ledger& rows) {
-  hung_row(rows);
-  mode_rows(rows);
+  loaded_rest_row(rows);
+  loaded_mode_rows(rows);
 }
 
 }  // namespace pbdcheck::ledger

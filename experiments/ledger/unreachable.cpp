@@ -53,16 +53,6 @@ void unreachable(Ledger& rows) {
                   .scene = "plate of 10 x 10 x 1 m, 200 GPa, nu = 0.3, 8000 kg/m^3",
                   .expected = [] { return 45.897; },
                   .cannot = "nothing holds one coordinate of a node: anchors hold all three"});
-  rows.push_back(
-      {.id = "unreachable.hertz",
-       .statement = "a rigid sphere pressed 1 mm into an elastic half space, Hertz's contact",
-       .quantity = "force",
-       .unit = "N",
-       .formula = "4/3 E/(1 - nu^2) sqrt(R) d^(3/2)",
-       .scene = "sphere of 0.1 m, E = 1e6 Pa, nu = 0.3",
-       .expected = [] { return pbd::reference::hertz_force(1e6, 0.3, 0.1, 1e-3); },
-       .cannot = "a block of 5184 linear tetrahedra, 0.1 m wide, takes 15 s a step and is 36 % too stiff; "
-                 "finer ones take minutes"});
 }
 
 }  // namespace pbdcheck::ledger

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "closed_form.h"
+#include "closed_form_solids.h"
 #include "numerics.h"
 
 using namespace pbd::reference;
@@ -55,4 +56,32 @@ TEST_CASE("a hanging chain's modes solve (x y')' + lambda y = 0 with a free lowe
     const Eigen::Vector2d top(1 - lambda * start, -lambda * start);
     CHECK(solve_ode(slope, top, {1 - start}).states.back()(0) == Approx(0).margin(1e-9));
   }
+}
+
+TEST_CASE("the half space under a point load is in equilibrium, and its surface is free") {
+  // (1 - 2 nu) lap(u) + grad(div(u)) = 0 within; shear and pressure vanish on the surface beside the load.
+  constexpr double poisson = 0.3, h = 1e-3;
+  const auto at = [](const Eigen::Vector3d& x) {
+    const auto [inwards, outwards] = point_load_displacement(1, poisson, 1, x.z(), std::hypot(x.x(), x.y()));
+    const Eigen::Vector2d across = outwards * x.head<2>().normalized();
+    return Eigen::Vector3d(across.x(), across.y(), inwards);
+  };
+  const auto gradient = [&](const Eigen::Vector3d& x) {
+    Eigen::Matrix3d du;
+    for (int j = 0; j < 3; ++j)
+      du.col(j) = (at(x + h * Eigen::Vector3d::Unit(j)) - at(x - h * Eigen::Vector3d::Unit(j))) / (2 * h);
+    return du;
+  };
+  const Eigen::Vector3d within(0.5, -0.3, 0.7), on_surface(0.6, 0.8, 0);
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::Vector3d side = h * Eigen::Vector3d::Unit(j);
+    force += (1 - 2 * poisson) * (at(within + side) - 2 * at(within) + at(within - side)) / (h * h);
+    force[j] += (gradient(within + side).trace() - gradient(within - side).trace()) / (2 * h);
+  }
+  CHECK(force.norm() <= 10 * h * h);  // fourth derivatives of 1/rho, of order 10 at rho = 1
+  const Eigen::Matrix3d du = gradient(on_surface);
+  CHECK(std::abs(du(0, 2) + du(2, 0)) <= 10 * h * h);
+  CHECK(std::abs(du(1, 2) + du(2, 1)) <= 10 * h * h);
+  CHECK(std::abs((1 - 2 * poisson) * du(2, 2) + poisson * du.trace()) <= 10 * h * h);
 }

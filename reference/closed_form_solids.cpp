@@ -137,4 +137,8 @@ double loaded_bar_frequency_of_elements(const LoadedBar& bar, int elements) {
   return bar.wave_speed * std::sin(x * half) / (2 * pi * half * bar.length);
 }
 
+double struck_mass_speed(const LoadedBar& bar, double time) {
+  return std::exp(-bar.ratio * bar.wave_speed * time / bar.length);
+}
+
 }  // namespace pbd::reference

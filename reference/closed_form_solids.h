@@ -68,5 +68,8 @@ struct LoadedBar {
 };
 double loaded_bar_frequency(const LoadedBar& bar);
 double loaded_bar_frequency_of_elements(const LoadedBar& bar, int elements);
+/// Share of its speed that the mass has a time (s) after it was struck along the bar: the bar takes rho c A v
+/// of momentum a second, exp(-ratio c t/L), until the wave is back at 2 L/c.
+double struck_mass_speed(const LoadedBar& bar, double time);
 
 }  // namespace pbd::reference

@@ -135,6 +135,11 @@ void loaded_bars(Rows& rows) {
                       loaded_bar_frequency_of_elements({1, 1, ratio}, n), stated,
                       loaded_bar_by_matrices(ratio, n)});
   }
+  const auto slope = [](double, const Eigen::VectorXd& y, Eigen::VectorXd& out) { out = -y; };
+  rows.push_back({"loaded_bar",
+                  "mass as heavy as the bar, struck: share of its speed as the wave is at the other end", "1",
+                  struck_mass_speed({1, 1, 1}, 1), "0.367879441",
+                  solve_ode(slope, Eigen::VectorXd::Ones(1), {1}).states.back()(0)});
 }
 
 /// The elastica's tip by shooting from the clamp, theta'' = -load cos(theta).

@@ -113,11 +113,49 @@ void loaded_mode_rows(Ledger& rows) {
   }
 }
 
+/// Of a mass that is struck along the bar at rest, over its speed then, as the wave is at the other end.
+double speed_left(const Method& method, int cells, double ratio) {
+  Scene scene = loaded_bar(cells, ratio);
+  for (int node = 0; node < scene.nodes(); ++node)
+    if (scene.initial.x(0, node) > 1 - 1e-9) scene.initial.v(0, node) = 1;
+  // A wave passes a brick in a step.
+  return state_after(scene, method, 1 / (cells * loaded_wave_speed), cells).v(0, 0);
+}
+
+void struck_rows(Ledger& rows) {
+  constexpr int cells = 16;
+  Method method = direct_method("newmark");
+  method.alpha = 0.5;
+  for (const double ratio : {0.2, 1.0}) {
+    const reference::LoadedBar bar{1, loaded_wave_speed, ratio};
+    rows.push_back(
+        {.id = fmt::format("mass_on_bar.struck_{:g}", ratio),
+         .statement = "a mass that is struck along a bar hands its momentum on by a wave",
+         .quantity = "speed over that at first, as the wave is at the other end",
+         .unit = "1",
+         .formula = "exp(-m c t/(M L))",
+         .scene = fmt::format("bar {:g} times as heavy as the mass, 16 and 32 x 1 x 1 bricks, nu = 0", ratio),
+         .method = method,
+         .bound = {.relative = std::pow(ratio / cells, 2),
+                   .derivation = "order 1 in a brick's mass over M, 16 and 32 extrapolated: its square"},
+         .expected = [bar] { return reference::struck_mass_speed(bar, bar.length / bar.wave_speed); },
+         .run =
+             [ratio](const Method& by) {
+               return extrapolated(
+                   [&](double width) {
+                     return speed_left(by, static_cast<int>(std::lround(1 / width)), ratio);
+                   },
+                   1.0 / cells, 1);
+             }});
+  }
+}
+
 }  // namespace
 
 void loaded_bars(Ledger& rows) {
   loaded_rest_row(rows);
   loaded_mode_rows(rows);
+  struck_rows(rows);
 }
 
 }  // namespace pbdcheck::ledger

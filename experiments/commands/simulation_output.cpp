@@ -12,7 +12,7 @@ namespace {
 
 void remove_earlier(const std::filesystem::path& directory) {
   for (const auto* name :
-       {"run.json", "probes.csv", "checks.csv", "simulation.pvd", "bodies.pvd", "contacts.pvd"})
+       {"run.json", "probes.csv", "checks.csv", "judged.csv", "simulation.pvd", "bodies.pvd", "contacts.pvd"})
     if (std::filesystem::is_regular_file(directory / name)) std::filesystem::remove(directory / name);
   if (!std::filesystem::is_directory(directory / "frames")) return;
   for (const auto& entry : std::filesystem::directory_iterator(directory / "frames")) {

@@ -208,6 +208,8 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
                           const Points& free, const std::vector<double>& inverse_mass) {
   place_colliders(bodies, start, inverse_mass);
   searched_ = false;
+  near_.clear();
+  near_pairs_.clear();
   late_.clear();
   left_.clear();
   for (Motion& motion : motions_) {
@@ -217,6 +219,7 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
     motion.turn = moved.turn;
+    motion.grown = true;
     if (body && motion.radius > 0)
       motion.turn = std::max(moved.turn, (motion.course.norm() + motion.travel) / motion.radius);
   }
@@ -227,24 +230,27 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
 
 bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
   bool farther = false;
-  const auto extend = [&](double& searched, double reached) {
-    if (!(reached > (1 + rounding) * searched)) return;
+  const auto grows = [&](double& searched, double reached) {
+    if (!(reached > (1 + rounding) * searched)) return false;
     searched = (1 + room) * reached;
-    farther = true;
+    return farther = true;
   };
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, bodies, start, x);
-    extend(motion.travel, farthest_travel(motion, moved));
-    extend(motion.turn, moved.turn);
+    motion.grown |= grows(motion.travel, farthest_travel(motion, moved));
+    motion.grown |= grows(motion.turn, moved.turn);
   }
   if (surfaces_)
     for (const int node : surfaces_->nodes())
-      extend(node_travel_[node], (x.col(node) - start.x.col(node)).norm());
+      grows(node_travel_[node], (x.col(node) - start.x.col(node)).norm());
   if (farther) searched_ = false;
   return farther;
 }
 
+/// Pairs are as they were found before in the step unless one of them goes farther now.
 void ContactSearch::search(const Configuration& start) {
+  near_before_.swap(near_);
+  pairs_before_.swap(near_pairs_);
   near_.clear();
   near_pairs_.clear();
   boxes_.clear();
@@ -256,7 +262,21 @@ void ContactSearch::search(const Configuration& start) {
     const int group = motion.kind == Carrier::body ? motion.carrier : -1;
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
-  for (const auto& [first, second] : broad_phase_.pairs(boxes_)) search_pair(first, second, start);
+  auto before = pairs_before_.begin();
+  std::size_t begin = 0;  // of its contacts
+  for (const auto& pair : broad_phase_.pairs(boxes_)) {
+    for (; before != pairs_before_.end() && before->collider < pair; ++before) begin = before->end;
+    const bool known = before != pairs_before_.end() && before->collider == pair &&
+                       !motions_[pair[0]].grown && !motions_[pair[1]].grown;
+    if (!known) {
+      search_pair(pair[0], pair[1], start);
+      continue;
+    }
+    near_.insert(near_.end(), near_before_.begin() + static_cast<std::ptrdiff_t>(begin),
+                 near_before_.begin() + static_cast<std::ptrdiff_t>(before->end));
+    near_pairs_.push_back({pair, before->nearest, near_.size()});
+  }
+  for (Motion& motion : motions_) motion.grown = false;
   surface_contacts_.clear();
   if (surfaces_ && effect_.surfaces_touch)
     surfaces_->find(start.x, node_travel_, effect_.thickness, surface_contacts_);

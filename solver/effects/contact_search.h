@@ -108,9 +108,10 @@ class ContactSearch {
     double radius = 0;           // m, of the farthest point about it; infinite for a half space
     double round = 0;            // m, radius of what is round of the shape
     Vec3 course = Vec3::Zero();  // m, of a body, where its velocity takes it
-    double travel = 0;  // m, that its points move at most beside its course; of a half space, its centre
-    double turn = 0;    // rad, that it turns at most
-    double height = 0;  // m, the least one of a triangle
+    double travel = 0;   // m, that its points move at most beside its course; of a half space, its centre
+    double turn = 0;     // rad, that it turns at most
+    bool grown = false;  // it goes farther than it was searched for
+    double height = 0;   // m, the least one of a triangle
   };
   struct Pair {
     std::array<int, 2> collider;
@@ -212,6 +213,8 @@ class ContactSearch {
   bool searched_ = false;  // `near_` holds what is as near as motions go
   std::vector<NearPair> near_pairs_;
   std::vector<ActiveContact> near_;
+  std::vector<NearPair> pairs_before_;
+  std::vector<ActiveContact> near_before_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius

@@ -33,7 +33,6 @@ void Automatic::begin(StepSystem& system) {
   without_gain_ = 0;
   if (swapped_) swap_solvers(system);
   proximal_.begin(system);
-  crowded_ = quasi_newton_ && quasi_newton_->dual_rows(system) > most_dual_rows;
   if (on_potential()) quasi_newton_->begin(system);
 }
 
@@ -67,7 +66,8 @@ bool Automatic::gains_nothing(const Progress& progress) {
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
-  if (on_potential() && gains_nothing(progress)) take_over(system);
+  if (on_potential() && (gains_nothing(progress) || quasi_newton_->pressed_contacts(system) > most_pressed))
+    take_over(system);
   progress.other_solver |= std::exchange(takes_over_, false);
   if (on_potential()) {
     quasi_newton_->iterate(system, progress);

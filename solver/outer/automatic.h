@@ -6,8 +6,8 @@
 // contacts with friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly
 // get on.
 // Where quasi_newton arrives, but the rounding of its elimination misses the tolerance, the other two take
-// over for the rest of the step. Where a step begins with more than a thousand contacts it is left to them:
-// quasi_newton's problem of n contacts is dense, n^2 blocks of 72 bytes.
+// over for the rest of the step; also where an iterate asks a thousand contacts for impulses: quasi_newton's
+// problem of n such contacts is dense, n^2 blocks of 72 bytes.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class Automatic {
 
   explicit Automatic(StepSystem& system);
 
-  bool on_potential() const { return quasi_newton_ && !crowded_ && !taken_over_; }
+  bool on_potential() const { return quasi_newton_ && !taken_over_; }
 
   void begin(StepSystem& system);
   RowResidual refresh(StepSystem& system);
@@ -39,7 +39,7 @@ class Automatic {
 
  private:
   static constexpr int most_spent = 3;
-  static constexpr std::int64_t most_dual_rows = 3000;
+  static constexpr std::int64_t most_pressed = 1000;
 
   void take_over(StepSystem& system);
   bool gains_nothing(const Progress& progress);
@@ -47,7 +47,6 @@ class Automatic {
   void swap_solvers(StepSystem& system);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
-  bool crowded_ = false;                     // this step has too many contacts for it
   bool taken_over_ = false;                  // the others go on from where it arrived
   bool takes_over_ = false;                  // with the next iteration
   double lowest_ = infinity;                 // residual of quasi_newton, sqrt(J),

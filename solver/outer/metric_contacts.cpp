@@ -21,18 +21,28 @@ void each_contact(Rows& rows, const std::vector<bool>& eliminated, F&& f) {
   }
 }
 
+template <class Block>
+bool asks(const Block& block, std::size_t i, const Points& v) {
+  const auto r = block.residual(v, i, block.impulse[i]);
+  return !allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r).isZero(0);
+}
+
 }  // namespace
+
+std::int64_t MetricContacts::pressed(Rows& rows, const std::vector<bool>& eliminated, const Points& v) {
+  std::int64_t count = 0;
+  each_contact(rows, eliminated, [&](const auto& block, std::size_t i) {
+    count += !block.impulse[i].isZero(0) || asks(block, i, v);
+  });
+  return count;
+}
 
 /// Lets contacts take part whose law asks for an impulse at v; true if there are any that did not.
 bool MetricContacts::engage(Rows& rows, const std::vector<bool>& eliminated, const Points& v) {
   bool any = false;
   std::size_t k = 0;
   each_contact(rows, eliminated, [&](const auto& block, std::size_t i) {
-    if (!engaged_[k]) {
-      const auto r = block.residual(v, i, block.impulse[i]);
-      if (!allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r).isZero(0))
-        any = engaged_[k] = true;
-    }
+    if (!engaged_[k] && asks(block, i, v)) any = engaged_[k] = true;
     ++k;
   });
   return any;

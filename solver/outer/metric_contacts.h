@@ -16,6 +16,9 @@ namespace pbd {
 
 class MetricContacts {
  public:
+  /// Contacts that have an impulse, or whose law asks for one at v.
+  static std::int64_t pressed(Rows& rows, const std::vector<bool>& eliminated, const Points& v);
+
   /// Solves the contacts' linear rows to the budget's residual (sqrt(J)); takes v (m/s) from v_k - P^-1
   /// gradient to where their impulses bring it. `fresh` as in `relax`. Returns the number of sweeps.
   std::int64_t solve(LinearSolver& solver, Rows& rows, const std::vector<bool>& eliminated, Metric& metric,

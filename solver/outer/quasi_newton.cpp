@@ -53,7 +53,7 @@ QuasiNewton::QuasiNewton(StepSystem& system)
 
 bool QuasiNewton::descends(const StepSystem& system) const {
   if (dual_ == Dual::hard_rows || bodies_move_) return false;
-  return dual_ == Dual::none || dual_rows(system) == 0;
+  return dual_ == Dual::none || row_count(system.rows, potential_.eliminated) == 0;
 }
 
 bool QuasiNewton::suits(const StepSystem& system) {

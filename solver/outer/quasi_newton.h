@@ -35,9 +35,10 @@ class QuasiNewton {
   /// True if `auto` takes it: rows are compliant and of points, or contacts.
   static bool suits(const StepSystem& system);
 
-  /// Number of scalar rows that are not eliminated.
-  std::int64_t dual_rows(const StepSystem& system) const {
-    return row_count(system.rows, potential_.eliminated);
+  /// Contacts that have an impulse at the iterate, or ask for one.
+  std::int64_t pressed_contacts(StepSystem& system) const {
+    return dual_ == Dual::contacts ? MetricContacts::pressed(system.rows, potential_.eliminated, system.at.v)
+                                   : 0;
   }
 
   /// True where nothing is left dual: it goes down the potential by line searches.

@@ -85,7 +85,8 @@ TEST_CASE("no row of compare is ok without a finite error") {
   }
 }
 
-TEST_CASE("a signal stops a long step at its next iterate; a second one stops what is deaf to the first") {
+TEST_CASE(
+    "a signal stops a long step at its next iterate, and a second one stops what is deaf to the first") {
   const TemporaryFolder folder;
   const std::vector<std::string> chain{"simulate", scenes / "chain.toml",
                                        "--set",    "method.relaxation=jacobi",
@@ -100,13 +101,13 @@ TEST_CASE("a signal stops a long step at its next iterate; a second one stops wh
   CHECK(record_of(folder.path)["status"] == "interrupted");
   CHECK(record_of(folder.path)["report"]["steps"] == 0);
 
-  const auto before = read_text(folder.path / "run.json");
-  for (const auto* word : {"--set", "method.max_sweeps=2000000000", "--set", "chain.0.links=2000"})
+  // What a simulation begins with is to remove the results of an earlier one.
+  for (const auto* word : {"--set", "method.max_sweeps=2000000000", "--set", "method.inner_tolerance=0",
+                           "--set", "chain.0.links=2000"})
     long_iterate.emplace_back(word);
   const auto killed = run_program(long_iterate, signalled(2));
   CHECK(killed.exit_code == 3);
-  CHECK(read_text(folder.path / "run.json") == before);
-  CHECK(partial_files(folder.path).empty());
+  CHECK(files_in(folder.path).empty());
 }
 
 TEST_CASE("a result that cannot be written is one error with its path, exit code 2, and no partial file") {

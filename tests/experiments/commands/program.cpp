@@ -147,7 +147,7 @@ TEST_CASE("methods are compared on a step with contact") {
   CHECK(compared.back()[11] == "ok");
 }
 
-TEST_CASE("list prints names, as JSON if asked; --help, --version and completion print to stdout") {
+TEST_CASE("list prints names, as JSON if asked, and --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");
   CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);

@@ -1,4 +1,5 @@
-// The rooms of experiments/ include each other one way only, as experiments/README.md lists them.
+// What sources have to keep to: the rooms of experiments/ include each other one way only, as
+// experiments/README.md lists them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <regex>
@@ -71,4 +72,14 @@ TEST_CASE("every experiment that is declared is in the list") {
         std::any_of(list.begin(), list.end(), [&](const auto& each) { return each.name == name[1].str(); }));
   }
   CHECK(declared == pbdcheck::experiments().size());
+}
+
+TEST_CASE("no test has a semicolon in its name, where CTest would cut it and run nothing") {
+  const std::regex cut("TEST_CASE\\(\"[^\"]*;");
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(experiments_folder.parent_path() / "tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    INFO(entry.path().string());
+    CHECK(!std::regex_search(read_text(entry.path()), cut));
+  }
 }

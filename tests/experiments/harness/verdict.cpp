@@ -60,7 +60,7 @@ TEST_CASE("what does not hold says why") {
   CHECK(reason(Measured({0.5, 2})) == "spread: repeats from 0.5 to 2, bound 1");
 }
 
-TEST_CASE("the worst is the largest and says whose it is; the first that is no number spoils it") {
+TEST_CASE("the worst is the largest and says whose it is, and the first that is no number spoils it") {
   Worst worst;
   CHECK(std::isnan(worst.value()));
   worst.add(1, "a");

@@ -1,6 +1,7 @@
 #include "collision/convex_cylinder.h"
 
 #include "collision/cylinder_features.h"
+#include "collision/mesh_pair.h"
 #include "collision/tolerances.h"
 
 namespace pbd {
@@ -78,13 +79,8 @@ struct CylinderPair {
   }
 
   bool faces_farther(int e, const Vec3& apart) const {
-    for (const std::size_t side : {std::size_t(0), std::size_t(1)}) {
-      const int f = a.edge(e).face[side];
-      if (f < 0) continue;
-      const Vec3 inward = a.face_normal(f).cross(a.along[e]) * (side == 0 ? 1 : -1);
-      if (inward.dot(apart) < -tiny) return false;
-    }
-    return true;
+    return minimum(a.edge(e), a.along[e], -apart, std::max(writer.reach.turn, rounding),
+                   [&](int f) -> const Vec3& { return a.face_normal(f); });
   }
 
   /// The edge's point at arc s against the cylinder's nearest part.

@@ -61,10 +61,13 @@ void ContactSearch::name_by_scene(const Motion& triangle, ActiveContact& contact
 }
 
 /// False of an edge or a node from which the surface rises towards the body: that is nearer to a triangle
-/// beside it. Its normal would follow the body about the edge, whose triangles have planes of their own.
+/// beside it. Its normal would follow the body about the edge, whose triangles have planes of their own. Not
+/// so that of two edges that cross: what rises by no more than both turn in the step may come to fall.
 bool ContactSearch::nearest_of_surface(const ActiveContact& contact, const Configuration& at) const {
-  constexpr double level = 1e-9;  // sine: what is over an edge but for rounding is over none of its triangles
   if (contact.features.kind == ContactPoint::Kind::face) return true;
+  double level = 1e-9;  // sine: what is over an edge but for rounding is over none of its triangles
+  if (contact.features.kind == ContactPoint::Kind::edges)
+    for (const int collider : contact.collider) level += motions_[static_cast<std::size_t>(collider)].turn;
   const FeatureName own = first_of(contact.features.key);
   const Vec3 normal = touching_at(contact, at).normal,
              away = contact.triangle_side == 0 ? Vec3(-normal) : normal;

@@ -149,3 +149,23 @@ TEST_CASE("what a contact holds on to of a triangle follows its nodes") {
   CHECK(place < 1e-9);
   CHECK(slope < 1e-6);
 }
+
+TEST_CASE("an edge on a cylinder's side that a turn may bring lowest is told, and no other") {
+  // Over a cylinder along y a triangle whose edge along x is a little farther than what is behind it.
+  constexpr double radius = 0.1, rise = 1e-4, apart = 1e-3;
+  const Frame lying{Vec3::Zero(), Eigen::AngleAxisd(-std::acos(-1.0) / 2, Vec3::UnitX()).toRotationMatrix()};
+  RoundedTriangle triangle;
+  triangle.place({Vec3(-0.5, -0.1, radius + apart + 0.2 * rise), Vec3(0.5, -0.1, radius + apart + 0.2 * rise),
+                  Vec3(0, 0.1, radius + apart)});
+  CollisionScratch scratch;
+  std::vector<ContactPoint> found;
+  for (const double turn : {0.0, rise / 2, 2 * rise}) {
+    found.clear();
+    generate(triangle, Cylinder{radius, 1}, lying, Reach{0.01, turn}, scratch, found);
+    const auto edges = std::count_if(found.begin(), found.end(), [](const ContactPoint& contact) {
+      return contact.kind == ContactPoint::Kind::edges;
+    });
+    INFO("turn " << turn);
+    CHECK(edges == (turn > rise ? 1 : 0));
+  }
+}

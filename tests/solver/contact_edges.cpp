@@ -83,3 +83,22 @@ TEST_CASE("what comes down to a face bounces, and where the face has ended flies
   const Vec3 expected = fast == 1 ? Vec3(2, 0, fast) : velocity;
   CHECK((end.v.col(1) - expected).norm() <= 1e-9);
 }
+
+TEST_CASE("a fold that rises beside its edge holds what crosses it once it falls there") {
+  // Two triangles with a fold along y between them, lower by 0.1 um than their outer corners, which go 1 um
+  // down; a rod across it goes with them, and may not go below it.
+  constexpr double thickness = 2e-3, half = 0.01, h = 0.01, speed = 1e-4, rise = 1e-7, heavy = 1e6;
+  BodyScene build({.friction = 0}, 0);
+  build.box({0.3, 2 * half, 2 * half}, 1,
+            {.position = {0, 0, half + thickness / 2 + rise}, .velocity = {0, 0, -speed}});
+  Scene scene = build.finish();
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.thickness = thickness;
+  std::vector<int> node;
+  for (const Vec3& x : {Vec3(0, -0.5, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0, rise), Vec3(-0.5, 0, rise)})
+    node.push_back(add_node(scene, x, heavy, Vec3(0, 0, x.x() == 0 ? 0 : -speed)));
+  contact.triangle = {{node[0], node[2], node[1]}, {node[0], node[1], node[3]}};
+  const State end = run(scene, contact_method("direct"), h, 1);
+  const double lowest = end.x(2, node[0]) + thickness / 2 + half;
+  CHECK(std::abs(end.x(2, 0) - lowest) <= 1e-9);
+}

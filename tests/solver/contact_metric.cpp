@@ -32,7 +32,7 @@ Scene bodies_on_block(const ContactLaw& law, Strain strain, bool with_bodies) {
 
 }  // namespace
 
-TEST_CASE("quasi_newton solves contact of solids, with bodies and alone, as proximal does") {
+TEST_CASE("quasi_newton solves contact of solids, with bodies and alone, as proximal does, and auto by either") {
   const auto strain = GENERATE(Strain::green, Strain::corotational);
   const std::string friction = GENERATE("coulomb", "cone", "disc", "none");
   const bool with_bodies = GENERATE(true, false);
@@ -55,9 +55,9 @@ TEST_CASE("quasi_newton solves contact of solids, with bodies and alone, as prox
     const Report report = step(quasi_newton, h, state);
     INFO("step " << k << ": " << report.reason << ", residual " << report.residual());
     REQUIRE(report.status == Status::ok);
-    CHECK((state.x - exact.x).norm() <= 1e-8 * (exact.x - before.x).norm());
-    step(automatic, h, by_default);
-    CHECK(by_default.x == state.x);
+    REQUIRE(step(automatic, h, by_default).status == Status::ok);
+    for (const State* end : {&state, &by_default})
+      CHECK((end->x - exact.x).norm() <= 1e-8 * (exact.x - before.x).norm());
     most_contacts = std::max(most_contacts, quasi_newton.contacts().size());
   }
   CHECK(most_contacts >= (with_bodies ? 12u : 9u));

@@ -32,7 +32,8 @@ Scene bodies_on_block(const ContactLaw& law, Strain strain, bool with_bodies) {
 
 }  // namespace
 
-TEST_CASE("quasi_newton solves contact of solids, with bodies and alone, as proximal does, and auto by either") {
+TEST_CASE(
+    "quasi_newton solves contact of solids, with bodies and alone, as proximal does, and auto by either") {
   const auto strain = GENERATE(Strain::green, Strain::corotational);
   const std::string friction = GENERATE("coulomb", "cone", "disc", "none");
   const bool with_bodies = GENERATE(true, false);

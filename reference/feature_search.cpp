@@ -10,6 +10,7 @@ namespace pbd::reference {
 namespace {
 
 constexpr double leaning = 0.2, parallel = 1e-3;  // rad
+constexpr double side_by_side = 1e-3;             // of an edge
 
 /// The features of two surfaces.
 struct Between {
@@ -122,10 +123,14 @@ struct Between {
 
   /// Corners beside edges (kind 1) or corners (0), n being the way between them.
   void corners_beside(const PlacedSurface& a, const PlacedSurface& b, int kind, double reach) {
+    const bool both_deformable = a.surface.deformable && b.surface.deformable;
+    const double beside = both_deformable ? side_by_side : 0;
     each_near(a, 0, b, kind, reach, [&](std::size_t i, std::size_t k) {
       const FeaturePair pair = pair_of(a, 0, i, b, kind, k);
+      if (both_deformable && share_corner(pair)) return;
       const Nearest found_at = nearest(pair, at);
-      if (!found_at.normal.allFinite() || !(found_at.weight[1][0] >= 0 && found_at.weight[1][1] >= 0)) return;
+      const auto& along = found_at.weight[1];
+      if (!found_at.normal.allFinite() || !(along[0] >= -beside && along[1] >= -beside)) return;
       constexpr double rounding = 1e-6;
       const auto& first = kind == 1 ? b.x[static_cast<std::size_t>(b.surface.edge[k][0])] : b.x[k];
       if (a.lies_along(found_at.normal, a.x[i], 0, i, rounding) &&
@@ -144,10 +149,10 @@ struct Between {
     if (!same) corners_over_faces(b, a, reach, depth);
     if (a.surface.plane || b.surface.plane) return;
     edges_across_edges(a, b, reach, depth);
-    if (!(radii > 0) || (a.surface.deformable && b.surface.deformable)) return;
+    if (!(radii > 0)) return;
     corners_beside(a, b, 1, reach);
-    corners_beside(b, a, 1, reach);
-    corners_beside(a, b, 0, reach);
+    if (!same) corners_beside(b, a, 1, reach);
+    if (!a.surface.deformable || !b.surface.deformable) corners_beside(a, b, 0, reach);
   }
 };
 

@@ -47,16 +47,34 @@ SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
   return found;
 }
 
+SurfaceTouching node_edge(const SurfaceContact& contact, const Points& x) {
+  const Vec3 from = x.col(contact.node[0]) - x.col(contact.node[2]),
+             f = x.col(contact.node[3]) - x.col(contact.node[2]);
+  const double squared = f.squaredNorm(), t = squared > 0 ? from.dot(f) / squared : 0.5;
+  const Vec3 apart = from - t * f;
+  SurfaceTouching found;
+  found.normal = unit_or(apart, contact.toward);
+  if (found.normal.dot(contact.toward) < 0) found.normal = -found.normal;
+  found.weight = {1, 0, t - 1, -t};
+  found.gap = found.normal.dot(apart) - contact.thickness;
+  found.point = x.col(contact.node[0]);
+  return found;
+}
+
 template <class T>
 void keep_each_once(std::vector<T>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// True if the nearest points lie on the features: no weight has the sign of the other side.
-bool inside(const SurfaceTouching& found, bool edges) {
+/// True if the nearest points lie on the features: no weight has the sign of the other side. Where edges lie
+/// side by side their ends may be beside both: there an edge counts a little farther.
+bool inside(const SurfaceTouching& found, SurfaceContact::Kind kind) {
+  constexpr double beside = 1e-3;  // of an edge
   const auto& w = found.weight;
-  return edges ? w[0] >= 0 && w[1] >= 0 && w[2] <= 0 && w[3] <= 0 : w[1] <= 0 && w[2] <= 0 && w[3] <= 0;
+  if (kind == SurfaceContact::Kind::node_edge) return w[2] <= beside && w[3] <= beside;
+  const bool first = kind == SurfaceContact::Kind::node_triangle ? w[1] <= 0 : w[0] >= 0 && w[1] >= 0;
+  return first && w[2] <= 0 && w[3] <= 0;
 }
 
 template <std::size_t K>
@@ -77,14 +95,16 @@ void add(SurfaceContact contact, const Points& x, const std::vector<double>& rea
   for (const int node : contact.node) most = std::max(most, reach[node]);
   SurfaceTouching found = touching(contact, x);
   if (found.gap + contact.thickness < 0) contact.side = -1;
+  contact.toward = found.normal;
   found = touching(contact, x);
-  if (found.gap < 2 * most && inside(found, contact.edges)) out.push_back(contact);
+  if (found.gap < 2 * most && inside(found, contact.kind)) out.push_back(contact);
 }
 
 }  // namespace
 
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
-  return contact.edges ? edge_edge(contact, x) : node_triangle(contact, x);
+  if (contact.kind == SurfaceContact::Kind::node_edge) return node_edge(contact, x);
+  return contact.kind == SurfaceContact::Kind::edge_edge ? edge_edge(contact, x) : node_triangle(contact, x);
 }
 
 SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
@@ -127,7 +147,8 @@ void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach
   for (const int node : nodes_)
     tree_.find(box_of(std::array{node}, x, reach, 0), [&](int k) {
       const auto& [a, b, c] = triangles_[k];
-      if (node != a && node != b && node != c) add({{node, a, b, c}, false, 1, thickness}, x, reach, out);
+      if (node != a && node != b && node != c)
+        add({.node = {node, a, b, c}, .thickness = thickness}, x, reach, out);
     });
 }
 
@@ -142,7 +163,45 @@ void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach
       const auto& [c, d] = edges_[j];
       const bool apart = a != c && a != d && b != c && b != d;
       if (static_cast<std::size_t>(j) > i && apart && !along_normal(x.col(b) - x.col(a), x.col(d) - x.col(c)))
-        add({{a, b, c, d}, true, 1, thickness}, x, reach, out);
+        add({.node = {a, b, c, d}, .kind = SurfaceContact::Kind::edge_edge, .thickness = thickness}, x, reach,
+            out);
+    });
+}
+
+/// True if an edge's triangles and a node's neighbours lie away from each other, or may when they have moved
+/// by as much (m): else something of these is nearer. Level triangles have the node over them.
+bool SurfaceSearch::away_from(int node, int edge, const Points& x, double moved) const {
+  constexpr double level = 1e-3, rounding = 1e-6;  // rad
+  const auto& [first, second] = edges_[static_cast<std::size_t>(edge)];
+  const Vec3 from = x.col(first), along = (x.col(second) - from).normalized();
+  const auto across = [&](int other) -> Vec3 {
+    const Vec3 to = x.col(other) - from;
+    return to - along.dot(to) * along;
+  };
+  const Vec3 apart = across(node).normalized();
+  const auto beyond = [&](int other) { return across(other).dot(apart) < -level * across(other).norm(); };
+  const auto farther = [&](int other) {
+    const Vec3 to = x.col(other) - x.col(node);
+    return to.dot(apart) >= -rounding * to.norm() - moved;
+  };
+  const auto triangles = this->across(edge), neighbours = this->neighbours(node);
+  return std::all_of(triangles.begin(), triangles.end(), beyond) &&
+         std::all_of(neighbours.begin(), neighbours.end(), farther);
+}
+
+/// By the tree of `find_edges`.
+void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
+                                      std::vector<SurfaceContact>& out) {
+  for (const int node : nodes_)
+    tree_.find(box_of(std::array{node}, x, reach, thickness / 2), [&](int k) {
+      const auto& [c, d] = edges_[static_cast<std::size_t>(k)];
+      const auto others = across(k);
+      const bool apart =
+          node != c && node != d && std::find(others.begin(), others.end(), node) == others.end();
+      const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
+      if (apart && away_from(node, k, x, moved))
+        add({.node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness}, x,
+            reach, out);
     });
 }
 
@@ -151,6 +210,7 @@ void SurfaceSearch::find(const Points& x, const std::vector<double>& reach, doub
   if (triangles_.empty()) return;
   find_nodes(x, reach, thickness, out);
   find_edges(x, reach, thickness, out);
+  find_nodes_beside(x, reach, thickness, out);
 }
 
 }  // namespace pbd

@@ -1,13 +1,17 @@
-// Contact of deformable surfaces: a node against a triangle, or an edge against an edge. With weights w that
-// sum to zero, one a node, gap = n . sum_k w_k x_k - thickness, and its derivative by x_k is w_k n^T:
+// Contact of deformable surfaces: a node against a triangle or an edge, or an edge against an edge. With
+// weights w that sum to zero, one a node, gap = n . sum_k w_k x_k - thickness, and its derivative by x_k is
+// w_k n^T:
 //   node 0 against triangle 1 2 3   n = +- (x2 - x1) x (x3 - x1) normalised, w = (1, -b1, -b2, -b3), b the
 //                                   barycentric coordinates of x0's projection
 //   edge 0 1 against edge 2 3       n = +- (x1 - x0) x (x3 - x2) normalised, w = (1 - s, s, t - 1, -t) of the
 //                                   nearest points of the two lines
+//   node 0 against edge 2 3         n from the edge's line to x0, w = (1, 0, t - 1, -t) of its nearest point;
+//                                   where the surface ends or is folded, its triangles away from the node
 // The sign keeps the side on which the step begins.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,10 +21,13 @@
 namespace pbd {
 
 struct SurfaceContact {
-  std::array<int, 4> node{};
-  bool edges = false;
+  enum class Kind : std::uint8_t { node_triangle, edge_edge, node_edge };
+
+  std::array<int, 4> node{};  // of a node and an edge the node twice
+  Kind kind = Kind::node_triangle;
   double side = 1;
-  double thickness = 0;  // m, at which surfaces touch
+  Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the step begins
+  double thickness = 0;        // m, at which surfaces touch
 };
 
 struct SurfaceTouching {
@@ -47,9 +54,9 @@ class SurfaceSearch {
   /// The nodes at the other ends of a node's edges.
   std::span<const int> neighbours(int node) const { return neighbours_.of(node); }
 
-  /// Appends node-triangle and edge-edge pairs without a common node whose gap at x is below what their nodes
-  /// move by together (`reach`, m, one a node of the scene), and whose nearest points lie on them. Edges that
-  /// are parallel are left to their nodes.
+  /// Appends pairs without a common node whose gap at x is below what their nodes move by together (`reach`,
+  /// m, one a node of the scene), and whose nearest points lie on them. Edges that are parallel are left to
+  /// their nodes.
   void find(const Points& x, const std::vector<double>& reach, double thickness,
             std::vector<SurfaceContact>& out);
 
@@ -58,6 +65,9 @@ class SurfaceSearch {
                   std::vector<SurfaceContact>& out);
   void find_edges(const Points& x, const std::vector<double>& reach, double thickness,
                   std::vector<SurfaceContact>& out);
+  void find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
+                         std::vector<SurfaceContact>& out);
+  bool away_from(int node, int edge, const Points& x, double moved) const;
 
   /// Lists of numbers, one after the other.
   struct Lists {

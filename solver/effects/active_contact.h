@@ -161,7 +161,8 @@ Directions<Block::rows> directions_in(const ActiveContact& contact,
   if (contact.triangle_side == 0) return -jacobian.template middleCols<3>(3 * column_of<Block>(contact, 1));
   const int column = contact.of_surfaces ? 0 : 3 * column_of<Block>(contact, 0);
   Directions<Block::rows> directions = jacobian.template middleCols<3>(column);
-  if (contact.of_surfaces && contact.surface.edges) directions += jacobian.template middleCols<3>(3);
+  if (contact.of_surfaces && contact.surface.kind == SurfaceContact::Kind::edge_edge)
+    directions += jacobian.template middleCols<3>(3);
   return directions;
 }
 

@@ -99,11 +99,13 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
     contact.features.point_a = contact.features.point_b = Vec3::Zero();
     contact.surface = found;
     contact.law = law;
-    contact.collider = {found.node[0], found.edges ? found.node[2] : found.node[1]};
-    const auto rest = static_cast<std::uint64_t>(found.edges ? found.node[3] : found.node[2]);
-    contact.features.key = 2 * (rest + static_cast<std::uint64_t>(x.cols()) *
-                                           static_cast<std::uint64_t>(found.node[found.edges ? 1 : 3])) +
-                           (found.edges ? 1 : 0);
+    const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
+    contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};
+    const auto number = [](int node) { return static_cast<std::uint64_t>(node); };
+    const std::uint64_t rest = number(found.node[triangle ? 2 : 3]),
+                        other = number(found.node[triangle ? 3 : 1]);
+    contact.features.key =
+        3 * (rest + static_cast<std::uint64_t>(x.cols()) * other) + static_cast<std::uint64_t>(found.kind);
     contacts[law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
   }
 }

@@ -8,13 +8,16 @@
 namespace pbd {
 namespace {
 
-/// A normal turns by at most |dx| over the height of its triangle, or the shorter edge times the sine between
-/// them: twice the impulse over that length.
+/// A normal turns by at most |dx| over the height of its triangle, the shorter edge times the sine between
+/// them, or the distance of node and edge: twice the impulse over that length.
 double surface_bound(const SurfaceContact& contact, const Points& x, double impulse) {
   const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
-  const Vec3 u = contact.edges ? at(1) - at(0) : at(2) - at(1);
-  const Vec3 v = contact.edges ? at(3) - at(2) : at(3) - at(1);
-  const double length = u.cross(v).norm() / std::max(u.norm(), v.norm());
+  const bool edges = contact.kind == SurfaceContact::Kind::edge_edge;
+  const Vec3 u = edges ? at(1) - at(0) : at(2) - at(1);
+  const Vec3 v = edges ? at(3) - at(2) : at(3) - at(1);
+  const double length = contact.kind == SurfaceContact::Kind::node_edge
+                            ? std::abs(touching(contact, x).gap + contact.thickness)
+                            : u.cross(v).norm() / std::max(u.norm(), v.norm());
   return length > 0 ? 2 * std::abs(impulse) / length : 0.0;
 }
 

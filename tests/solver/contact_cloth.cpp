@@ -3,6 +3,7 @@
 #include "contact_runs.h"
 #include "linear/linear_names.h"
 #include "mesh.h"
+#include "side_by_side.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -170,4 +171,12 @@ TEST_CASE("contacts that nothing can move have no impulse and leave the others t
     CHECK(fixed > 0);
     CHECK(ground_force(workspace).z() == Approx(weight(scene)));
   }
+}
+
+TEST_CASE("edges that meet side by side in one plane stop each other by their ends") {
+  const double leaning = GENERATE(0.0, 1e-12, 5e-4), h = 0.01, gap = 5e-3;
+  const State end = run(side_by_side(leaning), contact_method("direct"), h, 1);
+  CHECK(std::abs(end.v(0, 0) - gap / h) <= 1e-9);
+  CHECK(std::abs(end.v(0, 1) - (gap + leaning) / h) <= 1e-9);
+  CHECK(std::abs(end.v(0, 2) - 0.6) <= 1e-12);
 }

@@ -55,19 +55,26 @@ void Automatic::take_over(StepSystem& system) {
   linearise_at(system, system.at.v);
 }
 
-/// True where quasi_newton is near the solution and comes no nearer: its elimination's rounding is met.
+/// True where quasi_newton is near the solution and comes no nearer, its elimination's rounding being met, or
+/// takes many iterations, the fewer the farther it is.
 bool Automatic::gains_nothing(const Progress& progress) {
-  constexpr double near = 1e-6;  // of the scale
-  constexpr int patience = 10;
+  constexpr double near = 1e-6, far = 1e-2;  // of the scale
+  constexpr int patience = 10, many = 30, most = 60;
+  if (progress.iterations_of_rows >= (progress.residual() > far * progress.scale ? many : most)) return true;
   without_gain_ = progress.residual() < lowest_ / 2 ? 0 : without_gain_ + 1;
   if (without_gain_ == 0) lowest_ = progress.residual();
   return without_gain_ >= patience && progress.residual() <= near * progress.scale;
 }
 
+bool Automatic::crowded(StepSystem& system, const Progress& progress) {
+  constexpr std::int64_t many = 50, most = 1000;
+  const auto pressed = quasi_newton_->pressed_contacts(system);
+  return pressed > most || (pressed > many && quasi_newton_->follows() && plain_contracts(system, progress));
+}
+
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
-  if (on_potential() && (gains_nothing(progress) || quasi_newton_->pressed_contacts(system) > most_pressed))
-    take_over(system);
+  if (on_potential() && (gains_nothing(progress) || crowded(system, progress))) take_over(system);
   progress.other_solver |= std::exchange(takes_over_, false);
   if (on_potential()) {
     quasi_newton_->iterate(system, progress);

@@ -5,9 +5,10 @@
 // plain, until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on
 // contacts with friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly
 // get on.
-// Where quasi_newton arrives, but the rounding of its elimination misses the tolerance, the other two take
-// over for the rest of the step; also where an iterate asks a thousand contacts for impulses: quasi_newton's
-// problem of n such contacts is dense, n^2 blocks of 72 bytes.
+// The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
+// its elimination misses the tolerance; where it stalls, or is not there after 60 iterations, 30 where it is
+// far, as where much is compressed; and where an iterate asks many contacts for impulses: its problem of n
+// such contacts is dense, n^2 blocks of 72 bytes. Many are a thousand, or 50 on sheets where plain contracts.
 #pragma once
 
 #include <optional>
@@ -36,13 +37,14 @@ class Automatic {
   void end(StepSystem& system) { proximal_.end(system); }
   std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
   void unsettle(StepSystem& system);
+  bool takes_over() const { return takes_over_; }
 
  private:
   static constexpr int most_spent = 3;
-  static constexpr std::int64_t most_pressed = 1000;
 
   void take_over(StepSystem& system);
   bool gains_nothing(const Progress& progress);
+  bool crowded(StepSystem& system, const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
   void swap_solvers(StepSystem& system);
 

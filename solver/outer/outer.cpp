@@ -133,6 +133,11 @@ void unsettle(OuterIteration& outer, StepSystem& system) {
       outer);
 }
 
+bool takes_over(const OuterIteration& outer) {
+  const auto* automatic = std::get_if<Automatic>(&outer);
+  return automatic != nullptr && automatic->takes_over();
+}
+
 bool on_potential(const OuterIteration& outer) {
   if (const auto* automatic = std::get_if<Automatic>(&outer)) return automatic->on_potential();
   return std::holds_alternative<QuasiNewton>(outer);

@@ -67,6 +67,9 @@ std::optional<RowResidual> settle(OuterIteration& outer, StepSystem& system, con
                                   bool stalled);
 void unsettle(OuterIteration& outer, StepSystem& system);
 
+/// True if the next iteration is another one, so that it does not matter that the last one stalled.
+bool takes_over(const OuterIteration& outer);
+
 /// True if it works on a potential, where the bounds of the contraction are all that is asked for.
 bool on_potential(const OuterIteration& outer);
 

@@ -35,6 +35,9 @@ class QuasiNewton {
   /// True if `auto` takes it: rows are compliant and of points, or contacts.
   static bool suits(const StepSystem& system);
 
+  /// True where the metric is that of the current shape.
+  bool follows() const { return follows_; }
+
   /// Contacts that have an impulse at the iterate, or ask for one.
   std::int64_t pressed_contacts(StepSystem& system) const {
     return dual_ == Dual::contacts ? MetricContacts::pressed(system.rows, potential_.eliminated, system.at.v)

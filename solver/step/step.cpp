@@ -145,7 +145,7 @@ void StepRun::solve(const Observer& observer) {
       begin_rows();
       continue;
     }
-    if (stalled) {
+    if (stalled && !takes_over(w.outer)) {
       report.reason = "stalled away from the solution";
       break;
     }

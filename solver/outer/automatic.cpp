@@ -60,7 +60,8 @@ void Automatic::take_over(StepSystem& system) {
 bool Automatic::gains_nothing(const Progress& progress) {
   constexpr double near = 1e-6, far = 1e-2;  // of the scale
   constexpr int patience = 10, many = 30, most = 60;
-  if (progress.iterations_of_rows >= (progress.residual() > far * progress.scale ? many : most)) return true;
+  const int enough = progress.residual() > far * progress.scale ? many : most;
+  if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
   without_gain_ = progress.residual() < lowest_ / 2 ? 0 : without_gain_ + 1;
   if (without_gain_ == 0) lowest_ = progress.residual();
   return without_gain_ >= patience && progress.residual() <= near * progress.scale;

@@ -89,7 +89,7 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
   }
 }
 
-void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
+void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
   const int material = effect_.surface_material;
   const ContactLaw& law = effect_.law[material * effect_.materials + material];
   for (const SurfaceContact& found : surface_contacts_) {
@@ -105,7 +105,7 @@ void ContactSearch::add_surfaces(const Points& x, ContactLists& contacts) {
     const std::uint64_t rest = number(found.node[triangle ? 2 : 3]),
                         other = number(found.node[triangle ? 3 : 1]);
     contact.features.key =
-        3 * (rest + static_cast<std::uint64_t>(x.cols()) * other) + static_cast<std::uint64_t>(found.kind);
+        3 * (rest + static_cast<std::uint64_t>(nodes) * other) + static_cast<std::uint64_t>(found.kind);
     contacts[law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
   }
 }
@@ -296,7 +296,7 @@ void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
   }
   keep_each_once(contacts[triangles_rough]);
   keep_each_once(contacts[triangles_smooth]);
-  add_surfaces(start.x, contacts);
+  add_surfaces(start.x.cols(), contacts);
 }
 
 }  // namespace pbd

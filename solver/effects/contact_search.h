@@ -1,8 +1,8 @@
 // Which contacts a step has. Where it begins, the shapes that may touch in it give contact points
 // (collision/), each a pair of features carried by a body or a node. Shapes take part that are nearer than
 // their motions go: to the free motion's end, and where a solved iterate went farther, a quarter farther than
-// that. A body's motion is told from its course, where its velocity takes it, so that bodies that fly side by
-// side are not near for their speed.
+// that. A body's motion is told from its course, where its velocity takes it, with a quarter of it to spare,
+// so that bodies that fly side by side are not near for all of their speed.
 //
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
 // chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel beside
@@ -153,7 +153,7 @@ class ContactSearch {
   static double farthest_travel(const Motion& motion, const Displacement& moved);
   static double travel_near(const Motion& motion, const Motion& other);
   static double travel_between(const Motion& one, const Motion& two);
-  void add_surfaces(const Points& x, ContactLists& contacts);
+  void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
   static double round_radius_of(const Motion& one, const Motion& two);
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;

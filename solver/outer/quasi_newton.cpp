@@ -79,13 +79,14 @@ void QuasiNewton::begin(StepSystem& system) {
   potential_.begin_metric(system);
 }
 
-/// True if P is to be factored at the iterate: where rows leave directions free unless it still makes the
-/// residual fall well, else after many descents.
+/// Counts an iteration. True if P is to be factored at the iterate: where rows leave directions free unless
+/// it still makes the residual fall well, else after many descents.
 bool QuasiNewton::outlived(const Progress& progress) {
   constexpr double good_fall = 0.1;
   constexpr int most_iterations = 30;
-  if (!follows_) return ++potential_.since_factor > most_iterations;
-  return progress.residual() > good_fall * std::exchange(last_residual_, progress.residual());
+  const double last = std::exchange(last_residual_, progress.residual());
+  if (follows_) return progress.residual() > good_fall * last;
+  return ++potential_.since_factor > most_iterations;
 }
 
 RowResidual QuasiNewton::evaluate(StepSystem& system) {

@@ -56,6 +56,7 @@ class QuasiNewton {
     evaluated_ = false;
     acceleration_.forget();
     lowest_ = infinity;
+    last_residual_ = 0;
     without_fall_ = 0;
   }
 

@@ -58,7 +58,7 @@ void Automatic::take_over(StepSystem& system) {
 /// True where quasi_newton is near the solution and comes no nearer, its elimination's rounding being met, or
 /// takes many iterations, the fewer the farther it is.
 bool Automatic::gains_nothing(const Progress& progress) {
-  constexpr double near = 1e-6, far = 1e-2;  // of the scale
+  constexpr double far = 1e-2;  // of the scale
   constexpr int patience = 10, many = 30, most = 60;
   const int enough = progress.residual() > far * progress.scale ? many : most;
   if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
@@ -102,10 +102,12 @@ void Automatic::forget() {
 
 void Automatic::unsettle(StepSystem& system) {
   quasi_newton_->unsettle(system);
-  take_over(system);
+  if (leaves_) take_over(system);
 }
 
 std::optional<RowResidual> Automatic::settle(StepSystem& system, const Progress& progress, bool stalled) {
+  leaves_ =
+      progress.residual() <= near * progress.scale || (stalled && on_potential() && quasi_newton_->follows());
   return on_potential() ? quasi_newton_->settle(system, progress, stalled) : std::nullopt;
 }
 

@@ -6,9 +6,10 @@
 // contacts with friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly
 // get on.
 // The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
-// its elimination misses the tolerance; where it stalls, or is not there after 60 iterations, 30 where it is
-// far, as where much is compressed; and where an iterate asks many contacts for impulses: its problem of n
-// such contacts is dense, n^2 blocks of 72 bytes. Many are a thousand, or 50 on sheets where plain contracts.
+// its elimination misses the tolerance; on sheets where it stalls, or is not there after 60 iterations, 30
+// where it is far, as where much is compressed; and where an iterate asks many contacts for impulses: its
+// problem of n such contacts is dense, n^2 blocks of 72 bytes. Many are a thousand, or 50 on sheets where
+// plain contracts.
 #pragma once
 
 #include <optional>
@@ -41,6 +42,7 @@ class Automatic {
 
  private:
   static constexpr int most_spent = 3;
+  static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
   void take_over(StepSystem& system);
   bool gains_nothing(const Progress& progress);
@@ -51,6 +53,7 @@ class Automatic {
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
   bool taken_over_ = false;                  // the others go on from where it arrived
   bool takes_over_ = false;                  // with the next iteration
+  bool leaves_ = false;                      // they do where its settling is refused
   double lowest_ = infinity;                 // residual of quasi_newton, sqrt(J),
   int without_gain_ = 0;                     // and iterations since
   LinearSolver other_ = NesterovJacobi{};    // takes over from the solver of the method

@@ -127,7 +127,7 @@ struct Between {
     const double beside = both_deformable ? side_by_side : 0;
     each_near(a, 0, b, kind, reach, [&](std::size_t i, std::size_t k) {
       const FeaturePair pair = pair_of(a, 0, i, b, kind, k);
-      if (both_deformable && share_corner(pair)) return;
+      if (both_deformable && (share_corner(pair) || (kind == 0 && &a == &b && i > k))) return;
       const Nearest found_at = nearest(pair, at);
       const auto& along = found_at.weight[1];
       if (!found_at.normal.allFinite() || !(along[0] >= -beside && along[1] >= -beside)) return;
@@ -152,7 +152,7 @@ struct Between {
     if (!(radii > 0)) return;
     corners_beside(a, b, 1, reach);
     if (!same) corners_beside(b, a, 1, reach);
-    if (!a.surface.deformable || !b.surface.deformable) corners_beside(a, b, 0, reach);
+    corners_beside(a, b, 0, reach);
   }
 };
 

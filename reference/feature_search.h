@@ -10,8 +10,8 @@
 // the corners next to its feature tell: those of rounded features exactly, of others but for `leaning` (rad),
 // since what will lie flat comes down askew. Over a half space every corner counts, and it has none.
 // Deformable surfaces touch each other by corners over faces, edges across edges and corners beside edges,
-// these a thousandth longer than they are, without a corner in common, and nodes do not touch nodes. Edges
-// that are `parallel` (rad) are left to their ends.
+// these a thousandth longer than they are, and beside corners, without a corner in common. Edges that are
+// `parallel` (rad) are left to their ends.
 #pragma once
 
 #include "touching_features.h"

@@ -50,13 +50,12 @@ SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
 SurfaceTouching node_edge(const SurfaceContact& contact, const Points& x) {
   const Vec3 from = x.col(contact.node[0]) - x.col(contact.node[2]),
              f = x.col(contact.node[3]) - x.col(contact.node[2]);
-  const double squared = f.squaredNorm(), t = squared > 0 ? from.dot(f) / squared : 0.5;
+  const double squared = f.squaredNorm(), t = squared > 0 ? std::clamp(from.dot(f) / squared, 0.0, 1.0) : 0.5;
   const Vec3 apart = from - t * f;
   SurfaceTouching found;
   found.normal = unit_or(apart, contact.toward);
-  if (found.normal.dot(contact.toward) < 0) found.normal = -found.normal;
   found.weight = {1, 0, t - 1, -t};
-  found.gap = found.normal.dot(apart) - contact.thickness;
+  found.gap = apart.norm() - contact.thickness;
   found.point = x.col(contact.node[0]);
   return found;
 }
@@ -106,6 +105,18 @@ SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
   if (contact.kind == SurfaceContact::Kind::node_edge) return node_edge(contact, x);
   return contact.kind == SurfaceContact::Kind::edge_edge ? edge_edge(contact, x) : node_triangle(contact, x);
 }
+
+namespace {
+
+/// The other end, if a node is beside an end of an edge but for a thousandth of it; -1 if it is not.
+int end_beside(const SurfaceContact& contact, const Points& x) {
+  constexpr double close = 1e-3;
+  const SurfaceTouching found = touching(contact, x);
+  if (-found.weight[2] >= 1 - close) return contact.node[2];
+  return -found.weight[3] >= 1 - close ? contact.node[3] : -1;
+}
+
+}  // namespace
 
 SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
   for (const auto& [a, b, c] : triangles) {
@@ -189,9 +200,10 @@ bool SurfaceSearch::away_from(int node, int edge, const Points& x, double moved)
          std::all_of(neighbours.begin(), neighbours.end(), farther);
 }
 
-/// By the tree of `find_edges`.
+/// By the tree of `find_edges`. Two nodes touch once, whichever edges end there.
 void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
                                       std::vector<SurfaceContact>& out) {
+  ends_.clear();
   for (const int node : nodes_)
     tree_.find(box_of(std::array{node}, x, reach, thickness / 2), [&](int k) {
       const auto& [c, d] = edges_[static_cast<std::size_t>(k)];
@@ -199,9 +211,15 @@ void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>
       const bool apart =
           node != c && node != d && std::find(others.begin(), others.end(), node) == others.end();
       const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
-      if (apart && away_from(node, k, x, moved))
-        add({.node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness}, x,
-            reach, out);
+      if (!apart || !away_from(node, k, x, moved)) return;
+      const SurfaceContact contact{
+          .node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness};
+      if (const int end = end_beside(contact, x); end >= 0) {
+        const std::array<int, 2> nodes{std::min(node, end), std::max(node, end)};
+        if (std::find(ends_.begin(), ends_.end(), nodes) != ends_.end()) return;
+        ends_.push_back(nodes);
+      }
+      add(contact, x, reach, out);
     });
 }
 

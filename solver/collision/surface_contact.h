@@ -5,8 +5,11 @@
 //                                   barycentric coordinates of x0's projection
 //   edge 0 1 against edge 2 3       n = +- (x1 - x0) x (x3 - x2) normalised, w = (1 - s, s, t - 1, -t) of the
 //                                   nearest points of the two lines
-//   node 0 against edge 2 3         n from the edge's line to x0, w = (1, 0, t - 1, -t) of its nearest point;
-//                                   where the surface ends or is folded, its triangles away from the node
+//   node 0 against edge 2 3         n from the edge's nearest point to x0, w = (1, 0, t - 1, -t); where the
+//                                   surface ends or is folded, its triangles away from the node; the nearest
+//                                   point may be an end, which is how nodes touch nodes
+// What passes an edge by less than the thickness is pushed away from it wherever it is then: a node that is
+// fast enough to come out on the other side in one step goes through.
 // The sign keeps the side on which the step begins.
 #pragma once
 
@@ -26,7 +29,7 @@ struct SurfaceContact {
   std::array<int, 4> node{};  // of a node and an edge the node twice
   Kind kind = Kind::node_triangle;
   double side = 1;
-  Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the step begins
+  Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
   double thickness = 0;        // m, at which surfaces touch
 };
 
@@ -86,6 +89,7 @@ class SurfaceSearch {
   std::vector<int> nodes_;
   std::vector<AxisBox> boxes_;
   BoxTree tree_;
+  std::vector<std::array<int, 2>> ends_;  // nodes that touch each other, in find_nodes_beside
 };
 
 }  // namespace pbd

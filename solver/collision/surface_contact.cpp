@@ -66,12 +66,9 @@ void keep_each_once(std::vector<T>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// True if the nearest points lie on the features: no weight has the sign of the other side. Where edges lie
-/// side by side their ends may be beside both: there an edge counts a little farther.
+/// True if the nearest points lie on the features: no weight has the sign of the other side.
 bool inside(const SurfaceTouching& found, SurfaceContact::Kind kind) {
-  constexpr double beside = 1e-3;  // of an edge
   const auto& w = found.weight;
-  if (kind == SurfaceContact::Kind::node_edge) return w[2] <= beside && w[3] <= beside;
   const bool first = kind == SurfaceContact::Kind::node_triangle ? w[1] <= 0 : w[0] >= 0 && w[1] >= 0;
   return first && w[2] <= 0 && w[3] <= 0;
 }
@@ -94,7 +91,6 @@ void add(SurfaceContact contact, const Points& x, const std::vector<double>& rea
   for (const int node : contact.node) most = std::max(most, reach[node]);
   SurfaceTouching found = touching(contact, x);
   if (found.gap + contact.thickness < 0) contact.side = -1;
-  contact.toward = found.normal;
   found = touching(contact, x);
   if (found.gap < 2 * most && inside(found, contact.kind)) out.push_back(contact);
 }
@@ -105,18 +101,6 @@ SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
   if (contact.kind == SurfaceContact::Kind::node_edge) return node_edge(contact, x);
   return contact.kind == SurfaceContact::Kind::edge_edge ? edge_edge(contact, x) : node_triangle(contact, x);
 }
-
-namespace {
-
-/// The other end, if a node is beside an end of an edge but for a thousandth of it; -1 if it is not.
-int end_beside(const SurfaceContact& contact, const Points& x) {
-  constexpr double close = 1e-3;
-  const SurfaceTouching found = touching(contact, x);
-  if (-found.weight[2] >= 1 - close) return contact.node[2];
-  return -found.weight[3] >= 1 - close ? contact.node[3] : -1;
-}
-
-}  // namespace
 
 SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
   for (const auto& [a, b, c] : triangles) {
@@ -179,25 +163,31 @@ void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach
     });
 }
 
-/// True if an edge's triangles and a node's neighbours lie away from each other, or may when they have moved
-/// by as much (m): else something of these is nearer. Level triangles have the node over them.
-bool SurfaceSearch::away_from(int node, int edge, const Points& x, double moved) const {
-  constexpr double level = 1e-3, rounding = 1e-6;  // rad
-  const auto& [first, second] = edges_[static_cast<std::size_t>(edge)];
-  const Vec3 from = x.col(first), along = (x.col(second) - from).normalized();
-  const auto across = [&](int other) -> Vec3 {
+/// True if an edge's triangles and a node's neighbours lie away from each other along n, or may when they
+/// have moved by as much (m): else something of these is nearer. Triangles that are level have the node over
+/// them.
+bool SurfaceSearch::away_from(const SurfaceContact& contact, int edge, const SurfaceTouching& touching,
+                              const Points& x, double moved) const {
+  constexpr double level = 1e-9, rounding = 1e-6;  // rad
+  const Vec3 from = touching.point - (touching.gap + contact.thickness) * touching.normal;
+  const auto beyond = [&](int other) {
     const Vec3 to = x.col(other) - from;
-    return to - along.dot(to) * along;
+    return to.dot(touching.normal) < -level * to.norm();
   };
-  const Vec3 apart = across(node).normalized();
-  const auto beyond = [&](int other) { return across(other).dot(apart) < -level * across(other).norm(); };
   const auto farther = [&](int other) {
-    const Vec3 to = x.col(other) - x.col(node);
-    return to.dot(apart) >= -rounding * to.norm() - moved;
+    const Vec3 to = x.col(other) - touching.point;
+    return to.dot(touching.normal) >= -rounding * to.norm() - moved;
   };
-  const auto triangles = this->across(edge), neighbours = this->neighbours(node);
+  const auto triangles = across(edge), others = neighbours(contact.node[0]);
   return std::all_of(triangles.begin(), triangles.end(), beyond) &&
-         std::all_of(neighbours.begin(), neighbours.end(), farther);
+         std::all_of(others.begin(), others.end(), farther);
+}
+
+/// The end that a node's nearest point of an edge is, but for a thousandth of it; -1 if it is between them.
+int SurfaceSearch::end_of(const SurfaceContact& contact, const SurfaceTouching& touching) {
+  constexpr double close = 1e-3;
+  if (-touching.weight[2] >= 1 - close) return contact.node[2];
+  return -touching.weight[3] >= 1 - close ? contact.node[3] : -1;
 }
 
 /// By the tree of `find_edges`. Two nodes touch once, whichever edges end there.
@@ -208,18 +198,19 @@ void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>
     tree_.find(box_of(std::array{node}, x, reach, thickness / 2), [&](int k) {
       const auto& [c, d] = edges_[static_cast<std::size_t>(k)];
       const auto others = across(k);
-      const bool apart =
-          node != c && node != d && std::find(others.begin(), others.end(), node) == others.end();
-      const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
-      if (!apart || !away_from(node, k, x, moved)) return;
+      if (node == c || node == d || std::find(others.begin(), others.end(), node) != others.end()) return;
       const SurfaceContact contact{
           .node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness};
-      if (const int end = end_beside(contact, x); end >= 0) {
+      const SurfaceTouching found = touching(contact, x);
+      const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
+      if (found.gap >= moved || !away_from(contact, k, found, x, moved)) return;
+      if (const int end = end_of(contact, found); end >= 0) {
         const std::array<int, 2> nodes{std::min(node, end), std::max(node, end)};
         if (std::find(ends_.begin(), ends_.end(), nodes) != ends_.end()) return;
         ends_.push_back(nodes);
       }
-      add(contact, x, reach, out);
+      out.push_back(contact);
+      out.back().toward = found.normal;
     });
 }
 

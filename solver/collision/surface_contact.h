@@ -8,9 +8,8 @@
 //   node 0 against edge 2 3         n from the edge's nearest point to x0, w = (1, 0, t - 1, -t); where the
 //                                   surface ends or is folded, its triangles away from the node; the nearest
 //                                   point may be an end, which is how nodes touch nodes
-// What passes an edge by less than the thickness is pushed away from it wherever it is then: a node that is
-// fast enough to come out on the other side in one step goes through.
-// The sign keeps the side on which the step begins.
+// The sign keeps the side on which the step begins. A node and an edge have none: a node that comes out on
+// the other side within one step, by more than the thickness, goes through.
 #pragma once
 
 #include <array>
@@ -70,7 +69,9 @@ class SurfaceSearch {
                   std::vector<SurfaceContact>& out);
   void find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
                          std::vector<SurfaceContact>& out);
-  bool away_from(int node, int edge, const Points& x, double moved) const;
+  bool away_from(const SurfaceContact& contact, int edge, const SurfaceTouching& touching, const Points& x,
+                 double moved) const;
+  static int end_of(const SurfaceContact& contact, const SurfaceTouching& touching);
 
   /// Lists of numbers, one after the other.
   struct Lists {

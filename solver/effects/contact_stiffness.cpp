@@ -12,12 +12,20 @@ namespace {
 /// them, or the distance of node and edge: twice the impulse over that length.
 double surface_bound(const SurfaceContact& contact, const Points& x, double impulse) {
   const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
-  const bool edges = contact.kind == SurfaceContact::Kind::edge_edge;
-  const Vec3 u = edges ? at(1) - at(0) : at(2) - at(1);
-  const Vec3 v = edges ? at(3) - at(2) : at(3) - at(1);
-  const double length = contact.kind == SurfaceContact::Kind::node_edge
-                            ? std::abs(touching(contact, x).gap + contact.thickness)
-                            : u.cross(v).norm() / std::max(u.norm(), v.norm());
+  const auto height = [](const Vec3& u, const Vec3& v) {
+    return u.cross(v).norm() / std::max(u.norm(), v.norm());
+  };
+  double length = 0;
+  switch (contact.kind) {
+    case SurfaceContact::Kind::node_triangle:
+      length = height(at(2) - at(1), at(3) - at(1));
+      break;
+    case SurfaceContact::Kind::edge_edge:
+      length = height(at(1) - at(0), at(3) - at(2));
+      break;
+    case SurfaceContact::Kind::node_edge:
+      length = touching(contact, x).gap + contact.thickness;
+  }
   return length > 0 ? 2 * std::abs(impulse) / length : 0.0;
 }
 

@@ -67,6 +67,16 @@ TEST_CASE("what flies side by side is not near for its speed, and meets where on
   }
 }
 
+TEST_CASE("what is struck within a step meets the ground that it rested above") {
+  constexpr double h = 0.01, radius = 0.1, above = 0.03, apart = 0.005;
+  BodyScene build({.friction = 0}, 0);
+  build.ground();
+  build.ball(radius, 1, {.position = {0, 0, above + radius}});
+  build.ball(radius, 1, {.position = {0, 0, above + apart + 3 * radius}, .velocity = {0, 0, -10}});
+  const State end = run(build.finish(), contact_method("direct"), h, 1);
+  for (int k = 0; k < 2; ++k) CHECK(std::abs(end.x(2, 1 + k) - (1 + 2 * k) * radius) <= 1e-9);
+}
+
 TEST_CASE("sheets that approach each other do not pass through each other") {
   // A triangle that stands on its corner and a level one, 50 mm apart, each of which comes 30 mm a step.
   constexpr double thickness = 2e-3, apart = 0.05, speed = 3, h = 0.01;

@@ -100,6 +100,13 @@ void Automatic::forget() {
   if (quasi_newton_) quasi_newton_->forget();
 }
 
+void Automatic::end(StepSystem& system) {
+  if (quasi_newton_)
+    quasi_newton_->end(system);
+  else
+    proximal_.end(system);
+}
+
 void Automatic::unsettle(StepSystem& system) {
   quasi_newton_->unsettle(system);
   if (leaves_) take_over(system);

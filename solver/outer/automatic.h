@@ -35,7 +35,7 @@ class Automatic {
     pbd::forget(other_);
     if (quasi_newton_) quasi_newton_->forget_stiffness();
   }
-  void end(StepSystem& system) { proximal_.end(system); }
+  void end(StepSystem& system);
   std::optional<RowResidual> settle(StepSystem& system, const Progress& progress, bool stalled);
   void unsettle(StepSystem& system);
   bool takes_over() const { return takes_over_; }

@@ -1,5 +1,6 @@
 // The momentum of components that nothing outside holds. A proximal term moves momentum from one iterate to
-// the next, which vanishes as they converge; left before that, a step would lose or gain some.
+// the next, and a metric's factor rounds it, which vanishes as they converge; left before that, a step would
+// lose or gain some.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,9 +14,6 @@
 
 namespace pbd {
 
-/// Single where that is enough of a metric that stays as it is, or double: momentum is kept to that.
-enum class FactorPrecision { as_needed, full };
-
 class Metric {
  public:
   /// Full blocks if the factor takes at most so many products of 3 x 3 blocks (1e9: some ten seconds), else
@@ -24,7 +21,7 @@ class Metric {
   /// that is the rest shape.
   void factor(const StepMap& map, const std::vector<double>& inverse_mass,
               const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
-              FactorPrecision precision = FactorPrecision::as_needed, double most_products = 1e9);
+              double most_products = 1e9);
 
   bool factored_for(const StepMap& map) const { return d_ == map.d && s_ == map.s; }
 

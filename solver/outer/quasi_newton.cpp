@@ -21,7 +21,8 @@ bool takes_local_contacts(const StepSystem& system) {
 }  // namespace
 
 QuasiNewton::QuasiNewton(StepSystem& system)
-    : lbfgs_(system.problem.method.memory),
+    : components_(system),
+      lbfgs_(system.problem.method.memory),
       zero_(Points::Zero(3, system.problem.bodies.columns())),
       acceleration_(system.problem.method.memory) {
   const auto refuse = [](const char* what, const char* allowed) {

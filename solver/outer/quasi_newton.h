@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "outer/acceleration.h"
+#include "outer/free_components.h"
 #include "outer/hard_rows.h"
 #include "outer/lbfgs.h"
 #include "outer/metric_contacts.h"
@@ -48,6 +49,7 @@ class QuasiNewton {
   bool descends(const StepSystem& system) const;
 
   void begin(StepSystem& system);
+  void end(StepSystem& system) { components_.restore_momentum(system); }
   RowResidual refresh(StepSystem& system);
   void iterate(StepSystem& system, Progress& progress);
 
@@ -84,6 +86,7 @@ class QuasiNewton {
   Dual dual_ = Dual::none;
   bool bodies_move_ = false;
   bool follows_ = false;  // the metric is that of the current shape
+  FreeComponents components_;
   Potential potential_;
   Lbfgs lbfgs_;
   Settling settling_;

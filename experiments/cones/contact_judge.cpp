@@ -53,7 +53,7 @@ ContactJudgement judge_contacts(const ConeSolver& judge, const Scene& scene, con
       break;
     }
     if (!(found.residual <= settled)) continue;
-    if (step.widen(v))
+    if (step.widen(v, solved.impulse, accuracy))
       found.residual = std::numeric_limits<double>::infinity();
     else
       found.status = "ok", found.reason.clear();

@@ -86,9 +86,15 @@ void StepRows::linearise(const Points& v) {
     slot.source->linearise({map_, at, nullptr, v, rows_.inverse_mass, 1}, slot.blocks(rows_), unused);
 }
 
-bool StepRows::widen(const Points& v) {
+bool StepRows::widen(const Points& v, const Eigen::VectorXd& impulse, double tolerance) {
   const Configuration at = reached(v), begun = start();
-  const StepBegin begin = step_begin(begun);
+  StepBegin begin = step_begin(begun);
+  begin.tolerance = tolerance;
+  Eigen::Index row = 0;
+  for_each_block(rows_.blocks, [&]<class Block>(Block& block) {
+    if constexpr (Block::rows == 3)
+      for (std::size_t i = 0; i < block.size(); ++i, row += 3) block.impulse[i] = impulse.segment<3>(row);
+  });
   bool any = false;
   for (Slot& slot : slots_) any |= slot.source->widen(begin, at, slot.blocks(rows_)) != Widened::no;
   return any;

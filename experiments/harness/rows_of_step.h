@@ -19,8 +19,9 @@ class StepRows {
   /// Linearises them where velocities v (m/s, of nodes and then of bodies' rotations) lead, impulses zero.
   void linearise(const pbd::Points& v);
 
-  /// True if the solution v asks for other rows: contacts have been found anew.
-  bool widen(const pbd::Points& v);
+  /// True if the solution asks for other rows: contacts have been found anew. `impulse` is of contacts with
+  /// friction, N s, three each in the rows' order; what is below `tolerance` of the largest counts as none.
+  bool widen(const pbd::Points& v, const Eigen::VectorXd& impulse, double tolerance);
 
   const pbd::Rows& rows() const { return rows_; }
   const pbd::Points& v_free() const { return map_.v_free; }

@@ -24,9 +24,10 @@
 //
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
 // one of its shapes, by more than the tolerance's share of r there (of cylinders by what a plane is off their
-// side, too), leaves the step; its pair is looked at again from then on, along the way from the start, too,
-// so that nothing thin is passed for it. A contact of two edges that is stated as a plane is stated as the
-// edges.
+// side, too), leaves the step, unless the shapes have it there, as those that lie corner on corner do; its
+// pair is looked at again from then on, along the way from the start, too, so that nothing thin is passed for
+// it. What takes its place is as far apart there as it is: what slides under the convex law hovers. A contact
+// of two edges that is stated as a plane is stated as the edges.
 #pragma once
 
 #include <array>
@@ -202,6 +203,10 @@ class ContactSearch {
   std::optional<ActiveContact> as_edges(const ActiveContact& contact, const Configuration& start,
                                         const Configuration& end);
   Pair begun(const std::array<int, 2>& colliders, const Configuration& start);
+  bool agree(const ActiveContact& one, const ActiveContact& two, const Configuration& at, double slack) const;
+  static double hovering(const std::vector<ActiveContact>& contacts, const Configuration& at);
+  void keep_parted(const Configuration& start, const Configuration& end,
+                   std::vector<ActiveContact>& contacts);
   void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                     const Configuration& end, const Configuration& free);
   bool drop_left(const Configuration& start, const Configuration& end, const Configuration& free,

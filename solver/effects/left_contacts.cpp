@@ -70,6 +70,13 @@ bool ContactSearch::on_features(const ActiveContact& contact, const Configuratio
   return on_shapes(contact, {between_x_, between_pose_, start.time});
 }
 
+/// True if two contacts of the same features say the same of a pair.
+bool ContactSearch::agree(const ActiveContact& one, const ActiveContact& two, const Configuration& at,
+                          double slack) const {
+  const Touching first = touching_at(one, at), second = touching_at(two, at);
+  return (first.normal - second.normal).norm() <= besides_ && std::abs(first.gap - second.gap) <= slack;
+}
+
 /// A contact of two edges that is stated as a plane, as one of lines, where the shapes at `end` say so and
 /// that is another one there.
 std::optional<ActiveContact> ContactSearch::as_edges(const ActiveContact& contact, const Configuration& start,
@@ -83,10 +90,7 @@ std::optional<ActiveContact> ContactSearch::as_edges(const ActiveContact& contac
   for (const ContactPoint& point : found_) {
     ActiveContact stated = active(point, pair.collider[0], pair.collider[1]);
     if (stated.features.key != key || stated.features.kind != ContactPoint::Kind::edges) continue;
-    const Touching now = touching_at(contact, end), exact = touching_at(stated, end);
-    if ((now.normal - exact.normal).norm() <= besides_ &&
-        std::abs(now.gap - exact.gap) <= beside(pair.collider))
-      return std::nullopt;
+    if (agree(contact, stated, end, beside(pair.collider))) return std::nullopt;
     return stated;
   }
   return std::nullopt;
@@ -117,18 +121,43 @@ bool ContactSearch::find_met(const Configuration& start, const Configuration& fr
   return late_.size() > before;
 }
 
+/// m, how far apart contacts of a pair act: under the convex law what slides hovers.
+double ContactSearch::hovering(const std::vector<ActiveContact>& contacts, const Configuration& at) {
+  double most = 0;
+  for (const ActiveContact& contact : contacts)
+    most = std::max(most, touching_at(contact, at).gap - contact.target);
+  return most;
+}
+
+/// Of contacts of a pair that act beside their shapes at `end`, those that the shapes do not have there: what
+/// lies corner on corner is beside its shapes by rounding, or by what a solved step misses, and stays. Of
+/// cylinders all: the planes that stand for their rims are not on them.
+void ContactSearch::keep_parted(const Configuration& start, const Configuration& end,
+                                std::vector<ActiveContact>& contacts) {
+  const Pair pair{contacts.front().pair()};
+  if (is_cylinder(pair.collider[0]) || is_cylinder(pair.collider[1])) return;
+  const double slack = besides_ * round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
+  generate_between(pair, start, end, 1, slack + hovering(contacts, end));
+  std::erase_if(contacts, [&](const ActiveContact& contact) {
+    return std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
+      const ActiveContact found = active(point, pair.collider[0], pair.collider[1]);
+      return found.features.key == contact.features.key && agree(contact, found, end, slack);
+    });
+  });
+}
+
 /// Adds what touches of a pair at `end` to the late contacts, but for what has left its features, in the
 /// place of those of its contacts that have.
 void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                                  const Configuration& end, const Configuration& free) {
   const Pair pair = begun(left.front().pair(), start);
-  const double slack = pair.overlooked;
   if (left.front().law.restitution > 0) {
     overlapping_.clear();
     find_overlapping(pair, start, free);
   } else {
-    generate_between(pair, start, end, 1, slack);
-    keep_overlapping(pair, start, end, slack, pair.deepest - slack);
+    const double reach = pair.overlooked + hovering(left, end);
+    generate_between(pair, start, end, 1, reach);
+    keep_overlapping(pair, start, end, reach, pair.deepest - pair.overlooked);
   }
   const auto place = [&](const ActiveContact& own) { return touching_at(own, end).point_a; };
   for (ActiveContact& found : overlapping_) {
@@ -162,12 +191,18 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
         continue;
       }
       if (contact.restitution > 0 || on_shapes(contact, end)) continue;
-      left_.insert(features);
-      if (const auto late = late_contact(features); late != late_.end()) late_.erase(late);
       if (left.empty() || left.back().front().pair() != features.collider) left.emplace_back();
       left.back().push_back(contact);
     }
-  for (const auto& of_pair : left) add_touching(of_pair, start, end, free);
+  for (auto& of_pair : left) {
+    keep_parted(start, end, of_pair);
+    for (const ActiveContact& contact : of_pair) {
+      const PairFeatures features{contact.pair(), contact.features.key};
+      left_.insert(features);
+      if (const auto late = late_contact(features); late != late_.end()) late_.erase(late);
+    }
+    if (!of_pair.empty()) add_touching(of_pair, start, end, free);
+  }
   return left_.size() > before;
 }
 

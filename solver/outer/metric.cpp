@@ -24,7 +24,7 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
                     const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
                     double most_products) {
   constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
-  pattern_ = analyse(inverse_mass, entries);
+  if (!pattern_.is_of(inverse_mass, entries)) pattern_ = analyse(inverse_mass, entries);
   if (pattern_.products() > most_products) {
     factor_ = converted<1, double>(factorised<1>(pattern_, inverse_mass, entries));
   } else {

@@ -73,6 +73,7 @@ void factorise(const FactorPattern& pattern, std::vector<Eigen::Matrix<double, B
 
 FactorPattern analyse(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries) {
   FactorPattern pattern;
+  for (const auto& entry : entries) pattern.pairs.push_back({entry.row, entry.column});
   int count = 0;
   for (const double inverse : inverse_mass) pattern.column.push_back(inverse > 0 ? count++ : -1);
   std::vector<Eigen::Triplet<double>> numbers;
@@ -90,6 +91,17 @@ FactorPattern analyse(const std::vector<double>& inverse_mass, const std::vector
   for (int& column : pattern.column)
     if (column >= 0) column = factored.permutationP().indices()(column);
   return pattern;
+}
+
+bool FactorPattern::is_of(const std::vector<double>& inverse_mass,
+                          const std::vector<MetricEntry>& entries) const {
+  return !start.empty() &&
+         std::equal(column.begin(), column.end(), inverse_mass.begin(), inverse_mass.end(),
+                    [](int own, double inverse) { return (own >= 0) == (inverse > 0); }) &&
+         std::equal(pairs.begin(), pairs.end(), entries.begin(), entries.end(),
+                    [](const auto& pair, const MetricEntry& entry) {
+                      return pair[0] == entry.row && pair[1] == entry.column;
+                    });
 }
 
 double FactorPattern::products() const {

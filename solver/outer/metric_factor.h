@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "rows/source.h"
@@ -10,10 +11,12 @@ namespace pbd {
 
 /// Pattern of the Cholesky factor L of a permuted matrix, by block columns, the diagonal first.
 struct FactorPattern {
-  std::vector<int> column;  // of each node in L, -1 for infinite mass
+  std::vector<int> column;                // of each node in L, -1 for infinite mass
+  std::vector<std::array<int, 2>> pairs;  // of nodes, that the matrix's blocks were of
   std::vector<int> start, row;
 
   int columns() const { return static_cast<int>(start.size()) - 1; }
+  bool is_of(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries) const;
   /// Multiplications of blocks that the factorisation takes.
   double products() const;
 };

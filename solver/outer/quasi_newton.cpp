@@ -81,12 +81,11 @@ void QuasiNewton::begin(StepSystem& system) {
 }
 
 /// Counts an iteration. True if P is to be factored at the iterate: where rows leave directions free unless
-/// it still makes the residual fall well, else after many descents.
-bool QuasiNewton::outlived(const Progress& progress) {
-  constexpr double good_fall = 0.1;
+/// the residual falls well enough, else after many descents.
+bool QuasiNewton::outlived(const Progress& progress, double well) {
   constexpr int most_iterations = 30;
   const double last = std::exchange(last_residual_, progress.residual());
-  if (follows_) return progress.residual() > good_fall * last;
+  if (follows_) return progress.residual() > well * last;
   return ++potential_.since_factor > most_iterations;
 }
 
@@ -118,7 +117,8 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
     lowest_ = progress.residual();
   }
   acceleration_.note(system);
-  if (follows_ && outlived(progress)) potential_.factor_metric(system, MetricShape::current);
+  constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
+  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::current);
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;
@@ -195,7 +195,8 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
     if (start_low(system)) return;
     find_direction();
   }
-  if (outlived(progress)) {
+  constexpr double well = 0.7;  // L-BFGS learns what the metric leaves out, and a factor would forget it
+  if (outlived(progress, well)) {
     potential_.factor_metric(system, MetricShape::current);
     lbfgs_.forget();
     find_direction();

@@ -8,10 +8,10 @@
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,
 // which allocates. Of sheets, whose stiffness across themselves is their tension, it is that of the current
-// shape with the tension's part, factored anew wherever an iteration leaves more than a tenth of the
-// residual: Newton's method without what is not convex (`Constraint::stiffening`). Above 1e9 block products
-// (about 18000 nodes of a beam four times as long as high) it falls back to one number a pair of nodes, which
-// takes several times the iterations (measured: `rival_newton`).
+// shape with the tension's part: Newton's method without what is not convex (`Constraint::stiffening`). It is
+// factored anew wherever a descent leaves more than 0.7 of the residual, under rows more than a tenth. Above
+// 1e9 block products (about 18000 nodes of a beam four times as long as high) it falls back to one number a
+// pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once
 
 #include <optional>
@@ -77,7 +77,7 @@ class QuasiNewton {
   std::optional<RowResidual> rest_as_it_is(StepSystem& system, const Progress& progress);
   bool arrived(const StepSystem& system, const Progress& progress);
   bool start_low(StepSystem& system);
-  bool outlived(const Progress& progress);
+  bool outlived(const Progress& progress, double well);
   void descend(StepSystem& system, const Progress& progress);
   void project(StepSystem& system, Progress& progress);
 

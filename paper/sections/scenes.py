@@ -14,8 +14,8 @@ GATES = (
     "least size, at the end a thousandth. Constraints that give no way are met to a thousandth; a scene without any has an error of 0. "
     "Energy never rises above the start's, since nothing does work. At its end the scene is at rest; some are stopped while they move.")
 TILTING = (
-    "Where a body tilts over an edge it is pushed along the arc of its centre, and implicit Euler gains the curvature's work: of the first "
-    "order in the step, and what the checks of each step allow.")
+    "Where a body tilts over an edge, implicit Euler may gain the work that the curvature of the gap brings: of the first order in the "
+    "step. The checks of each step allow that and no more.")
 
 
 def figure_1(results):

@@ -1,7 +1,7 @@
 #include "collision/convex_cylinder.h"
 
 #include "collision/cylinder_features.h"
-#include "collision/mesh_pair.h"
+#include "collision/edge_minimum.h"
 #include "collision/tolerances.h"
 
 namespace pbd {

@@ -1,6 +1,7 @@
 #include "collision/cylinder_mesh.h"
 
 #include "collision/cylinder_features.h"
+#include "collision/edge_minimum.h"
 #include "collision/mesh_pair.h"
 #include "collision/tolerances.h"
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "collision/edge_minimum.h"
 #include "collision/segments.h"
 
 namespace pbd {

@@ -2,8 +2,6 @@
 // cross where their distance has a minimum over both surfaces.
 #pragma once
 
-#include <algorithm>
-
 #include "collision/scratch.h"
 #include "collision/tolerances.h"
 
@@ -16,22 +14,6 @@ inline constexpr double flat_slope = 0.014;
 /// That the surface rises from its node along the normal, or falls less than by `slope` (sine; of small
 /// angles, rad): nodes within a flat region do not feel faces that are oblique to it.
 bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double slope);
-
-/// That the distance does not fall from an edge into its faces, `apart` from the edge to the other shape,
-/// when that has turned by `turn` (rad); by no more than half the angle of the faces' normals, beyond which a
-/// face is nearer than the edge.
-template <class Normal>
-bool minimum(const Polyhedron::Edge& edge, const Vec3& along, const Vec3& apart, double turn,
-             Normal&& normal) {
-  double slope = 0;
-  if (turn > 0 && edge.face[0] >= 0 && edge.face[1] >= 0)
-    slope = std::min(turn, (normal(edge.face[0]) - normal(edge.face[1])).norm() / 2) * apart.norm();
-  for (const std::size_t side : {0U, 1U}) {
-    if (edge.face[side] < 0) continue;
-    if ((side == 0 ? 1 : -1) * normal(edge.face[side]).cross(along).dot(apart) > slope) return false;
-  }
-  return true;
-}
 
 struct MeshPair {
   const RoundedPolyhedron& a;

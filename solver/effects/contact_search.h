@@ -147,6 +147,7 @@ class ContactSearch {
     double shift, turn;  // m, rad
   };
 
+  // How far colliders go: contact_motion.cpp, with begin and extend.
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
   Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
@@ -235,6 +236,7 @@ class ContactSearch {
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;
+  bool surfaces_grown_ = false;      // their nodes go farther than they were searched for
   std::vector<double> node_travel_;  // m, of each node, where there are surfaces
 };
 

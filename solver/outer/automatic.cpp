@@ -29,8 +29,7 @@ void Automatic::swap_solvers(StepSystem& system) {
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
   taken_over_ = takes_over_ = false;
-  lowest_ = infinity;
-  without_gain_ = 0;
+  gain_ = {};
   if (swapped_) swap_solvers(system);
   proximal_.begin(system);
   if (on_potential()) quasi_newton_->begin(system);
@@ -40,12 +39,17 @@ RowResidual Automatic::refresh(StepSystem& system) {
   return on_potential() ? quasi_newton_->refresh(system) : linearise_at(system, system.at.v);
 }
 
-bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
+/// True if plain's last two changes of v hardly fell: for the rest of the step, whatever is predicted.
+bool Automatic::plain_is_slow(const Progress& progress) {
   constexpr double slow = 0.9;
   constexpr int patience = 2;
   if (progress.iterations_of_rows >= 2 && slow_changes_ < patience)
     slow_changes_ = progress.change > slow * progress.last_change ? slow_changes_ + 1 : 0;
-  if (slow_changes_ >= patience) return false;  // for the rest of the step, whatever was predicted
+  return slow_changes_ >= patience;
+}
+
+/// As predicted.
+bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
   return system.problem.direction_blend != 1 || progress.contraction <= slow_contraction ||
          mass_.update(system, 1) <= slow_contraction;
 }
@@ -57,14 +61,16 @@ void Automatic::take_over(StepSystem& system) {
 
 /// True where quasi_newton is near the solution and comes no nearer, its elimination's rounding being met, or
 /// takes many iterations, the fewer the farther it is.
-bool Automatic::gains_nothing(const Progress& progress) {
+bool Automatic::is_spent(const Progress& progress) {
   constexpr double far = 1e-2;  // of the scale
   constexpr int patience = 10, many = 30, most = 60;
   const int enough = progress.residual() > far * progress.scale ? many : most;
   if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
-  without_gain_ = progress.residual() < lowest_ / 2 ? 0 : without_gain_ + 1;
-  if (without_gain_ == 0) lowest_ = progress.residual();
-  return without_gain_ >= patience && progress.residual() <= near * progress.scale;
+  if (progress.residual() < gain_.lowest / 2)
+    gain_ = {.lowest = progress.residual()};
+  else
+    ++gain_.iterations_since;
+  return gain_.iterations_since >= patience && progress.residual() <= near * progress.scale;
 }
 
 bool Automatic::crowded(StepSystem& system, const Progress& progress) {
@@ -75,11 +81,11 @@ bool Automatic::crowded(StepSystem& system, const Progress& progress) {
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
-  if (on_potential() && (gains_nothing(progress) || crowded(system, progress))) take_over(system);
+  if (on_potential() && (is_spent(progress) || crowded(system, progress))) take_over(system);
   progress.other_solver |= std::exchange(takes_over_, false);
   if (on_potential()) {
     quasi_newton_->iterate(system, progress);
-  } else if (plain_contracts(system, progress)) {
+  } else if (!plain_is_slow(progress) && plain_contracts(system, progress)) {
     system.at.v = system.at.rebuilt;
     relax(system, progress);
   } else {
@@ -94,8 +100,8 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
 }
 
 void Automatic::forget() {
-  slow_changes_ = without_gain_ = 0;
-  lowest_ = infinity;
+  slow_changes_ = 0;
+  gain_ = {};
   proximal_.forget();
   if (quasi_newton_) quasi_newton_->forget();
 }

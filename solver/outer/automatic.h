@@ -44,9 +44,15 @@ class Automatic {
   static constexpr int most_spent = 3;
   static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
+  struct Gain {                // of quasi_newton
+    double lowest = infinity;  // residual when it last halved, sqrt(J),
+    int iterations_since = 0;
+  };
+
   void take_over(StepSystem& system);
-  bool gains_nothing(const Progress& progress);
+  bool is_spent(const Progress& progress);
   bool crowded(StepSystem& system, const Progress& progress);
+  bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
   void swap_solvers(StepSystem& system);
 
@@ -54,9 +60,8 @@ class Automatic {
   bool taken_over_ = false;                  // the others go on from where it arrived
   bool takes_over_ = false;                  // with the next iteration
   bool leaves_ = false;                      // they do where its settling is refused
-  double lowest_ = infinity;                 // residual of quasi_newton, sqrt(J),
-  int without_gain_ = 0;                     // and iterations since
-  LinearSolver other_ = NesterovJacobi{};    // takes over from the solver of the method
+  Gain gain_;
+  LinearSolver other_ = NesterovJacobi{};  // takes over from the solver of the method
   bool swapped_ = false;
   int spent_ = 0;  // iterations in a row whose sweeps were not enough
   Proximal proximal_;

@@ -9,9 +9,10 @@ namespace pbdcheck {
 namespace {
 
 /// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them.
-constexpr std::array<std::string_view, 10> scene_names{
+constexpr std::array<std::string_view, 11> scene_names{
     "incline",       "stack",      "dominoes",          "boxes_at_edges", "house_of_cards",
-    "cloth_on_ball", "trampoline", "box_on_soft_block", "soft_cubes",     "soft_block_on_box_on_cloth"};
+    "cloth_on_ball", "trampoline", "box_on_soft_block", "soft_cubes",     "soft_block_on_box_on_cloth",
+    "ragdoll"};
 
 }  // namespace
 

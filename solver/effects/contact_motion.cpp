@@ -1,0 +1,108 @@
+// How far what may touch goes in a step.
+#include <algorithm>
+#include <cmath>
+
+#include "effects/contact_search.h"
+
+namespace pbd {
+
+ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
+                                                        const Configuration& start, const Points& to) const {
+  if (motion.kind == Carrier::triangle) return triangle_displacement(motion, start.x, to);
+  const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
+  if (motion.kind == Carrier::node) return {shift(motion.carrier).norm(), 0};
+  const Pose& pose = start.pose[motion.carrier];
+  return {(shift(bodies.node(motion.carrier)) - motion.course).norm(),
+          (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm()};
+}
+
+/// Of the points of the collider, beside its course; of a half space, of its body's centre.
+double ContactSearch::farthest_travel(const Motion& motion, const Displacement& moved) {
+  if (motion.kind == Carrier::triangle) return moved.shift;
+  return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
+}
+
+/// Of the points that the other one may reach.
+double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
+  if (std::isfinite(motion.radius)) return motion.travel;
+  const double apart = (other.centre - motion.centre).norm() + (other.course - motion.course).norm();
+  return motion.travel + motion.turn * (apart + other.radius + other.travel);
+}
+
+/// By how much a gap between two falls at most.
+double ContactSearch::travel_between(const Motion& one, const Motion& two) {
+  return (one.course - two.course).norm() + travel_near(one, two) + travel_near(two, one);
+}
+
+Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {
+  const Motion& motion = motions_[collider];
+  if (motion.kind == Carrier::triangle) return {};
+  if (motion.kind == Carrier::node) return {at.x.col(motion.carrier), Eigen::Matrix3d::Identity()};
+  const Pose& pose = at.pose[motion.carrier];
+  const Frame& own = effect_.collider[collider].frame;
+  return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
+}
+
+void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& start,
+                                    const std::vector<double>& inverse_mass) {
+  const auto moves = [&](Eigen::Index column) { return inverse_mass[column] > 0; };
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    Motion& motion = motions_[k];
+    if (motion.kind == Carrier::triangle) {
+      place_triangle(start.x, inverse_mass, motion);
+      continue;
+    }
+    const int carrier = motion.carrier;
+    const bool is_node = motion.kind == Carrier::node;
+    motion.shape = is_node ? &motion.node_shape : &effect_.collider[k].shape;
+    motion.frame = placed_frame(static_cast<int>(k), start);
+    motion.centre = is_node ? motion.frame.origin : start.pose[carrier].x;
+    motion.moves = is_node ? moves(carrier) : moves(bodies.node(carrier)) || moves(bodies.column(carrier));
+  }
+}
+
+void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& straight,
+                          const Points& free, const std::vector<double>& inverse_mass) {
+  place_colliders(bodies, start, inverse_mass);
+  searched_ = false;
+  near_.clear();
+  near_pairs_.clear();
+  late_.clear();
+  left_.clear();
+  for (Motion& motion : motions_) {
+    const bool body = motion.kind == Carrier::body;
+    if (body)
+      motion.course = straight.col(bodies.node(motion.carrier)) - start.x.col(bodies.node(motion.carrier));
+    const Displacement moved = displacement(motion, bodies, start, free);
+    motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
+    motion.turn = moved.turn;
+    motion.grown = true;
+    if (body && motion.radius > 0)
+      motion.turn = std::max(moved.turn, (motion.course.norm() + motion.travel) / motion.radius);
+  }
+  if (!surfaces_) return;
+  surfaces_grown_ = true;
+  node_travel_.assign(bodies.nodes(), 0.0);
+  for (const int node : surfaces_->nodes()) node_travel_[node] = (free.col(node) - start.x.col(node)).norm();
+}
+
+bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
+  bool farther = false;
+  const auto grow = [&](double& searched, double reached, bool& grown) {
+    if (!(reached > (1 + rounding) * searched)) return;
+    searched = (1 + room) * reached;
+    grown = farther = true;
+  };
+  for (Motion& motion : motions_) {
+    const Displacement moved = displacement(motion, bodies, start, x);
+    grow(motion.travel, farthest_travel(motion, moved), motion.grown);
+    grow(motion.turn, moved.turn, motion.grown);
+  }
+  if (surfaces_)
+    for (const int node : surfaces_->nodes())
+      grow(node_travel_[node], (x.col(node) - start.x.col(node)).norm(), surfaces_grown_);
+  if (farther) searched_ = false;
+  return farther;
+}
+
+}  // namespace pbd

@@ -108,8 +108,8 @@ void hertz(Ledger& rows) {
                               2 * cells, cells);
     force.bound = {.relative = std::pow(coarseness(cells), 2) + far,
                    .derivation =
-                       "order 2 in the edges at the contact's edge; the cut, at 6 of its radii a, "
-                       "leaves (a/6 a)^3"};
+                       "order 2 in the edges at the contact's edge, its constant taken as 1; the cut, "
+                       "at 6 of its radii a, moved by the far field of Hertz's own force, leaves (a/6 a)^3"};
     force.run = [cells](const Method& by) { return HertzPress(by, cells).force; };
     force.tier = cells > 8 ? Tier::full : Tier::quick;
     size = force;
@@ -131,7 +131,8 @@ void hertz(Ledger& rows) {
     limit.scene = fmt::format("the same, {} and {} bricks from the middle to the cut", coarse, 2 * coarse);
     limit.bound = {
         .relative = std::pow(coarseness(2 * coarse), 3) + far,
-        .derivation = "order 2, two meshes extrapolated: the finer one's edges over a, cubed; the cut"};
+        .derivation = "order 2, two meshes extrapolated: the finer one's edges over a, cubed, its constant "
+                      "taken as 1; the cut"};
     limit.run = [coarse](const Method& by) {
       return extrapolated(
           [&](double width) { return HertzPress(by, static_cast<int>(std::lround(1 / width))).force; },

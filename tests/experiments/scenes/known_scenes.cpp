@@ -37,6 +37,12 @@ class Probed {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// How far what sticks may creep, m: in each step one of `bodies` alike may keep all that is not solved of
+/// what gravity brings them.
+double creep(double tolerance, double h, std::size_t steps, double bodies) {
+  return static_cast<double>(steps) * tolerance * std::sqrt(bodies) * gravity * h * h;
+}
+
 }  // namespace
 
 // Twelve links hold ((1 + mu t)/(1 - mu t))^12 times the load, t = tan(pi/24).
@@ -46,14 +52,16 @@ TEST_CASE("the rope over the drum holds as much as its links may, and slides bey
   const double reached = 0.2 + 0.2 * (ratio / 2 - 1) / 0.5;  // s: the pull grows from 2 N to 3 N in 0.2 s
   const double start = rope.at(0, "pulled_z_m");
   for (std::size_t k = 0; k <= rope.steps(); ++k)
-    if (rope.at(k, "time_s") <= reached) REQUIRE(std::abs(rope.at(k, "pulled_z_m") - start) <= 1e-7);
+    if (rope.at(k, "time_s") <= reached)
+      REQUIRE(std::abs(rope.at(k, "pulled_z_m") - start) <= creep(1e-8, 0.005, k, 29));
   CHECK(rope.at(rope.steps(), "pulled_z_m") < start - 1e-3);
 }
 
 TEST_CASE("the house of cards stands") {
   const Probed house("house_of_cards");
   for (const auto* column : {"upper_first_x_m", "upper_first_y_m", "upper_first_z_m"})
-    CHECK(std::abs(house.at(house.steps(), column) - house.at(0, column)) <= 1e-6);
+    CHECK(std::abs(house.at(house.steps(), column) - house.at(0, column)) <=
+          creep(1e-6, 0.005, house.steps(), 7));
 }
 
 TEST_CASE("the table carries the soft cards at rest") {

@@ -129,10 +129,10 @@ void hertz(Ledger& rows) {
     limit.statement = "finer meshes approach Hertz's force";
     limit.quantity = "force";
     limit.scene = fmt::format("the same, {} and {} bricks from the middle to the cut", coarse, 2 * coarse);
-    limit.bound = {
-        .relative = std::pow(coarseness(2 * coarse), 3) + far,
-        .derivation = "order 2, two meshes extrapolated: the finer one's edges over a, cubed, its constant "
-                      "taken as 1; the cut"};
+    limit.bound = {.relative = std::pow(coarseness(2 * coarse), 3) + far,
+                   .derivation =
+                       "order 2, two meshes extrapolated: the finer one's edges over a, cubed, its constant "
+                       "taken as 1; the cut"};
     limit.run = [coarse](const Method& by) {
       return extrapolated(
           [&](double width) { return HertzPress(by, static_cast<int>(std::lround(1 / width))).force; },

@@ -29,6 +29,7 @@ struct ActiveContact {
   SurfaceContact surface;
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
   double nearest = 0;              // m, smallest gap of its pair
+  double apart = infinity;         // m, the gap from which it may wait (waiting_contacts.h)
   double target = 0;               // m, the gap aimed at
   double rebound = 0;              // m, the same where the shapes collide
   double restitution = 0;          // e where the shapes collide in this step, else 0

@@ -82,10 +82,11 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   collided_.clear();
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
-  const bool others = fill(begin, blocks);
-  if (!bounces_ || !search_.find_met(begin.at, {free_.x, free_.pose, begin.at.time}, contacts_))
-    return others;
-  return fill(begin, blocks) || others;
+  waiting_.clear();
+  const std::array<Configuration, 2> places{begin.at, {free_.x, free_.pose, begin.at.time}};
+  const bool others = fill(begin, places, blocks);
+  if (!bounces_ || !search_.find_met(begin.at, places[1], contacts_)) return others;
+  return fill(begin, places, blocks) || others;
 }
 
 Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) {
@@ -100,12 +101,16 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
     for (std::size_t i = 0; i < block.size(); ++i)
       contacts[i].acts = block.impulse[i][0] > begin.tolerance * most;
   });
-  if (!search_.extend(begin.bodies, begin.at, reached.x) &&
-      !search_.look_again(begin.at, reached, {free_.x, free_.pose, begin.at.time}, begin.tolerance,
-                          contacts_))
-    return Widened::no;
+  const Configuration free{free_.x, free_.pose, begin.at.time};
+  const bool farther = search_.extend(begin.bodies, begin.at, reached.x);
+  if (farther) {
+    search_.find(begin.at, found_);
+    waiting_.renew(found_, contacts_);
+  }
+  const bool more = may_wait() ? waiting_.call(reached) : farther;
+  if (!more && !search_.look_again(begin.at, reached, free, begin.tolerance, contacts_)) return Widened::no;
   keep_impulses(blocks);
-  return fill(begin, blocks) ? Widened::others : Widened::alike;
+  return fill(begin, std::array{begin.at, free, reached}, blocks) ? Widened::others : Widened::alike;
 }
 
 bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accuracy) {

@@ -42,6 +42,7 @@
 
 #include "effects/contact_search.h"
 #include "effects/contact_seeds.h"
+#include "effects/waiting_contacts.h"
 #include "rows/source.h"
 
 namespace pbd {
@@ -70,8 +71,10 @@ class ContactRows final : public Source {
     std::vector<Pose> pose;
   };
 
+  /// By the convex law what slides acts from afar.
+  bool may_wait() const { return law_ != Friction::cone; }
   void keep_impulses(ConstBlockSpan blocks);
-  bool fill(const StepBegin& begin, BlockSpan blocks);
+  bool fill(const StepBegin& begin, std::span<const Configuration> places, BlockSpan blocks);
   template <class Block>
   double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from, const Block& block,
                    std::size_t i) const;
@@ -85,7 +88,8 @@ class ContactRows final : public Source {
   const Contact& effect_;
   Friction law_;
   ContactSearch search_;
-  ContactLists contacts_;
+  ContactLists contacts_, found_;
+  WaitingContacts waiting_;
   ContactSeeds seeds_;
   Points start_v_;                                                   // m/s, where the step begins
   FreeEnd free_;                                                     // where the step's free motion ends

@@ -82,9 +82,11 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   take_seed(contact, block, i);
 }
 
-/// True if the rows connect other columns than before.
-bool ContactRows::fill(const StepBegin& begin, BlockSpan blocks) {
+/// Rows of what touches, or is near to it, at one of the places. True if they connect other columns than
+/// before.
+bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> places, BlockSpan blocks) {
   search_.find(begin.at, contacts_);
+  if (may_wait()) waiting_.take(places, contacts_);
   const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x,
                       begin.map.d * (begin.map.v_free - begin.v)};
   bool others = false, apart = true;

@@ -6,14 +6,23 @@
 
 namespace pbd {
 
+/// m, from `start` to `to`: of a body's or a triangle's centre, or a node.
+Vec3 ContactSearch::shift_of(const Motion& motion, const Bodies& bodies, const Points& start,
+                             const Points& to) const {
+  const auto shift = [&](int node) -> Vec3 { return to.col(node) - start.col(node); };
+  if (motion.kind == Carrier::body) return shift(bodies.node(motion.carrier));
+  if (motion.kind == Carrier::node) return shift(motion.carrier);
+  const auto& [a, b, c] = effect_.triangle[motion.carrier];
+  return (shift(a) + shift(b) + shift(c)) / 3;
+}
+
 ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
                                                         const Configuration& start, const Points& to) const {
   if (motion.kind == Carrier::triangle) return triangle_displacement(motion, start.x, to);
-  const auto shift = [&](Eigen::Index column) -> Vec3 { return to.col(column) - start.x.col(column); };
-  if (motion.kind == Carrier::node) return {shift(motion.carrier).norm(), 0};
-  const Pose& pose = start.pose[motion.carrier];
-  return {(shift(bodies.node(motion.carrier)) - motion.course).norm(),
-          (pose.turn_per_arc * shift(bodies.column(motion.carrier))).norm()};
+  const double shift = (shift_of(motion, bodies, start.x, to) - motion.course).norm();
+  if (motion.kind == Carrier::node) return {shift, 0};
+  const Eigen::Index column = bodies.column(motion.carrier);
+  return {shift, (start.pose[motion.carrier].turn_per_arc * (to.col(column) - start.x.col(column))).norm()};
 }
 
 /// Of the points of the collider, beside its course; of a half space, of its body's centre.
@@ -70,15 +79,13 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
   late_.clear();
   left_.clear();
   for (Motion& motion : motions_) {
-    const bool body = motion.kind == Carrier::body;
-    if (body)
-      motion.course = straight.col(bodies.node(motion.carrier)) - start.x.col(bodies.node(motion.carrier));
+    motion.course = shift_of(motion, bodies, start.x, straight);
     const Displacement moved = displacement(motion, bodies, start, free);
     motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
     motion.turn = moved.turn;
     motion.grown = true;
-    if (body && motion.radius > 0)
-      motion.turn = std::max(moved.turn, (motion.course.norm() + motion.travel) / motion.radius);
+    if (motion.kind == Carrier::body && motion.radius > 0)
+      motion.turn = std::max(moved.turn, motion.travel / motion.radius);
   }
   if (!surfaces_) return;
   surfaces_grown_ = true;

@@ -110,7 +110,8 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
   double nearest = infinity;
   for (const ContactPoint& point : found_) {
     nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
-    const ActiveContact contact = active(point, first, second);
+    ActiveContact contact = active(point, first, second);
+    if (contact.law.restitution == 0) contact.apart = near * travel;
     if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) near_.push_back(contact);
   }
   near_pairs_.push_back({{first, second}, nearest, near_.size()});

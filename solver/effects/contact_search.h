@@ -1,8 +1,10 @@
 // Which contacts a step has. Where it begins, the shapes that may touch in it give contact points
 // (collision/), each a pair of features carried by a body or a node. Shapes take part that are nearer than
 // their motions go: to the free motion's end, and where a solved iterate went farther, a quarter farther than
-// that. A body's motion is told from its course, where its velocity takes it, with a quarter of it to spare,
-// so that bodies that fly side by side are not near for all of their speed.
+// that. A motion is told from its course, where velocities take it, with a quarter of it to spare, so that
+// what flies side by side is not near for all of its speed. What is near by far less than its motion, and
+// touches neither where the step begins nor where its free motion ends, waits without rows
+// (waiting_contacts.h).
 //
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
 // chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel beside
@@ -95,6 +97,7 @@ class ContactSearch {
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
   static constexpr double rounding = 1e-9;      // of a way
   static constexpr double room = 0.25;          // of a way, so that few steps are searched anew
+  static constexpr double near = 0.1;           // of a way: what is farther may wait
 
   enum class Carrier : std::uint8_t { body, node, triangle };
 
@@ -108,7 +111,7 @@ class ContactSearch {
     Vec3 centre;                 // m, of the body; of a triangle the mean of its nodes
     double radius = 0;           // m, of the farthest point about it; infinite for a half space
     double round = 0;            // m, radius of what is round of the shape
-    Vec3 course = Vec3::Zero();  // m, of a body, where its velocity takes it
+    Vec3 course = Vec3::Zero();  // m, where its velocity takes it
     double travel = 0;   // m, that its points move at most beside its course; of a half space, its centre
     double turn = 0;     // rad, that it turns at most
     bool grown = false;  // it goes farther than it was searched for
@@ -150,6 +153,7 @@ class ContactSearch {
   // How far colliders go: contact_motion.cpp, with begin and extend.
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
+  Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
   Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                             const Points& to) const;
   static double farthest_travel(const Motion& motion, const Displacement& moved);

@@ -38,7 +38,7 @@ ContactSearch::Displacement ContactSearch::triangle_displacement(const Motion& m
   double apart = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 shift = after[k] - before[k], next = after[(k + 1) % 3] - before[(k + 1) % 3];
-    moved.shift = std::max(moved.shift, shift.norm());
+    moved.shift = std::max(moved.shift, (shift - motion.course).norm());
     apart = std::max(apart, (shift - next).norm());
   }
   if (apart > 0) moved.turn = motion.height > 0 ? apart / motion.height : infinity;

@@ -20,9 +20,18 @@ Automatic::Automatic(StepSystem& system) : proximal_(system) {
   if (QuasiNewton::suits(system)) quasi_newton_.emplace(system);
 }
 
-void Automatic::swap_solvers(StepSystem& system) {
-  std::swap(system.solver, other_);
-  swapped_ = !swapped_;
+void Automatic::Gain::note(double residual) {
+  if (residual < lowest / 2)
+    *this = {.lowest = residual};
+  else
+    ++iterations_since;
+}
+
+void Automatic::take_solver(StepSystem& system, std::size_t next) {
+  std::swap(system.solver, solvers_[solver_]);
+  std::swap(system.solver, solvers_[next]);
+  solver_ = next;
+  solver_gain_ = {};
   spent_ = 0;
 }
 
@@ -30,7 +39,7 @@ void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
   taken_over_ = takes_over_ = false;
   gain_ = {};
-  if (swapped_) swap_solvers(system);
+  take_solver(system, 0);
   proximal_.begin(system);
   if (on_potential()) quasi_newton_->begin(system);
 }
@@ -66,10 +75,7 @@ bool Automatic::is_spent(const Progress& progress) {
   constexpr int patience = 10, many = 30, most = 60;
   const int enough = progress.residual() > far * progress.scale ? many : most;
   if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
-  if (progress.residual() < gain_.lowest / 2)
-    gain_ = {.lowest = progress.residual()};
-  else
-    ++gain_.iterations_since;
+  gain_.note(progress.residual());
   return gain_.iterations_since >= patience && progress.residual() <= near * progress.scale;
 }
 
@@ -92,11 +98,19 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
     proximal_.iterate(system, progress);
   }
   const Method& method = system.problem.method;
-  if (swapped_ || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
-  spent_ = progress.sweeps - before >= method.max_sweeps ? spent_ + 1 : 0;
-  if (spent_ < most_spent) return;
-  swap_solvers(system);
+  if (method.relaxation != ConjugateGradients::name || solver_ + 1 == solvers_.size() ||
+      !any_friction(system.rows) || !solver_is_spent(progress, progress.sweeps - before, method))
+    return;
+  take_solver(system, solver_ + 1);
   progress.other_solver = true;
+}
+
+/// True where the solver's sweeps are not enough time and again, or the iterates gain nothing by it.
+bool Automatic::solver_is_spent(const Progress& progress, std::int64_t sweeps, const Method& method) {
+  constexpr int most_spent = 3, patience = 10;
+  solver_gain_.note(progress.residual());
+  spent_ = sweeps >= method.max_sweeps ? spent_ + 1 : 0;
+  return spent_ >= most_spent || solver_gain_.iterations_since >= patience;
 }
 
 void Automatic::forget() {

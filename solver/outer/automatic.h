@@ -3,8 +3,8 @@
 // proximal. A step that surprises both predictions shows it in two slow iterations, after which it goes on as
 // proximal. Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted:
 // plain, until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on
-// contacts with friction, nesterov_jacobi takes over for the rest of the step: near sliding they may hardly
-// get on.
+// contacts with friction, or ten iterations do not halve the residual, nesterov_jacobi takes over for the
+// rest of the step, and from that gauss_seidel: near sliding they may hardly get on.
 // The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
 // its elimination misses the tolerance; on sheets where it stalls, or is not there after 60 iterations, 30
 // where it is far, as where much is compressed; and where an iterate asks many contacts for impulses: its
@@ -12,6 +12,7 @@
 // plain contracts.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "outer/proximal.h"
@@ -32,7 +33,7 @@ class Automatic {
   void iterate(StepSystem& system, Progress& progress);
   void forget();
   void forget_stiffness() {
-    pbd::forget(other_);
+    for (LinearSolver& solver : solvers_) pbd::forget(solver);
     if (quasi_newton_) quasi_newton_->forget_stiffness();
   }
   void end(StepSystem& system);
@@ -41,12 +42,13 @@ class Automatic {
   bool takes_over() const { return takes_over_; }
 
  private:
-  static constexpr int most_spent = 3;
   static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
-  struct Gain {                // of quasi_newton
+  struct Gain {
     double lowest = infinity;  // residual when it last halved, sqrt(J),
     int iterations_since = 0;
+
+    void note(double residual);
   };
 
   void take_over(StepSystem& system);
@@ -54,15 +56,18 @@ class Automatic {
   bool crowded(StepSystem& system, const Progress& progress);
   bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
-  void swap_solvers(StepSystem& system);
+  bool solver_is_spent(const Progress& progress, std::int64_t sweeps, const Method& method);
+  void take_solver(StepSystem& system, std::size_t next);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
   bool taken_over_ = false;                  // the others go on from where it arrived
   bool takes_over_ = false;                  // with the next iteration
   bool leaves_ = false;                      // they do where its settling is refused
-  Gain gain_;
-  LinearSolver other_ = NesterovJacobi{};  // takes over from the solver of the method
-  bool swapped_ = false;
+  Gain gain_;                                // of quasi_newton
+  // The method's solver, and those that take over from it, each from the one before.
+  std::array<LinearSolver, 3> solvers_{LinearSolver{}, NesterovJacobi{}, GaussSeidel{}};
+  std::size_t solver_ = 0;  // that the step's system has; its place here is empty
+  Gain solver_gain_;
   int spent_ = 0;  // iterations in a row whose sweeps were not enough
   Proximal proximal_;
   GeometricMass mass_;

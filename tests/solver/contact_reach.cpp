@@ -47,6 +47,17 @@ TEST_CASE("what passes within reach and meets nothing is not thrown back") {
   CHECK((end.v.col(1) - velocity).norm() <= 1e-12 * velocity.norm());
 }
 
+TEST_CASE("what flies by has no rows") {
+  // A ball flies 0.1 m a step along the ground, 50 mm above it, and comes down by 1 mm of them.
+  BodyScene build({.friction = 0.3}, 0);
+  build.ground();
+  build.ball(0.1, 1, {.position = {0, 0, 0.15}, .velocity = {10, 0, -0.1}});
+  const Scene scene = build.finish();
+  Workspace workspace(scene, contact_method("direct"));
+  run(scene, contact_method("direct"), 0.01, 1, workspace);
+  CHECK(workspace.contacts().empty());
+}
+
 TEST_CASE("what flies side by side is not near for its speed, and meets where one of it is stopped") {
   constexpr double h = 0.01, size = 0.2, apart = 0.06, speed = 10;  // half its size a step
   BodyScene build({.friction = 0.3}, 0);

@@ -20,18 +20,10 @@ Automatic::Automatic(StepSystem& system) : proximal_(system) {
   if (QuasiNewton::suits(system)) quasi_newton_.emplace(system);
 }
 
-void Automatic::Gain::note(double residual) {
-  if (residual < lowest / 2)
-    *this = {.lowest = residual};
-  else
-    ++iterations_since;
-}
-
 void Automatic::take_solver(StepSystem& system, std::size_t next) {
   std::swap(system.solver, solvers_[solver_]);
   std::swap(system.solver, solvers_[next]);
   solver_ = next;
-  solver_gain_ = {};
   spent_ = 0;
 }
 
@@ -75,7 +67,10 @@ bool Automatic::is_spent(const Progress& progress) {
   constexpr int patience = 10, many = 30, most = 60;
   const int enough = progress.residual() > far * progress.scale ? many : most;
   if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
-  gain_.note(progress.residual());
+  if (progress.residual() < gain_.lowest / 2)
+    gain_ = {.lowest = progress.residual()};
+  else
+    ++gain_.iterations_since;
   return gain_.iterations_since >= patience && progress.residual() <= near * progress.scale;
 }
 
@@ -98,19 +93,12 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
     proximal_.iterate(system, progress);
   }
   const Method& method = system.problem.method;
-  if (method.relaxation != ConjugateGradients::name || solver_ + 1 == solvers_.size() ||
-      !any_friction(system.rows) || !solver_is_spent(progress, progress.sweeps - before, method))
-    return;
+  const bool last = solver_ + 1 == solvers_.size();
+  if (last || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
+  spent_ = progress.sweeps - before >= method.max_sweeps ? spent_ + 1 : 0;
+  if (spent_ < most_spent) return;
   take_solver(system, solver_ + 1);
   progress.other_solver = true;
-}
-
-/// True where the solver's sweeps are not enough time and again, or the iterates gain nothing by it.
-bool Automatic::solver_is_spent(const Progress& progress, std::int64_t sweeps, const Method& method) {
-  constexpr int most_spent = 3, patience = 10;
-  solver_gain_.note(progress.residual());
-  spent_ = sweeps >= method.max_sweeps ? spent_ + 1 : 0;
-  return spent_ >= most_spent || solver_gain_.iterations_since >= patience;
 }
 
 void Automatic::forget() {

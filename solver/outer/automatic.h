@@ -3,8 +3,8 @@
 // proximal. A step that surprises both predictions shows it in two slow iterations, after which it goes on as
 // proximal. Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted:
 // plain, until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on
-// contacts with friction, or ten iterations do not halve the residual, nesterov_jacobi takes over for the
-// rest of the step, and from that gauss_seidel: near sliding they may hardly get on.
+// contacts with friction, nesterov_jacobi takes over for the rest of the step, and gauss_seidel where that
+// does, too: near sliding they may hardly get on.
 // The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
 // its elimination misses the tolerance; on sheets where it stalls, or is not there after 60 iterations, 30
 // where it is far, as where much is compressed; and where an iterate asks many contacts for impulses: its
@@ -42,13 +42,12 @@ class Automatic {
   bool takes_over() const { return takes_over_; }
 
  private:
+  static constexpr int most_spent = 3;
   static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
-  struct Gain {
+  struct Gain {                // of quasi_newton
     double lowest = infinity;  // residual when it last halved, sqrt(J),
     int iterations_since = 0;
-
-    void note(double residual);
   };
 
   void take_over(StepSystem& system);
@@ -56,19 +55,17 @@ class Automatic {
   bool crowded(StepSystem& system, const Progress& progress);
   bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
-  bool solver_is_spent(const Progress& progress, std::int64_t sweeps, const Method& method);
   void take_solver(StepSystem& system, std::size_t next);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
   bool taken_over_ = false;                  // the others go on from where it arrived
   bool takes_over_ = false;                  // with the next iteration
   bool leaves_ = false;                      // they do where its settling is refused
-  Gain gain_;                                // of quasi_newton
+  Gain gain_;
   // The method's solver, and those that take over from it, each from the one before.
   std::array<LinearSolver, 3> solvers_{LinearSolver{}, NesterovJacobi{}, GaussSeidel{}};
   std::size_t solver_ = 0;  // that the step's system has; its place here is empty
-  Gain solver_gain_;
-  int spent_ = 0;  // iterations in a row whose sweeps were not enough
+  int spent_ = 0;           // iterations in a row whose sweeps were not enough
   Proximal proximal_;
   GeometricMass mass_;
   int slow_changes_ = 0;  // of v in this step, in a row

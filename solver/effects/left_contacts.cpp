@@ -164,10 +164,11 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
     const PairFeatures features{pair.collider, found.features.key};
     if (is_left(features) || late_contact(features) != late_.end()) continue;
     const Vec3 here = place(found);
-    found.heir_of = std::min_element(left.begin(), left.end(), [&](const auto& one, const auto& other) {
-                      return (place(one) - here).norm() < (place(other) - here).norm();
-                    })->features.key;
-    add_late(found, pair.deepest);
+    const auto nearest = std::min_element(left.begin(), left.end(), [&](const auto& one, const auto& other) {
+      return (place(one) - here).norm() < (place(other) - here).norm();
+    });
+    found.heir_of = nearest->features.key;
+    add_late(found, nearest->target);
   }
 }
 

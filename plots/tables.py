@@ -110,6 +110,8 @@ TABLES = {
     ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",
     ("work_precision", "contacts"): METHOD + " tolerance",
+    ("trajectories", "runs"): "scene duration_s step_s integrator outer relaxation friction tolerance count outer_iterations sweeps "
+                              "row_updates missed_steps bytes wall_s error error_bar energy_error penetration_m truth status reason",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",

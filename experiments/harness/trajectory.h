@@ -13,8 +13,8 @@ namespace pbdcheck {
 
 /// How a motion is simulated: in `steps` equal ones.
 struct Setting {
-  pbd::Method method;
-  std::int64_t steps;
+  pbd::Method method{};
+  std::int64_t steps = 1;
   bool by_count = false;  // does its iterations and stops, solved or not: a missed tolerance is no failure
 };
 

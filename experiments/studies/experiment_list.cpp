@@ -74,6 +74,8 @@ const std::vector<Experiment>& experiments() {
       {"trajectories",
        "What does accuracy at the end of a motion cost in time, over method, step and tolerance?",
        trajectories},
+      {"advice", "Does `pbdcheck advise` find settings that meet an error, and the quickest that do?",
+       advice},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},

@@ -45,12 +45,12 @@ Truth ode_truth(const MovingScene& scene) {
           "ODE of order 8"};
 }
 
-constexpr double slope = 0.2, rough = 0.5, launch = 1;  // rad, coefficient, m/s
+constexpr double slope = 0.2, rubbing = 0.5, first_speed = 1;  // rad, coefficient, m/s
 
 /// A box that slides down and comes to rest: friction exceeds the slope's pull by a constant force.
 Truth stopped_box(const MovingScene& scene) {
-  const double slowing = gravity * (rough * std::cos(slope) - std::sin(slope));
-  const double way = launch * launch / (2 * slowing);
+  const double slowing = gravity * (rubbing * std::cos(slope) - std::sin(slope));
+  const double way = first_speed * first_speed / (2 * slowing);
   State end = scene.file.scene.initial;
   end.x.col(1) += way * Vec3(std::cos(slope), 0, -std::sin(slope));
   end.v.setZero();
@@ -94,7 +94,7 @@ std::vector<MovingScene> moving_scenes(bool full) {
       smooth("chain", chain(full ? 10 : 4), 0.5, 20, 8, true),
       smooth("cloth", cloth(full ? 8 : 4), 0.25, 10, 5, false),
       smooth("cantilever", cantilever(4, {1e5, 0.3}, Strain::green), 0.25, 10, 5, true),
-      touching("incline", described(sliding_box(slope, rough, launch)), 0.5, 20, 6, 2),
+      touching("incline", described(sliding_box(slope, rubbing, first_speed)), 0.5, 20, 6, 2),
       touching("stack", described(struck(column(boxes), boxes, {0.5, 0.3, 0})), 0.2, 10, 4, 3),
       touching("pile", described(pile()), 0.1, 10, 4, 3),
       touching("arch", described(struck(arch.scene(), 1 + stones / 2, {0.02, 0.01, -0.2})), 0.05, 10, 3, 3),

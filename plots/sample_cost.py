@@ -68,6 +68,14 @@ def trajectories(directory):
     write(directory, "trajectories", "runs", RUN_COLUMNS, rows)
 
 
+def advice(directory):
+    rows = [("spring", 1, 0.01, 0.02, "bdf2", "auto", "direct", 1e-4, 50, 0.004, 1e-6, 0.01, 0.01, "ok", ""),
+            ("dominoes", 1, 0.01, 0.01, "implicit_euler", "auto", "direct", 1e-4, 9, float("nan"), 0.1, float("nan"), float("nan"),
+             "skipped", "no setting found")]
+    write(directory, "advice", "recommended", "scene duration_s error_asked step_s integrator outer relaxation tolerance settings error "
+          "error_bar wall_s wall_s_other status reason", rows)
+
+
 def rival_newton(directory):
     times, traces = [], []
     for elements in (192, 1536, 31944):

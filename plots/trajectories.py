@@ -5,33 +5,15 @@ from matplotlib.colors import LogNorm
 
 from common import figure, footnote, on_log, panels, shared_legend
 from finding import beyond, finding, guide
-from selecting import good, reasons_note, failed, scene_text
+from selecting import UNTOLD, failed, good, reasons_note, scene_text, tellable, told_runs
 from styles import FALLBACK, style
 from wording import counted, joined, number, share, some, span
 
 ACCURACIES = (1e-2, 1e-4, 1e-6)
 DIGITS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 MOST_METHODS = 6
-UNTOLD = 3  # error bars of the truth, below which it tells no error
 STYLE_OF = {"newmark": "newmark 0.55"}  # its default
 STEPS_SHOWN = ("pendulum", "chain", "cantilever", "incline", "stack", "boxes_on_ground")
-
-
-def with_names(runs):
-    """The runs with a `name` of their method, without step and tolerance, and the error that the truth can tell, `told`."""
-    def name(row):
-        parts = [row["outer"], *([row["relaxation"]] if row["relaxation"] not in ("none", row["outer"]) else [])]
-        parts += [row["integrator"]] if row["integrator"] != "implicit_euler" else []
-        parts += [row["friction"]] if row["friction"] not in ("coulomb", "none") else []
-        return " ".join(parts + ([f"x{row['count']:.0f}"] if row["count"] > 0 else []))
-    return runs.assign(name=[name(row) for _, row in runs.iterrows()],
-                       told=np.maximum(runs["error"], UNTOLD * runs["error_bar"]).where(runs["error"].notna()))
-
-
-def tellable(runs, accuracy):
-    """The scenes whose truth is sharp enough to tell whether an accuracy is reached."""
-    bars = runs.groupby("scene", sort=False)["error_bar"].first()
-    return list(bars.index[UNTOLD * bars <= accuracy])
 
 
 def least_times(runs, accuracy, by="name"):
@@ -57,7 +39,7 @@ def most_reaching(runs, most=MOST_METHODS):
 def profile(runs):
     """Dolan and More's performance profiles: the share of scenes that a method brings to an accuracy within a multiple of the
     least time of any."""
-    runs = with_names(runs)
+    runs = told_runs(runs)
     chart, axes = panels(len(ACCURACIES), sharey=True)
     names, firsts = most_reaching(runs), []
     for ax, accuracy in zip(axes, ACCURACIES):
@@ -99,7 +81,7 @@ def front(ax, rows, look, name):
 
 def fronts(runs):
     """Error over time, one panel a scene; what no truth tells is shaded."""
-    runs = with_names(runs)
+    runs = told_runs(runs)
     scenes = list(runs["scene"].unique())
     if not scenes:
         return None
@@ -199,7 +181,7 @@ def least_error_by_integrator(solved):
 @figure("trajectories", "digit", table="runs")
 def cost_of_a_digit(runs):
     """How much longer the quickest method of all takes for a tenth of the error, a row a scene."""
-    runs = with_names(runs)
+    runs = told_runs(runs)
     scenes = list(runs["scene"].unique())
     least = np.array([least_times(runs, accuracy).min().reindex(scenes).replace(np.inf, np.nan) for accuracy in DIGITS])
     finite = (least[1:] / least[:-1]).T

@@ -49,9 +49,9 @@ void advice(Context& context) {
   const std::ptrdiff_t count = context.full() ? std::ssize(advised_scenes) : 3;
   const double seconds = context.full() ? 30 : 5;
   context.begin(count);
-  Table table = context.table("scenes", {"scene", "duration_s", "error_asked", "step_s", "integrator",
-                                         "outer", "relaxation", "tolerance", "settings", "error", "error_bar",
-                                         "wall_s", "wall_s_other", "status", "reason"});
+  Table table = context.table("recommended", {"scene", "duration_s", "error_asked", "step_s", "integrator",
+                                              "outer", "relaxation", "tolerance", "settings", "error",
+                                              "error_bar", "wall_s", "wall_s_other", "status", "reason"});
   Worst missed, slower;
   for (const std::string_view name : std::span(advised_scenes).first(static_cast<std::size_t>(count))) {
     const SceneFile file = read_scene_file(scenes_folder() / fmt::format("{}.toml", name));

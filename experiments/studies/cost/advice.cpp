@@ -28,10 +28,10 @@ constexpr double asked = 0.01;  // error
 constexpr double faster = 1.5;  // times: what counts as quicker
 
 /// The least wall time, s, of a setting that meets the error asked and is more than so much faster than
-/// `best_s`; `best_s` if there is none. All longer steps are tried, and shorter ones of a quarter.
+/// `best_s`; `best_s` if there is none. All longer steps are tried, and half the step.
 double quickest_other(const SceneFile& file, const Pilot& found, const Truth& truth, double best_s) {
   double least = best_s;
-  const std::int64_t most = 4 * found.met[0].setting.steps;
+  const std::int64_t most = 2 * found.met[0].setting.steps;
   for (std::int64_t steps = fewest_steps(file, found.duration); steps <= most; steps *= 2)
     for (const Setting& setting : pilot_grid(file, steps)) try {
         const Limits limits{.wall_s = least / (least == best_s ? faster : 1)};

@@ -26,7 +26,8 @@ namespace {
 
 using namespace pbdcheck;
 
-constexpr int most_threads = 1024;  // more is a slip of the keyboard
+constexpr double most_seconds = 86400;  // a day
+constexpr int most_threads = 1024;      // more is a slip of the keyboard
 
 void add_list(CLI::App& app, ListOptions& options) {
   auto* command = app.add_subcommand("list", "Print what there is: " + joined(list_kinds()));
@@ -34,13 +35,17 @@ void add_list(CLI::App& app, ListOptions& options) {
   command->add_flag("--json", options.json, "Print JSON")->check(no_value());
 }
 
-void add_scene_options(CLI::App& command, std::filesystem::path& scene, std::vector<std::string>& settings,
-                       std::filesystem::path& directory) {
-  command.add_option("SCENE", scene, "Scene file (TOML)")->required();
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
   command
       .add_option("--set", settings,
                   "KEY=VALUE on top of the file, as in method.relaxation=jacobi; may be repeated")
       ->allow_extra_args(false);
+}
+
+void add_scene_options(CLI::App& command, std::filesystem::path& scene, std::vector<std::string>& settings,
+                       std::filesystem::path& directory) {
+  command.add_option("SCENE", scene, "Scene file (TOML)")->required();
+  add_settings(command, settings);
   command.add_option("-o,--output", directory, "Folder of the results")->capture_default_str();
 }
 
@@ -76,6 +81,21 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
       ->check(integer_from(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
+}
+
+void add_advise(CLI::App& app, AdviseOptions& options) {
+  auto* command = app.add_subcommand("advise", "Recommend settings that bring a scene to an error quickly");
+  command->add_option("SCENE", options.scene, "Scene file (TOML)")->required();
+  add_settings(*command, options.settings);
+  command
+      ->add_option("--error", options.error,
+                   "Largest error of places at the end, relative to how far things move")
+      ->required()
+      ->check(number_between(0, 1));
+  command->add_option("--seconds", options.seconds, "About how long to compute")
+      ->check(number_between(0, most_seconds))
+      ->capture_default_str();
+  command->add_flag("--json", options.json, "Print JSON")->check(no_value());
 }
 
 void add_threads(CLI::App& command, int& threads) {
@@ -173,6 +193,7 @@ int run_command(int argc, char** argv) {
   ListOptions list_options;
   SimulateOptions simulate_options;
   CompareOptions compare_options;
+  AdviseOptions advise_options;
   RunOptions run_options;
   VerifyOptions verify_options;
   BlessOptions bless_options;
@@ -181,6 +202,7 @@ int run_command(int argc, char** argv) {
   add_list(app, list_options);
   add_simulate(app, simulate_options);
   add_compare(app, compare_options);
+  add_advise(app, advise_options);
   add_run(app, run_options);
   add_verify(app, verify_options);
   add_bless(app, bless_options);
@@ -204,6 +226,7 @@ int run_command(int argc, char** argv) {
     if (app.got_subcommand("list")) return list(list_options);
     if (app.got_subcommand("simulate")) return simulate(simulate_options);
     if (app.got_subcommand("compare")) return compare(compare_options);
+    if (app.got_subcommand("advise")) return advise(advise_options);
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("verify")) return verify(verify_options);
     if (app.got_subcommand("bless")) return bless(bless_options);

@@ -8,6 +8,8 @@ from sections.cost import LEVELS, quickest, rival_wins
 
 GUIDE = {
     "Which method is the quickest for a given error?": "work_precision",
+    "What does accuracy cost over a whole motion?": "trajectories",
+    "Which settings should my scene have?": "advice",
     "When is Newton's method quicker?": "rival_newton",
     "At which steps, masses and stiffnesses does an iteration converge?": "stability_map",
     "Does it keep energy and momentum?": "energy",

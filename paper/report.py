@@ -11,6 +11,7 @@ import jinja2
 
 import provenance
 import sections
+from sections.trajectories import choice as method_choice
 from answers import answers, guide
 from claims import against, claims_section, findings
 from command import command, replacing
@@ -31,6 +32,7 @@ LONGEST = 12  # rows of an experiment's table in the PDF; longer ones are in the
 class Body:
     notice: str
     answers: list
+    choice: list  # the table to choose a method by, none without its results
     limits: str
     guide: list
     sections: list
@@ -54,9 +56,10 @@ def compose(results):
             table.detail = len(table.rows) > LONGEST
     body = [claims_section(found), failed_section(results, names), history_section(results, names), glossary_section(), *studies,
             verdicts_section(results, names), provenance.provenance_section(results, names)]
-    for number, table in enumerate((table for section in body for table in section.tables), start=1):
+    choice = method_choice(results)
+    for number, table in enumerate((*choice, *(table for section in body for table in section.tables)), start=1):
         table.number = number
-    return Body(provenance.notice(results, names), answers(results), provenance.limits(results, names), guide(body), body)
+    return Body(provenance.notice(results, names), answers(results), choice, provenance.limits(results, names), guide(body), body)
 
 
 def column_widths(table):

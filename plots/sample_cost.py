@@ -47,6 +47,35 @@ def work_precision(directory):
     write(directory, "work_precision", "contacts", METHOD_COLUMNS, contact_points())
 
 
+RUN_COLUMNS = ("scene duration_s step_s integrator outer relaxation friction tolerance count outer_iterations sweeps row_updates "
+               "missed_steps bytes wall_s error error_bar energy_error penetration_m truth status reason")
+
+
+def trajectories(directory):
+    rows = []
+    for scene, friction, bar, truth in (("pendulum", "none", 1e-14, "ODE of order 8"),
+                                        ("pile", "coulomb", 1e-4, "640 steps by newmark, auto, direct, tolerance 1e-10")):
+        for integrator, order in (("implicit_euler", 1), ("newmark", 1), ("bdf2", 2)):
+            for outer, relaxation, count in (("auto", "direct", 0), ("auto", "gauss_seidel", 0), ("incremental", "gauss_seidel", 10)):
+                for step in (0.1, 0.01, 0.001, 0.0001):
+                    for tolerance in (0,) if count else (1e-2, 1e-8):
+                        skipped = integrator == "bdf2" and friction != "none"
+                        wall = 1e-5 / step * (1 if count else 1 - np.log10(tolerance))
+                        error = float("nan") if skipped else 0.5 * step ** order + 0.1 * tolerance
+                        rows.append((scene, 1, step, integrator, outer, relaxation, friction, tolerance, count, 100, 200, 300, 0, 4000,
+                                     float("nan") if skipped else wall, error, bar, error, 0, truth,
+                                     "skipped" if skipped else "ok", "not with contact" if skipped else ""))
+    write(directory, "trajectories", "runs", RUN_COLUMNS, rows)
+
+
+def advice(directory):
+    rows = [("spring", 1, 0.01, 0.02, "bdf2", "auto", "direct", 1e-4, 50, 0.004, 1e-6, 0.01, 0.01, "ok", ""),
+            ("dominoes", 1, 0.01, 0.01, "implicit_euler", "auto", "direct", 1e-4, 9, float("nan"), 0.1, float("nan"), float("nan"),
+             "skipped", "no setting found")]
+    write(directory, "advice", "recommended", "scene duration_s error_asked step_s integrator outer relaxation tolerance settings error "
+          "error_bar wall_s wall_s_other status reason", rows)
+
+
 def rival_newton(directory):
     times, traces = [], []
     for elements in (192, 1536, 31944):

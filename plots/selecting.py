@@ -4,6 +4,7 @@ visible: `good` and `failed` split a table so that every row is in one of the tw
 import re
 import textwrap
 
+import numpy as np
 import pandas as pd
 
 from reading import LARGEST
@@ -39,6 +40,26 @@ def rule_names(frame):
 def stiffens(frame):
     """The rows whose rate the stiffening part of the geometric stiffness decides, also where both parts are as large."""
     return frame["stiffening"] >= (1 - 1e-6) * frame["predicted_rate"]
+
+
+UNTOLD = 3  # error bars of a true end, below which it tells no error
+
+
+def told_runs(runs):
+    """The runs with a `name` of their method, without step and tolerance, and the error that the truth can tell, `told`."""
+    def name(row):
+        parts = [row["outer"], *([row["relaxation"]] if row["relaxation"] not in ("none", row["outer"]) else [])]
+        parts += [row["integrator"]] if row["integrator"] != "implicit_euler" else []
+        parts += [row["friction"]] if row["friction"] not in ("coulomb", "none") else []
+        return " ".join(parts + ([f"x{row['count']:.0f}"] if row["count"] > 0 else []))
+    return runs.assign(name=[name(row) for _, row in runs.iterrows()],
+                       told=np.maximum(runs["error"], UNTOLD * runs["error_bar"]).where(runs["error"].notna()))
+
+
+def tellable(runs, accuracy):
+    """The scenes whose truth is sharp enough to tell whether an accuracy is reached."""
+    bars = runs.groupby("scene", sort=False)["error_bar"].first()
+    return list(bars.index[UNTOLD * bars <= accuracy])
 
 
 SCENE_GATES = (  # what must hold of a scene: column, name, bound

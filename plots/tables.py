@@ -110,6 +110,10 @@ TABLES = {
     ("cone_problems", "large"): CONES,
     ("work_precision", "points"): METHOD + " tolerance",
     ("work_precision", "contacts"): METHOD + " tolerance",
+    ("trajectories", "runs"): "scene duration_s step_s integrator outer relaxation friction tolerance count outer_iterations sweeps "
+                              "row_updates missed_steps bytes wall_s error error_bar energy_error penetration_m truth status reason",
+    ("advice", "recommended"): "scene duration_s error_asked step_s integrator outer relaxation tolerance settings error error_bar wall_s "
+                          "wall_s_other status reason",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
@@ -145,7 +149,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

@@ -22,6 +22,18 @@ CLI::Validator integer_from(int lowest, int highest) {
   return {refusal, ""};
 }
 
+CLI::Validator number_between(double low, double high) {
+  const auto refusal = [=](const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, failure] = std::from_chars(text.data(), end, value);
+    return failure == std::errc() && stopped == end && value > low && value <= high
+               ? std::string()
+               : fmt::format("got `{}`; allowed: a number above {:g}, at most {:g}", text, low, high);
+  };
+  return {refusal, ""};
+}
+
 CLI::Validator one_of(const std::vector<std::string>& names) {
   const auto refusal = [=](const std::string& text) {
     return std::find(names.begin(), names.end(), text) != names.end()

@@ -7,6 +7,9 @@
 
 namespace pbdcheck {
 
+/// A number above `low` and up to `high`.
+CLI::Validator number_between(double low, double high);
+
 /// Refuses an argument that is not an integer of the range.
 CLI::Validator integer_from(int lowest, int highest);
 

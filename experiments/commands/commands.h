@@ -44,6 +44,16 @@ struct CompareOptions {
 };
 int compare(const CompareOptions& options);
 
+struct AdviseOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> settings;
+  double error = 0;     // of places at the end, relative to how far things move
+  double seconds = 30;  // of computing, about
+  bool json = false;
+};
+/// The quickest settings for an error, by a pilot on the scene.
+int advise(const AdviseOptions& options);
+
 struct RunOptions {
   std::vector<std::string> experiments;
   bool all = false;

@@ -20,6 +20,7 @@
 #include "harness/measure.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/stepper.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
@@ -28,21 +29,17 @@ namespace {
 /// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
 /// tolerance. Throws std::runtime_error if one diverged.
 pbd::State advanced(SceneFile& file, int steps, int& missed) {
-  const pbd::Scene stated = file.scene;
-  pbd::State state = stated.initial;
+  pbd::State state = file.scene.initial;
   pbd::Workspace workspace = file.workspace();
+  Stepper stepper(file, workspace);
   for (int i = 1; i <= steps; ++i) {
-    throw_if_interrupted();
-    file.script.begin_step(stated, file.step_s, file.scene, state);
-    file.script.hand_on(file.scene, workspace);
-    const auto report =
-        pbd::step(workspace, file.step_s, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
+    const auto report = stepper.whole(state);
     if (report.status == pbd::Status::diverged)
       throw std::runtime_error(
           fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
     if (report.status != pbd::Status::ok) ++missed;
   }
-  file.script.begin_step(stated, file.step_s, file.scene, state);
+  stepper.begin(file.step_s, state);
   return state;
 }
 

@@ -21,13 +21,14 @@ _pbdcheck() {
     --reference) words="@REFERENCES@" ;;
     *)
       if ((COMP_CWORD == 1)); then
-        words="list simulate compare run verify bless cone completion --help --version"
+        words="list simulate compare advise run verify bless cone completion --help --version"
       else
         case ${COMP_WORDS[1]} in
           list) words="@KINDS@ --json --help" ;;
           completion) words="bash" ;;
           simulate) words="--set --output --export --check --judge --help" ;;
           compare) words="--set --method --reference --at-step --output --help" ;;
+          advise) words="--set --error --seconds --json --help" ;;
           cone) words="--law --relaxation --tolerance --json --output --help" ;;
           verify) words="--only --tier --threads --resume --json --junit --output --help" ;;
           run) words="--all --tier --threads --resume --output --help
@@ -35,7 +36,7 @@ _pbdcheck() {
         esac
         case ${COMP_WORDS[1]} in
           cone) COMPREPLY=($(compgen -f -- "$word")) ;;
-          simulate|compare) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -S / -- "$word")) ;;
+          simulate|compare|advise) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -S / -- "$word")) ;;
         esac
       fi ;;
   esac

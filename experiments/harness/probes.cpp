@@ -197,6 +197,10 @@ double elastic_energy(const pbd::Scene& scene, const pbd::State& state) {
   return measured(scene, scene.effects, state).energy;
 }
 
+double total_energy(const pbd::Scene& scene, const pbd::State& state) {
+  return kinetic_energy(scene, state) + gravity_energy(scene, state) + elastic_energy(scene, state);
+}
+
 double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state) {
   return measured(scene, std::array{std::cref(effect)}, state).missed;
 }

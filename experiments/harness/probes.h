@@ -32,6 +32,9 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 /// bounds, what they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
+/// Kinetic, elastic and gravity energy, J.
+double total_energy(const pbd::Scene& scene, const pbd::State& state);
+
 /// How the column of an effect's constraint error ends: "_m", "_rad" or, of strains, "". None of an effect
 /// without such an error: given forces, and contact, which has probes of its own.
 std::optional<std::string_view> error_unit(const pbd::Effect& effect);

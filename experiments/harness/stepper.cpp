@@ -40,6 +40,13 @@ bool Stepper::advance_in(int parts, const Judge& judge, pbd::State& state, pbd::
   return sum.status != pbd::Status::diverged;
 }
 
+pbd::Report Stepper::whole(pbd::State& state) {
+  pbd::Report report;
+  parts_ = 1;
+  advance_in(parts_, {}, state, report);
+  return report;
+}
+
 pbd::Report Stepper::advance(pbd::State& state, const Judge& judge) {
   constexpr int most_parts = 64;  // six halvings
   pbd::Report whole;

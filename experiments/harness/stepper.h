@@ -26,6 +26,9 @@ class Stepper {
   /// ways diverge it is the whole step's, and `state` is as it was.
   pbd::Report advance(pbd::State& state, const Judge& judge = {});
 
+  /// One step of the file as it is, in one part.
+  pbd::Report whole(pbd::State& state);
+
   /// Of the last step.
   int parts() const { return parts_; }
 

@@ -38,6 +38,7 @@ struct SceneFile {
   std::vector<NamedJoint> joints;
   double step_s = 0;
   std::int64_t steps = 0;
+  bool counts_steps = false;  // the file states `steps`, not `duration_s`
   pbd::Method method;
   std::map<std::string, std::string> method_where;  // of its keys the file states, as errors begin
   std::vector<Probe> probes;

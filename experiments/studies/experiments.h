@@ -43,6 +43,8 @@ void judged_frames(Context& context);
 void cone_problems(Context& context);
 void friction_cone(Context& context);
 void work_precision(Context& context);
+void trajectories(Context& context);
+void advice(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);
 void point_hard_cases(Context& context);

@@ -18,6 +18,7 @@ from sections.sweeps import contact_convergence, late_friction, softness
 from sections.robustness import generated_scenes, generated_worlds, point_hard_cases
 from sections.scenes import contact_scenes, figure_1, judged_frames
 from sections.time import time_order
+from sections.trajectories import advice, trajectories
 
 NO_TABLE = "The run left no table."
 
@@ -25,7 +26,7 @@ SECTIONS = {function.__name__: function for function in (
     figure_1, contact_scenes, judges, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
     mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
     friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
-    work_precision, rival_newton,
+    work_precision, trajectories, advice, rival_newton,
     effects_cost, point_hard_cases, generated_scenes, generated_worlds)}
 
 

@@ -99,13 +99,13 @@ Trace watched(const Step& step, const State& start, const Points& exact) {
   return trace;
 }
 
-struct Measured {
+struct MeasuredMethod {
   Trace trace;     // smallest times of the repeats
   double setup_s;  // by which making the method and its first step take longer than a later step
 };
 
-Measured measure_rival(const Contestant& contestant, const Scene& scene, const State& start,
-                       const Points& exact) {
+MeasuredMethod measure_rival(const Contestant& contestant, const Scene& scene, const State& start,
+                             const Points& exact) {
   const double begun = now();
   const Step step = contestant.ready(scene);
   const double making = now() - begun;
@@ -145,7 +145,7 @@ class Duel {
         traces_(context.table("traces", {"scene", "elements", "young_pa", "poisson", "method", "iteration",
                                          "wall_s", "error", "status", "reason"})) {}
 
-  void add(const RivalProblem& problem, const Contestant& contestant, const Measured& measured) {
+  void add(const RivalProblem& problem, const Contestant& contestant, const MeasuredMethod& measured) {
     const auto& report = measured.trace.report;
     const std::string status(status_names[static_cast<std::size_t>(report.status)]), reason(report.reason);
     for (const auto& point : measured.trace.points)

@@ -81,10 +81,6 @@ class Pictures {
   std::optional<VtkSeries> bodies_;
 };
 
-double energy_of(const Scene& scene, const State& state) {
-  return kinetic_energy(scene, state) + gravity_energy(scene, state) + elastic_energy(scene, state);
-}
-
 double bilateral_error(const Scene& scene, const State& state) {
   double most = 0;
   for (const Effect& effect : scene.effects)
@@ -104,7 +100,7 @@ SceneRun run_scene(const ScenePlan& plan, Table* series, Context& context) {
     pictures.emplace(directory, plan);
     pictures->add(0, state, {});
   }
-  const double start = energy_of(scene, state);
+  const double start = total_energy(scene, state);
   const std::int64_t steps = steps_of(plan);
   for (std::int64_t k = 1; k <= steps; ++k) {
     throw_if_interrupted();
@@ -127,7 +123,7 @@ SceneRun run_scene(const ScenePlan& plan, Table* series, Context& context) {
     run.most_rows = std::max(run.most_rows, rows);
     run.overlap_at_end = larger(0, 0 - least_gap(contacts).value_or(0));
     run.overlap.add(run.overlap_at_end);
-    const double change = energy_of(scene, state) - start, bilateral = bilateral_error(scene, state);
+    const double change = total_energy(scene, state) - start, bilateral = bilateral_error(scene, state);
     run.kinetic_at_end = kinetic_energy(scene, state);
     run.excess.add(larger(0, change));
     run.bilateral.add(bilateral);

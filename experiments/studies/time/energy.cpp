@@ -26,10 +26,6 @@ Vec3 sum_over_finite(const Scene& scene, F&& term) {
 
 }  // namespace
 
-double total_energy(const Scene& scene, const State& state) {
-  return kinetic_energy(scene, state) + gravity_energy(scene, state) + elastic_energy(scene, state);
-}
-
 double energy_scale(const Scene& scene) {
   const Points& x = scene.initial.x;
   double weight = 0;

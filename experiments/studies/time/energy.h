@@ -6,9 +6,6 @@
 
 namespace pbdcheck {
 
-/// Kinetic, elastic and gravity energy, J.
-double total_energy(const pbd::Scene& scene, const pbd::State& state);
-
 /// Kinetic and elastic energy at the start and m g times the scene's extent, J.
 double energy_scale(const pbd::Scene& scene);
 

@@ -5,8 +5,9 @@
 // alike.
 #include <cmath>
 
-#include "harness/integrator_rules.h"
+#include "harness//integrator_rules.h"
 #include "harness/measure.h"
+#include "harness/probes.h"
 #include "scenes/standard.h"
 #include "studies/time/energy.h"
 

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "circling.h"
-#include "harness/integrator_rules.h"
+#include "harness//integrator_rules.h"
 #include "harness/measure.h"
+#include "harness/probes.h"
 #include "studies/time/energy.h"
 
 namespace pbdcheck {

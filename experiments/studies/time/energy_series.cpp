@@ -2,8 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/integrator_rules.h"
+#include "harness//integrator_rules.h"
 #include "harness/measure.h"
+#include "harness/probes.h"
 #include "scenes/standard.h"
 #include "studies/time/energy.h"
 

@@ -1,4 +1,5 @@
 #include "harness/integrator_rules.h"
+#include "harness/probes.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

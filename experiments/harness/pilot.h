@@ -1,0 +1,53 @@
+// A pilot on a user's scene: which integrator, outer iteration, relaxation, tolerance and step come to an
+// error in the least time.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "harness/trajectory.h"
+
+namespace pbdcheck {
+
+/// The grid: these and all integrators, outer iterations that solve the step, and steps of the scene's own
+/// halved or doubled again and again. The laws of contact and friction are the scene's: they are its
+/// question.
+inline constexpr std::array<std::string_view, 3> pilot_relaxations{"gauss_seidel", "conjugate_gradients",
+                                                                   "direct"};
+inline constexpr std::array<double, 4> pilot_tolerances{1e-2, 1e-4, 1e-6, 1e-8};
+
+struct PilotRun {
+  Setting setting;
+  double wall_s;
+  double error;  // as the truth can tell it (`Truth::told`); NaN of a run that is not ok
+};
+
+struct Pilot {
+  double duration = 0;  // s, of the motion: as much of the scene's as the budget simulates well
+  Truth truth;
+  std::int64_t truth_steps = 0;
+  std::vector<PilotRun> met;        // the error asked, the quickest first
+  std::optional<PilotRun> nearest;  // with the least error, where none met it
+  std::int64_t tried = 0;
+  bool complete = true;  // false: the budget ended the search
+
+  double ms_per_s(const PilotRun& run) const { return 1e3 * run.wall_s / duration; }
+};
+
+/// How a scene is solved by every choice of the grid in `steps` steps.
+std::vector<Setting> pilot_grid(const SceneFile& file, std::int64_t steps);
+
+/// Those of the grid's longest step.
+std::int64_t fewest_steps(const SceneFile& file, double duration);
+
+/// By so many steps, solved to a thousandth of `error`.
+Truth pilot_truth(const SceneFile& file, double duration, double error, std::int64_t steps);
+
+/// Searches the grid within about `seconds` of wall time, half of it for the truth. Branch and bound: a run
+/// ends where it takes 1.5 times the best one, and steps shorter than one that meets the error are not tried
+/// by the same integrator.
+Pilot pilot(const SceneFile& file, double error, double seconds);
+
+}  // namespace pbdcheck

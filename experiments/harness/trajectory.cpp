@@ -1,0 +1,125 @@
+#include "harness/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "error.h"
+#include "harness/contact_sums.h"
+#include "harness/measure.h"
+#include "harness/probes.h"
+#include "harness/stepper.h"
+
+namespace pbdcheck {
+
+using namespace pbd;
+
+namespace {
+
+Points all_places(const Scene& scene, const State& state) {
+  return places(scene, state.x, state.orientation);
+}
+
+double distance(const Scene& scene, const State& end, const State& truth) {
+  return relative_error(all_places(scene, end), all_places(scene, truth), all_places(scene, scene.initial));
+}
+
+}  // namespace
+
+Trajectory trajectory(const SceneFile& file, double duration, const Setting& setting, const Limits& limits) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  SceneFile moved = file;
+  moved.step_s = duration / static_cast<double>(setting.steps);
+  Trajectory found;
+  found.end = file.scene.initial;
+  auto clock = Clock::now();
+  Workspace workspace(file.scene, setting.method);
+  Stepper stepper(moved, workspace);
+  found.wall_s = since(clock);
+  for (std::int64_t k = 1; k <= setting.steps && found.status == Status::ok; ++k) {
+    clock = Clock::now();
+    const Report report = stepper.whole(found.end);
+    found.wall_s += since(clock);
+    found.outer_iterations += report.outer_iterations;
+    found.sweeps += report.sweeps;
+    found.row_updates += report.row_updates;
+    found.missed_steps += report.status != Status::ok;
+    found.penetration_m = std::max(found.penetration_m, -least_gap(workspace.contacts()).value_or(0));
+    if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
+      found.status = report.status;
+      found.reason = fmt::format("step {}: {}", k, report.reason);
+    } else if (found.wall_s > limits.wall_s) {
+      found.status = Status::not_converged;
+      found.reason = fmt::format("given up after {:.2g} s", limits.wall_s);
+    } else if (!(way(file.scene, found.end) <= limits.way_m)) {
+      found.status = Status::diverged;
+      found.reason = fmt::format("step {}: farther than {:.2g} m from the start", k, limits.way_m);
+    }
+  }
+  for (const EffectCost& cost : workspace.costs()) found.bytes += cost.bytes;
+  return found;
+}
+
+Trajectory timed_trajectory(const SceneFile& file, double duration, const Setting& setting,
+                            const Limits& limits) {
+  constexpr double enough = 0.02;  // s: twenty times what a scheduler takes a core away for
+  Trajectory best = trajectory(file, duration, setting, limits);
+  double spent = best.wall_s;
+  for (int repeat = 1; repeat < timed_repeats && spent < enough && best.status == Status::ok; ++repeat) {
+    const double again = trajectory(file, duration, setting).wall_s;
+    spent += again;
+    best.wall_s = std::min(best.wall_s, again);
+  }
+  return best;
+}
+
+double end_error(const Scene& scene, const Trajectory& found, const State& truth) {
+  return found.status == Status::ok ? distance(scene, found.end, truth) : std::nan("");
+}
+
+double way(const Scene& scene, const State& end) {
+  return (all_places(scene, end) - all_places(scene, scene.initial)).colwise().norm().maxCoeff();
+}
+
+Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest) {
+  Setting coarser = finest;
+  coarser.steps /= 2;
+  const Trajectory fine = trajectory(file, duration, finest);
+  const double bar = end_error(file.scene, trajectory(file, duration, coarser), fine.end);
+  const Method& method = finest.method;
+  return {fine.end, fine.status == Status::ok ? bar : std::nan(""),
+          fmt::format("{} steps by {}, {}, {}, tolerance {:g}", finest.steps, method.integrator, method.outer,
+                      method.relaxation, method.tolerance)};
+}
+
+Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
+                   const std::vector<std::string>& integrators) {
+  std::optional<Truth> first, best;
+  for (const std::string& integrator : integrators) try {
+      finest.method.integrator = integrator;
+      const Truth truth = richardson_truth(file, duration, finest);
+      if (!first) first = best = truth;
+      const double apart = distance(file.scene, truth.end, first->end);
+      if (truth.error_bar < best->error_bar && apart <= 3 * (truth.error_bar + first->error_bar))
+        best = truth;
+    } catch (const SetupError&) {  // not for this scene
+      if (!first) throw;
+    }
+  return *best;
+}
+
+double energy_error(const Scene& scene, const Trajectory& found, const State& truth) {
+  if (found.status != Status::ok) return std::nan("");
+  const double turned_over = kinetic_energy(scene, truth) + elastic_energy(scene, truth) +
+                             std::abs(gravity_energy(scene, truth) - gravity_energy(scene, scene.initial));
+  const double difference = std::abs(total_energy(scene, found.end) - total_energy(scene, truth));
+  return turned_over > 0 ? difference / turned_over : difference;
+}
+
+}  // namespace pbdcheck

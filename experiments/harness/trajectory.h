@@ -1,0 +1,81 @@
+// A scene's motion over some time by one method and step, timed: how far from the true motion it ends.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scenes/scene_file.h"
+#include "step/step.h"
+
+namespace pbdcheck {
+
+/// How a motion is simulated: in `steps` equal ones.
+struct Setting {
+  pbd::Method method{};
+  std::int64_t steps = 1;
+  bool by_count = false;  // does its iterations and stops, solved or not: a missed tolerance is no failure
+};
+
+/// What became of it. Not ok: it ended at the first step that missed or diverged, and
+/// `error` is NaN.
+struct Trajectory {
+  pbd::State end;
+  double wall_s = 0;  // making of the workspace and steps; the least of the repeats
+  std::int64_t outer_iterations = 0, sweeps = 0, row_updates = 0, missed_steps = 0;
+  std::int64_t bytes = 0;    // of the rows of the last step
+  double penetration_m = 0;  // deepest overlap that a step ends with
+  pbd::Status status = pbd::Status::ok;
+  std::string reason{};
+};
+
+/// Where a trajectory is given up: as not converged after this wall time, as diverged this far from its
+/// start.
+struct Limits {
+  double wall_s = std::numeric_limits<double>::infinity();
+  double way_m = std::numeric_limits<double>::infinity();
+};
+
+/// From the scene's start over `duration` (s). Throws SetupError where the scene does not allow the method,
+/// and Interrupted.
+Trajectory trajectory(const SceneFile& file, double duration, const Setting& setting,
+                      const Limits& limits = {});
+
+/// The same with the least wall time of up to `timed_repeats` runs: short ones, which a hiccup of the machine
+/// would distort, are done again.
+Trajectory timed_trajectory(const SceneFile& file, double duration, const Setting& setting,
+                            const Limits& limits = {});
+
+/// Where a motion ends and how far that may be from the true end, relative to how far things move.
+struct Truth {
+  pbd::State end;
+  double error_bar = 0;
+  std::string method;
+
+  /// An error that this truth can tell: below three of its bars there is none.
+  double told(double error) const { return error < 3 * error_bar ? 3 * error_bar : error; }
+  bool tells(double error) const { return error >= 3 * error_bar; }
+};
+
+/// `relative_error` of places at the end, NaN unless the trajectory is ok.
+double end_error(const pbd::Scene& scene, const Trajectory& found, const pbd::State& truth);
+
+/// The end of `finest`; its bar is the distance to the same with half as many steps: of any order from the
+/// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok.
+Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest);
+
+/// The best of the same by each of `integrators` that the scene allows: the one with the smallest bar of
+/// those that end where the first one does, as far as both bars tell. The first is to be one that is right
+/// wherever it converges, as implicit Euler, whose impacts obey the law of restitution as the step vanishes.
+Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
+                   const std::vector<std::string>& integrators);
+
+/// m, of the place that ends farthest from its start.
+double way(const pbd::Scene& scene, const pbd::State& end);
+
+/// Difference of total energies over what the true motion turned over: its kinetic energy, its elastic energy
+/// and the change of gravity's from `start`; NaN unless the trajectory is ok.
+double energy_error(const pbd::Scene& scene, const Trajectory& found, const pbd::State& truth);
+
+}  // namespace pbdcheck

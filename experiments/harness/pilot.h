@@ -28,7 +28,7 @@ struct Pilot {
   double duration = 0;  // s, of the motion: as much of the scene's as the budget simulates well
   Truth truth;
   std::int64_t truth_steps = 0;
-  std::vector<PilotRun> met;        // the error asked, the quickest first
+  std::vector<PilotRun> met;        // the error asked, by the truth's error bar at least, the quickest first
   std::optional<PilotRun> nearest;  // with the least error, where none met it
   std::int64_t tried = 0;
   bool complete = true;  // false: the budget ended the search

@@ -52,17 +52,17 @@ std::vector<std::string> limits(const AdviseOptions& options, const SceneFile& f
   std::vector<std::string> all;
   const double whole = static_cast<double>(file.steps) * file.step_s;
   if (pilot.duration < whole * (1 - 1e-9))
-    all.push_back(
+    all.emplace_back(
         fmt::format("what comes after the first {:.4g} of {:.4g} s, which is as much as {:g} s of "
                     "computing allow: impacts later on may want shorter steps",
                     pilot.duration, whole, options.seconds));
-  all.push_back(fmt::format("errors below {:.2g}, three error bars of the truth ({})", pilot.truth.told(0),
-                            pilot.truth.method));
+  all.emplace_back(fmt::format("errors below {:.2g}, three error bars of the truth ({})", pilot.truth.told(0),
+                               pilot.truth.method));
   if (!(pilot.truth.told(0) <= options.error))
-    all.push_back(
+    all.emplace_back(
         "whether a motion that shorter steps do not settle has an end of its own: it may be chaotic");
   if (!pilot.complete)
-    all.push_back(
+    all.emplace_back(
         fmt::format("what is beyond the {} settings that {:g} s allow", pilot.tried, options.seconds));
   return all;
 }

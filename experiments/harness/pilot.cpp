@@ -51,7 +51,7 @@ Truth sharp_truth(const SceneFile& file, double duration, double error, double s
   const Stopwatch all;
   for (;; steps *= 2) {
     const Stopwatch level;
-    const Truth truth = pilot_truth(file, duration, error, steps);
+    Truth truth = pilot_truth(file, duration, error, steps);
     if (truth.told(0) <= error / 3 || all.seconds() + 2 * level.seconds() > seconds) return truth;
   }
 }

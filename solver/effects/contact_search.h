@@ -134,7 +134,7 @@ class ContactSearch {
     std::array<int, 2> collider;  // the lower one first
     std::uint64_t key;            // as `active` gives it
 
-    auto operator<=>(const PairFeatures&) const = default;
+    auto operator<=>(const PairFeatures&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
   };
   struct TriangleName {  // of a contact: the same for all triangles that share the feature
     int body;            // as the effect counts colliders

@@ -49,6 +49,7 @@ bool ContactSearch::is_left(const PairFeatures& features) const {
 
 bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
                                 const Configuration& end, double share) {
+  if (contact.of_surfaces) return true;  // it has no features, nor carriers
   if (between_x_.cols() != start.x.cols()) between_x_ = start.x;
   between_pose_.resize(start.pose.size());
   const auto place = [&](int node) {

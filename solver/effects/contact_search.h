@@ -97,7 +97,7 @@ class ContactSearch {
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
   static constexpr double rounding = 1e-9;      // of a way
   static constexpr double room = 0.25;          // of a way, so that few steps are searched anew
-  static constexpr double near = 0.1;           // of a way: what is farther may wait
+  static constexpr double near = 0.5;           // of a way: what is farther may wait
 
   enum class Carrier : std::uint8_t { body, node, triangle };
 

@@ -48,10 +48,10 @@ TEST_CASE("what passes within reach and meets nothing is not thrown back") {
 }
 
 TEST_CASE("what flies by has no rows") {
-  // A ball flies 0.1 m a step along the ground, 50 mm above it, and comes down by 1 mm of them.
+  // A ball flies 0.1 m a step along the ground, 80 mm above it, and comes down by 1 mm of them.
   BodyScene build({.friction = 0.3}, 0);
   build.ground();
-  build.ball(0.1, 1, {.position = {0, 0, 0.15}, .velocity = {10, 0, -0.1}});
+  build.ball(0.1, 1, {.position = {0, 0, 0.18}, .velocity = {10, 0, -0.1}});
   const Scene scene = build.finish();
   Workspace workspace(scene, contact_method("direct"));
   run(scene, contact_method("direct"), 0.01, 1, workspace);

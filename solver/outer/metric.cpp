@@ -22,14 +22,14 @@ Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& deformation) {
 
 void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
                     const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
-                    double most_products) {
+                    MetricShape shape, double most_products) {
   constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
   if (!pattern_.is_of(inverse_mass, entries)) pattern_ = analyse(inverse_mass, entries);
   if (pattern_.products() > most_products) {
     factor_ = converted<1, double>(factorised<1>(pattern_, inverse_mass, entries));
   } else {
     const auto lower = factorised<3>(pattern_, inverse_mass, entries);
-    if (pivot_ratio(pattern_, lower) >= single_precision)
+    if (shape == MetricShape::rest && pivot_ratio(pattern_, lower) >= single_precision)
       factor_ = converted<3, float>(lower);
     else
       factor_ = converted<3, double>(lower);

@@ -57,7 +57,7 @@ void Potential::factor_metric(StepSystem& system, MetricShape shape) {
   deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
   if (shape == MetricShape::current)
     for (const Slot& slot : system.slots) slot.source->add_deformation(system.at.x, deformation_);
-  metric.factor(problem.map, problem.inverse_mass, entries, deformation_);
+  metric.factor(problem.map, problem.inverse_mass, entries, deformation_, shape);
   since_factor = 0;
 }
 

@@ -61,7 +61,7 @@ Metric factored(const Ring& ring, double most_products) {
   StepMap map;
   map.d = map.s = 0.01;
   Metric metric;
-  metric.factor(map, ring.inverse_mass, ring.entries, {}, most_products);
+  metric.factor(map, ring.inverse_mass, ring.entries, {}, MetricShape::rest, most_products);
   return metric;
 }
 

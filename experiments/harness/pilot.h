@@ -28,7 +28,7 @@ struct Pilot {
   double duration = 0;  // s, of the motion: as much of the scene's as the budget simulates well
   Truth truth;
   std::int64_t truth_steps = 0;
-  std::vector<PilotRun> met;        // the error asked, by the truth's error bar at least, the quickest first
+  std::vector<PilotRun> met;        // error and the truth's bar within the error asked, the quickest first
   std::optional<PilotRun> nearest;  // with the least error, where none met it
   std::int64_t tried = 0;
   bool complete = true;  // false: the budget ended the search
@@ -46,8 +46,8 @@ std::int64_t fewest_steps(const SceneFile& file, double duration);
 Truth pilot_truth(const SceneFile& file, double duration, double error, std::int64_t steps);
 
 /// Searches the grid within about `seconds` of wall time, half of it for the truth. Branch and bound: a run
-/// ends where it takes 1.5 times the best one, and steps shorter than one that meets the error are not tried
-/// by the same integrator.
+/// ends where it takes 1.5 times the best one; by each integrator all choices are tried at the longest step
+/// at which auto and direct meet the error, and at twice that.
 Pilot pilot(const SceneFile& file, double error, double seconds);
 
 }  // namespace pbdcheck

@@ -16,7 +16,7 @@ class WaitingContacts {
   /// Where a step begins.
   void clear();
 
-  /// Takes from `contacts` what is to wait; what is apart at each of `places`, and has not been called.
+  /// Takes from `contacts` those that are apart at each of `places`, and have not been called: they wait.
   void take(std::span<const Configuration> places, ContactLists& contacts);
 
   /// Takes of `all` contacts what has no rows in `contacts`.
@@ -26,8 +26,10 @@ class WaitingContacts {
   bool call(const Configuration& end);
 
  private:
-  using Name = std::tuple<std::array<int, 2>, std::uint64_t>;  // pair and features
-  static Name name_of(const ActiveContact& contact) { return {contact.pair(), contact.features.key}; }
+  using Name = std::tuple<bool, std::array<int, 2>, std::uint64_t>;  // of surfaces; pair and features
+  static Name name_of(const ActiveContact& contact) {
+    return {contact.of_surfaces, contact.pair(), contact.features.key};
+  }
 
   std::vector<ActiveContact> waiting_;
   std::set<Name> called_;

@@ -50,6 +50,24 @@ void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& star
   }
 }
 
+/// True of a triangle that begins in a body by more than is overlooked: by which features, and how deep, is
+/// told of it as it is nearest.
+bool ContactSearch::begins_cut(const Pair& pair) const {
+  return pair.deepest < -pair.overlooked && motions_[pair.collider[1]].kind == Carrier::triangle;
+}
+
+/// Sets `overlapping_` to what of `found_` overlaps at `end` by more than `allowed`, and by more than at
+/// `start`: what ends less deep is on its way out, though other features were nearest there.
+void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end,
+                                   double allowed) {
+  overlapping_.clear();
+  for (const ContactPoint& point : found_) {
+    const ActiveContact contact = active(point, pair.collider[0], pair.collider[1]);
+    if (touching_at(contact, end).gap < std::min(allowed, touching_at(contact, start).gap))
+      overlapping_.push_back(contact);
+  }
+}
+
 /// Halves the part of the way between two shares, at the second of which a pair is in each other by more than
 /// `behind` (negative, m): sets `overlapping` and returns the last share at which it is not.
 double ContactSearch::entering(const Pair& pair, const Configuration& start, const Configuration& end,
@@ -113,9 +131,11 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   for (const double at : {apart, 1.0}) {
     generate_between(pair, start, end, at, slack + left);
     keep_overlapping(pair, start, end, allowed, behind);
-    if (!overlapping_.empty()) break;
+    if (!overlapping_.empty()) return true;
   }
-  return true;
+  if (!begins_cut(pair)) return true;
+  keep_deepening(pair, start, end, allowed);
+  return !overlapping_.empty();
 }
 
 /// In the place of the late contact of the same features, if there is one.
@@ -143,7 +163,10 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
   for (const Pair& pair : far_) {
     if (!find_overlapping(pair, start, end)) continue;
     seen = true;
-    for (const ActiveContact& found : overlapping_) add_late(found, pair.deepest);
+    for (const ActiveContact& found : overlapping_) {
+      const double began = begins_cut(pair) ? touching_at(found, start).gap : pair.deepest;
+      add_late(found, std::min(pair.deepest, began));
+    }
   }
   return seen;
 }

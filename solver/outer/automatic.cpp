@@ -61,12 +61,13 @@ void Automatic::take_over(StepSystem& system) {
 }
 
 /// True where quasi_newton is near the solution and comes no nearer, its elimination's rounding being met, or
-/// takes many iterations, the fewer the farther it is.
-bool Automatic::is_spent(const Progress& progress) {
+/// takes many iterations down the potential, the fewer the farther it is.
+bool Automatic::is_spent(const StepSystem& system, const Progress& progress) {
   constexpr double far = 1e-2;  // of the scale
   constexpr int patience = 10, many = 30, most = 60;
   const int enough = progress.residual() > far * progress.scale ? many : most;
-  if (quasi_newton_->follows() && progress.iterations_of_rows >= enough) return true;
+  if (quasi_newton_->follows() && quasi_newton_->descends(system) && progress.iterations_of_rows >= enough)
+    return true;
   if (progress.residual() < gain_.lowest / 2)
     gain_ = {.lowest = progress.residual()};
   else
@@ -82,7 +83,7 @@ bool Automatic::crowded(StepSystem& system, const Progress& progress) {
 
 void Automatic::iterate(StepSystem& system, Progress& progress) {
   const std::int64_t before = progress.sweeps;
-  if (on_potential() && (is_spent(progress) || crowded(system, progress))) take_over(system);
+  if (on_potential() && (is_spent(system, progress) || crowded(system, progress))) take_over(system);
   progress.other_solver |= std::exchange(takes_over_, false);
   if (on_potential()) {
     quasi_newton_->iterate(system, progress);

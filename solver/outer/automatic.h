@@ -6,10 +6,10 @@
 // contacts with friction, nesterov_jacobi takes over for the rest of the step, and gauss_seidel where that
 // does, too: near sliding they may hardly get on.
 // The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
-// its elimination misses the tolerance; on sheets where it stalls, or is not there after 60 iterations, 30
-// where it is far, as where much is compressed; and where an iterate asks many contacts for impulses: its
-// problem of n such contacts is dense, n^2 blocks of 72 bytes. Many are a thousand, or 50 on sheets where
-// plain contracts.
+// its elimination misses the tolerance; on sheets where it stalls, or without contacts is not there after 60
+// iterations, 30 where it is far, as where much is compressed; and where an iterate asks many contacts for
+// impulses: its problem of n such contacts is dense, n^2 blocks of 72 bytes. Many are a thousand, or 50 on
+// sheets where plain contracts.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ class Automatic {
   };
 
   void take_over(StepSystem& system);
-  bool is_spent(const Progress& progress);
+  bool is_spent(const StepSystem& system, const Progress& progress);
   bool crowded(StepSystem& system, const Progress& progress);
   bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);

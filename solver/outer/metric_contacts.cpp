@@ -93,20 +93,31 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
   });
 }
 
+/// W = J P^-1 J^T, one contact's column after the other.
 void MetricContacts::find_delassus(LocalContacts& local) {
   for (auto& column : local.column) column.clear();
-  for (std::size_t i = 0; i < coupled_.size(); ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
+  places_.clear();
+  for (const Coupled& own : coupled_)
+    for (int a = 0; a < own.nodes; ++a) places_.push_back(own.place[a]);
+  std::sort(places_.begin(), places_.end());
+  places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  pushed_.resize(inverse_.places());
+  for (std::size_t j = 0; j < coupled_.size(); ++j) {
+    for (const int place : places_) {
+      Eigen::Matrix3d& pushed = pushed_[place];
+      pushed.setZero();
+      for (int b = 0; b < coupled_[j].nodes; ++b)
+        pushed.noalias() += inverse_.block(place, coupled_[j].place[b]) * coupled_[j].jacobian[b].transpose();
+    }
+    for (std::size_t i = j; i < coupled_.size(); ++i) {
       Eigen::Matrix3d w = Eigen::Matrix3d::Zero();  // of i by j
       for (int a = 0; a < coupled_[i].nodes; ++a)
-        for (int b = 0; b < coupled_[j].nodes; ++b)
-          w.noalias() += coupled_[i].jacobian[a] *
-                         inverse_.block(coupled_[i].place[a], coupled_[j].place[b]) *
-                         coupled_[j].jacobian[b].transpose();
+        w.noalias() += coupled_[i].jacobian[a] * pushed_[coupled_[i].place[a]];
       if (w.isZero(0)) continue;
       local.column[j].push_back({static_cast<int>(i), w});
       if (i != j) local.column[i].push_back({static_cast<int>(j), w.transpose()});
     }
+  }
   for (std::size_t i = 0; i < coupled_.size(); ++i) {
     Eigen::Matrix3d& own = local.delassus[i];
     own = local.compliance[i];

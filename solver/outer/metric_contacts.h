@@ -39,6 +39,8 @@ class MetricContacts {
   void find_delassus(LocalContacts& block);
 
   MetricInverse inverse_;
+  std::vector<int> places_;              // in `inverse_`, of all nodes that contacts touch
+  std::vector<Eigen::Matrix3d> pushed_;  // P^-1 J^T of one contact, by places; 1/kg
   std::vector<Coupled> coupled_;
   Rows local_;
   std::vector<bool> engaged_;               // of all contacts: they take part

@@ -17,6 +17,8 @@ class MetricInverse {
   /// Place of a node of finite mass, found if it is a new one.
   int place(const Metric& metric, int node);
 
+  std::size_t places() const { return reach_.size(); }
+
   /// Block (a, b) of R^T P^-1 R by places, 1/kg.
   Eigen::Matrix3d block(int a, int b) const {
     return a >= b ? lower_[index(a, b)] : Eigen::Matrix3d(lower_[index(b, a)].transpose());

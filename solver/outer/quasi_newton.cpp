@@ -221,12 +221,14 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   lbfgs_.forget();
 }
 
-/// True if the iterate is so near to the solution that its impulses may be settled.
+/// True if the iterate is so near to the solution that its impulses may be settled. Stiff rows make of what
+/// v misses far more impulse than the tolerance allows; settled, they miss what turns of them alone.
 bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
   constexpr int patience = 5;
   constexpr double near = 10;  // times the tolerance
-  const double allowed = near * system.problem.method.tolerance * progress.scale;
-  if (!descends(system)) return without_fall_ >= patience && progress.change <= allowed;
+  const double tolerated = system.problem.method.tolerance * progress.scale, allowed = near * tolerated;
+  if (!descends(system))
+    return progress.change <= (without_fall_ >= patience ? allowed : follows_ ? tolerated : 0.0);
   without_fall_ = progress.primal < lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.primal);
   return find_direction() <= allowed && without_fall_ >= patience;

@@ -137,6 +137,7 @@ struct LocalContacts : RowBlock<3, 1> {
   std::vector<std::vector<Coupling>> column;  // of W, its blocks that are not zero
 
   void apply(const std::vector<double>&, std::size_t i, const Value& p, Points& v) const {
+    if (p.isZero(0)) return;
     for (const auto& [contact, block] : column[i]) v.col(contact) += block * p;
   }
 };

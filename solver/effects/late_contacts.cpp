@@ -115,7 +115,8 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
 /// across a face. Without any the step cannot be solved.
 bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
-  const double slack = pair.overlooked, round = round_radius_of(one, two);
+  const double round = round_radius_of(one, two);
+  const double slack = std::max(pair.overlooked, besides_ * round);  // no less than a solved step may miss
   const double travel = travel_between(one, two), rounded = 1e-12 * (one.radius + two.radius + travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);

@@ -2,8 +2,7 @@
 
 namespace pbd {
 
-bool Acceleration::refuted(StepSystem& system, const Progress& progress) {
-  constexpr double too_much = 10;  // growth of the residual that an acceleration may bring
+bool Acceleration::refuted(StepSystem& system, const Progress& progress, double too_much) {
   const double residual = progress.residual();
   const bool refuted = accelerated_ && residual > too_much * last_residual_;
   if (refuted) anderson_.reject(system.rows, system.at.v);

@@ -108,7 +108,9 @@ void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
 /// One proximal step in the metric: down the gradient, under the rows that are left dual.
 void QuasiNewton::project(StepSystem& system, Progress& progress) {
   constexpr int patience = 5;  // iterations without a fall of the residual, from which nothing is learnt
-  if (acceleration_.refuted(system, progress)) evaluate(system);
+  // What folds has many stationary shapes near it, between which accelerations would leap to and fro.
+  const double too_much = follows_ ? 1 : 10;
+  if (acceleration_.refuted(system, progress, too_much)) evaluate(system);
   without_fall_ = progress.residual() < lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.residual());
   if (without_fall_ > patience) {
@@ -221,14 +223,12 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   lbfgs_.forget();
 }
 
-/// True if the iterate is so near to the solution that its impulses may be settled. Stiff rows make of what
-/// v misses far more impulse than the tolerance allows; settled, they miss what turns of them alone.
+/// True if the iterate is so near to the solution that its impulses may be settled.
 bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
   constexpr int patience = 5;
   constexpr double near = 10;  // times the tolerance
-  const double tolerated = system.problem.method.tolerance * progress.scale, allowed = near * tolerated;
-  if (!descends(system))
-    return progress.change <= (without_fall_ >= patience ? allowed : follows_ ? tolerated : 0.0);
+  const double allowed = near * system.problem.method.tolerance * progress.scale;
+  if (!descends(system)) return without_fall_ >= patience && progress.change <= allowed;
   without_fall_ = progress.primal < lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.primal);
   return find_direction() <= allowed && without_fall_ >= patience;

@@ -192,8 +192,7 @@ class ContactSearch {
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
   bool begins_cut(const Pair& pair) const;
-  void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end,
-                      double allowed);
+  void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
   double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,

@@ -63,7 +63,8 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
-  if (!contact.late) contact.target = target_of(begin, shifts, gap, from, block, i);
+  const double recovered = target_of(begin, shifts, gap, from, block, i);
+  contact.target = contact.late ? std::min(contact.target, recovered) : recovered;
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;

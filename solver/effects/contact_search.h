@@ -22,7 +22,8 @@
 // contacts are exact as bodies move. Pairs that begin deeper than 1e-4 r are looked at again in every step.
 // Of polyhedra r is half their least width. Sixteen and 1e-4 are no bounds: they are measured, and random
 // steps hold to them (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
-// generate.h says of them, which may be too large.
+// generate.h says of them, which may be too large; a triangle that begins cut by one may end cut by other
+// features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
 // one of its shapes, by more than the tolerance's share of r there (of cylinders by what a plane is off their

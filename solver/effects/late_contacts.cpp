@@ -116,7 +116,9 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
 bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double round = round_radius_of(one, two);
-  const double slack = std::max(pair.overlooked, besides_ * round);  // no less than a solved step may miss
+  // Of triangles no less than what a solved step may miss of their nodes.
+  const double missed = two.kind == Carrier::triangle ? besides_ * round : 0;
+  const double slack = std::max(pair.overlooked, missed);
   const double travel = travel_between(one, two), rounded = 1e-12 * (one.radius + two.radius + travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);

@@ -2,8 +2,8 @@
 // (potential.h), L-BFGS in a constant metric, backtracking on phi. Where other rows are left they stay dual:
 // hard ones (hard_rows.h), or contacts alone (metric_contacts.h). v is then the argmin of the potential's
 // model in the metric P under them, accelerated by Anderson's method, which begins anew where its residual
-// does not fall; that is not globalised by a line search, and P knows nothing of those rows' geometric
-// stiffness.
+// does not fall, and of sheets wherever it grows; that is not globalised by a line search, and P knows
+// nothing of those rows' geometric stiffness.
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,

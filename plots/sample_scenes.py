@@ -3,7 +3,7 @@
 import tables
 from sample_files import write
 
-SCENES = (("boxes_on_ground", 125, 126, 0), ("bunnies_on_cloth", 6, 1687, 0), ("flexible_cow", 0, 1047, 3552))
+SCENES = (("boxes_on_ground", 125, 126, 0), ("bunnies_on_cloth", 5, 1687, 0), ("flexible_cow", 0, 1047, 3552))
 
 
 def figure_1(directory):

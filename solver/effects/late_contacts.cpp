@@ -60,12 +60,10 @@ bool ContactSearch::begins_cut(const Pair& pair) const {
 /// `start`: what ends less deep is on its way out, though other features were nearest there.
 void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end,
                                    double allowed) {
-  overlapping_.clear();
-  for (const ContactPoint& point : found_) {
-    const ActiveContact contact = active(point, pair.collider[0], pair.collider[1]);
-    if (touching_at(contact, end).gap < std::min(allowed, touching_at(contact, start).gap))
-      overlapping_.push_back(contact);
-  }
+  keep_overlapping(pair, start, end, allowed, -infinity);
+  std::erase_if(overlapping_, [&](const ActiveContact& contact) {
+    return touching_at(contact, end).gap >= touching_at(contact, start).gap;
+  });
 }
 
 /// Halves the part of the way between two shares, at the second of which a pair is in each other by more than

@@ -17,7 +17,7 @@ class Acceleration {
 
   /// Notes where the next image comes from; true if v has been taken back to the last image, so that all has
   /// to be linearised again before `note`: where the residual has grown by more than a factor.
-  bool refuted(StepSystem& system, const Progress& progress, double too_much);
+  bool refuted(StepSystem& system, const Progress& progress, double too_much = 10);
   void note(const StepSystem& system) { anderson_.begin(system.rows, system.at.v); }
 
   void accelerate(StepSystem& system) {

@@ -7,8 +7,7 @@
 namespace pbd {
 
 void Proximal::iterate(StepSystem& system, Progress& progress) {
-  constexpr double too_much = 10;
-  if (acceleration_.refuted(system, progress, too_much)) linearise_at(system, system.at.v);
+  if (acceleration_.refuted(system, progress)) linearise_at(system, system.at.v);
   acceleration_.note(system);
   mass_.update(system, 1);
   add_mass(system);

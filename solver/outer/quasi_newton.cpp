@@ -109,8 +109,9 @@ void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
 void QuasiNewton::project(StepSystem& system, Progress& progress) {
   constexpr int patience = 5;  // iterations without a fall of the residual, from which nothing is learnt
   // What folds has many stationary shapes near it, between which accelerations would leap to and fro.
-  const double too_much = follows_ ? 1 : 10;
-  if (acceleration_.refuted(system, progress, too_much)) evaluate(system);
+  const bool refuted =
+      follows_ ? acceleration_.refuted(system, progress, 1) : acceleration_.refuted(system, progress);
+  if (refuted) evaluate(system);
   without_fall_ = progress.residual() < lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.residual());
   if (without_fall_ > patience) {

@@ -7,41 +7,13 @@
 #include "refined.h"
 #include "scenes.h"
 #include "scenes/contacts.h"
+#include "touching_sheets.h"
 
 using namespace pbd;
 using namespace pbd::test;
 using namespace pbdcheck;
 
 namespace {
-
-constexpr double thickness = 4e-3;  // m
-
-Contact& contact_in(Scene& scene) {
-  for (Effect& effect : scene.effects)
-    if (auto* contact = std::get_if<Contact>(&effect)) return *contact;
-  throw std::logic_error("a scene without contact");
-}
-
-/// Adds a surface to a scene of bodies; of infinite mass, or with compliant links. Returns its first node.
-int add_surface(Scene& scene, const TriangleMesh& mesh, bool fixed, double density = 0.5) {
-  const int first = add_sheet_nodes(scene, mesh, density);
-  Contact& contact = contact_in(scene);
-  contact.thickness = thickness;
-  for (const auto& [a, b, c] : mesh.triangles) contact.triangle.push_back({first + a, first + b, first + c});
-  if (!fixed) {
-    scene.effects.emplace_back(sheet_links(mesh, first, 1e-5));
-    return first;
-  }
-  for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) scene.mass[static_cast<std::size_t>(first + i)] = infinity;
-  return first;
-}
-
-/// In the plane z = `height`, its middle above the origin; cells are as long as wide.
-TriangleMesh sheet(int cells, double size, double height) {
-  TriangleMesh mesh = grid_sheet({cells, cells}, {size, size});
-  mesh.x.colwise() -= Vec3(size / 2, size / 2, -height);
-  return mesh;
-}
 
 /// N, what surfaces carry of bodies.
 Vec3 surface_force(const Workspace& workspace, const Scene& scene) {
@@ -255,34 +227,6 @@ TEST_CASE("nothing passes through a surface within a solved step where contact i
   INFO("of " << flights << " without " << without << " unsolved " << unsolved);
   CHECK(through == 0);
   CHECK(without > flights / 4);
-}
-
-TEST_CASE("what takes the place of contacts that leave their features is not thrown out at once") {
-  // A box comes down with a corner through a stiff sheet: the step takes energy, but what recovery adds.
-  constexpr double recovery = 1, mass = 0.01;  // m/s, kg
-  BodyScene build({.friction = 1}, 0);
-  const Vec3 turned(-0.55, -0.27, -0.77);
-  build.box(Vec3(0.3, 0.2, 0.15), mass,
-            {.position = Vec3(-0.132, 0.102, 0.12),
-             .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turned.norm(), turned.normalized())),
-             .velocity = Vec3(-0.82, -0.94, -3.37),
-             .spin = Vec3(2.4, 1.9, 0)});
-  build.contact().recovery = recovery;
-  build.contact().surfaces_touch = false;
-  Scene scene = build.finish();
-  add_surface(scene, sheet(6, 0.8, 0), false, 3);
-  contact_in(scene).thickness = 0.01;
-  const auto energy = [&](const State& state) {
-    double sum = scene.bodies[0].inertia.dot(state.spin.col(0).cwiseAbs2()) / 2;
-    for (Eigen::Index i = 0; i < state.v.cols(); ++i)
-      sum += scene.mass[static_cast<std::size_t>(i)] * state.v.col(i).squaredNorm() / 2;
-    return sum;
-  };
-  Method method = contact_method("conjugate_gradients");
-  method.tolerance = 1e-5;
-  State state = scene.initial;
-  REQUIRE(one_step(scene, method, 0.005, state).status == Status::ok);
-  CHECK(energy(state) <= energy(scene.initial) + mass * recovery * recovery / 2);
 }
 
 TEST_CASE("surfaces that are not to touch each other do not, and bodies touch them all the same") {

@@ -103,7 +103,7 @@ std::vector<MovingScene> moving_scenes(bool full) {
                4),
       touching("bunnies_on_cloth",
                cut("bunnies_on_cloth", {fmt::format("cloth.0.cells=[{0},{0}]", full ? 16 : 8),
-                                        fmt::format("rigid_body.0.copies=[1,1,{}]", full ? 2 : 1)}),
+                                        fmt::format("rigid_body.1.copies=[1,1,{}]", full ? 2 : 1)}),
                0.2, 10, 3, 3),
       touching("flexible_cow", cut("flexible_cow", {"solid.0.translation_m=[0,0,0.1]"}), 0.1, 5, 3, 1)};
   for (auto each = all.end() - 2; each != all.end(); ++each) each->dear = !full;

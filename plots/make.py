@@ -34,6 +34,7 @@ import scenes  # noqa: F401
 import simbenchmark  # noqa: F401
 import softness  # noqa: F401
 import stability_map  # noqa: F401
+import threads  # noqa: F401
 import time_order  # noqa: F401
 import trajectories  # noqa: F401
 import work_precision  # noqa: F401

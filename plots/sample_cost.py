@@ -3,6 +3,7 @@
 import numpy as np
 
 from sample_files import RELAXATIONS, write
+import tables
 
 METHOD_COLUMNS = ("scene step_s integrator outer relaxation friction tolerance outer_iterations sweeps row_updates "
                   "wall_s error status reason")
@@ -106,3 +107,13 @@ def effects_cost(directory):
             for r in RELAXATIONS[:3] for n in (1000, 10000, 100000)]
     write(directory, "effects_cost", "scaling", "scene relaxation rows elements wall_s_per_sweep exponent status reason",
           rows + [("cantilever", "direct", 100000, 16666, float("nan"), 1.7, "skipped", "too large for the quick tier")])
+
+
+def threads(directory):
+    names = ("gauss_seidel", "coloured_gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients")
+    write(directory, "threads", "sweeps", tables.TABLES["threads", "sweeps"],
+          [(s, r, t, 1000, 1000, 88000, 2e-5 / t, 1.9e-5 / t, 2.2e-5 / t, 4e9 * t, 4e10, 0.1 * t, 0.9 * t + 0.1, 1, "ok", "")
+           for s in ("cloth", "solid") for r in names for t in (1, 2) if (r, t) != ("gauss_seidel", 2)])
+    write(directory, "threads", "steps", tables.TABLES["threads", "steps"],
+          [(s, "implicit_euler", "auto", r, t, 40, 5, 1e-2 / t, 9e-3 / t, 1.1e-2 / t, 0.8 * t + 0.2, 1, "ok", "")
+           for s, r in (("boxes_on_ground", names[1]), ("flexible_cow", names[4])) for t in (1, 2)])

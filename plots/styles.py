@@ -12,7 +12,7 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")
 STYLES = {
     "gauss_seidel": (BLUE, "o", "-"), "jacobi": (ORANGE, "s", "--"), "nesterov_jacobi": (GREEN, "^", "-."),
-    "conjugate_gradients": (PURPLE, "P", (0, (5, 1))),
+    "coloured_gauss_seidel": (SKY, "X", "-"), "conjugate_gradients": (PURPLE, "P", (0, (5, 1))),
     "direct": (BLACK, "D", ":"),
     "siconos_nsgs": ("#888888", "X", "-"), "siconos_nsn_ac": ("#8c564b", "h", "--"), "siconos_admm": ("#bcbd22", "p", "-."),
     "cone_interior_point": (SKY, "*", "-"), "cone_ipopt": (RED, "v", (0, (3, 1, 1, 1, 1, 1))),

@@ -118,6 +118,10 @@ TABLES = {
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
+    ("threads", "sweeps"): "scene relaxation threads constraints rows bytes wall_s_per_sweep wall_s_low wall_s_high bytes_per_s "
+                           "copied_bytes_per_s share_of_copy speedup same_bits status reason",
+    ("threads", "steps"): "scene integrator outer relaxation threads first_step steps wall_s_per_step wall_s_low wall_s_high speedup "
+                          "same_bits status reason",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",
     ("point_hard_cases", "gates"):

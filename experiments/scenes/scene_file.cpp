@@ -44,6 +44,7 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);
   method.inner_tolerance = keys.number_or("inner_tolerance", method.inner_tolerance, Range::not_negative);
   method.warm_start = keys.flag_or("warm_start", method.warm_start);
+  method.threads = keys.integer_or("threads", method.threads, 1);
   method.memory = keys.integer_or("memory", method.memory, 0);
   constexpr int most_memory = 1000;
   if (method.memory > most_memory)
@@ -126,12 +127,13 @@ pbd::Method parse_method(const std::string& settings, pbd::Method base, const st
 
 std::string method_text(const pbd::Method& m) {
   const std::string own_family = m.beta ? fmt::format(" beta={} gamma={}", *m.beta, *m.gamma) : "";
+  const std::string threads = m.threads > 1 ? fmt::format(" threads={}", m.threads) : "";
   return fmt::format(
       "integrator={} outer={} relaxation={} friction={} tolerance={} max_outer={} max_sweeps={} "
-      "inner_tolerance={} warm_start={} memory={} alpha={}{} rho={} direction_blend={} stabilisation={}",
+      "inner_tolerance={} warm_start={} memory={} alpha={}{} rho={} direction_blend={} stabilisation={}{}",
       m.integrator, m.outer, m.relaxation, m.friction, m.tolerance, m.max_outer, m.max_sweeps,
       m.inner_tolerance, m.warm_start, m.memory, m.alpha, own_family, m.rho, m.direction_blend,
-      m.stabilisation);
+      m.stabilisation, threads);
 }
 
 }  // namespace pbdcheck

@@ -156,3 +156,28 @@ def effects_cost(results):
             [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
               number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()], first=True))
     return section
+
+
+def threads(results):
+    section = Section(
+        "What do threads gain?",
+        "Sweeps and whole steps on one thread and on several. Loops are divided into parts that do not depend on how many threads there "
+        "are, so that the results must not either. `coloured_gauss_seidel` goes over chunks of constraints by colours: those of one colour "
+        "share no node that moves.",
+        figures=[
+            Figure("threads_gain", "How many times as fast a sweep is on all threads."),
+            Figure("threads_bandwidth", "The bytes a second that a sweep moves at least, as a share of what copying memory moves on as many "
+                   "threads.")])
+    sweeps, steps = results.table("threads", "sweeps"), results.table("threads", "steps")
+    if sweeps is not None:
+        section.tables.append(Table(
+            "Sweeps.", ["scene", "relaxation", "threads", "ms", "million constraints/s", "share of copying", "times as fast", "same bits"],
+            [[f"`{r['scene']}`", f"`{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_sweep"]),
+              number(1e-6 * r["constraints"] / r["wall_s_per_sweep"]), number(r["share_of_copy"]), number(r["speedup"]),
+              "yes" if r["same_bits"] == 1 else "no"] for _, r in sweeps.iterrows()], first=True))
+    if steps is not None:
+        section.tables.append(Table(
+            "Whole steps.", ["scene", "method", "threads", "ms a step", "times as fast", "same bits"],
+            [[f"`{r['scene']}`", f"`{r['outer']}`, `{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_step"]),
+              number(r["speedup"]), "yes" if r["same_bits"] == 1 else "no"] for _, r in steps.iterrows()], first=True))
+    return section

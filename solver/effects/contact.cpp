@@ -137,8 +137,9 @@ void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual
   with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
     if (Block::nodes != 5 && !contacts.empty() && !contacts[0].of_surfaces)
       find_nearest(place.directions != nullptr ? *place.directions : place.at, contacts);
-    for (std::size_t i = 0; i < block.size(); ++i)
-      linearise_contact(place, start_v_, contacts[i], block, i, sums);
+    add_each(block, sums, [&](std::size_t i, RowResidual& own) {
+      linearise_contact(place, start_v_, contacts[i], block, i, own);
+    });
   });
 }
 

@@ -101,6 +101,7 @@ bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> pl
       begin_contact(begin, shifts, contacts[i], block, i);
       apart = apart && contacts[i].target == 0;
     }
+    block.divide(begin.inverse_mass, block.chunks.threads, true);
     others |= block.node != before;
   });
   if (apart) recovering_ = false;

@@ -19,10 +19,10 @@ void ConjugateGradients::begin(Rows& rows, const Points& v, bool) {
 /// Takes impulses that their law would move along the surface of what it allows there, or to nothing, and
 /// tells which parts of the impulses remain free. True if another set of them is.
 bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, double& squared) {
-  bool changed = false;
+  Sums<2> sums{squared, 0};  // the squared residual, and how many change their set
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     if (!block.bounded()) return;
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_scattered(block, sums, [&](std::size_t i, Sums<2>& own) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       const typename Block::Value full = -block.inverse_diagonal[i] * r;
       typename Block::Value change = allowed(block, i, block.impulse[i], full);
@@ -39,15 +39,16 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, 
         const bool slides = block.impulse[i][0] + change[0] > 0 && block.law != Friction::cone;
         free = slides ? Free::first : Free::none;
       }
-      changed |= free != free_[first_row + i];
+      own[1] += free != free_[first_row + i];
       free_[first_row + i] = free;
-      if (change.isZero(0)) continue;
-      squared += missed;
+      if (change.isZero(0)) return;
+      own[0] += missed;
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
-    }
+    });
   });
-  return changed;
+  squared = sums[0];
+  return sums[1] > 0;
 }
 
 /// Of a step along the direction until the first impulse is at a bound, of friction that of its normal part.
@@ -71,39 +72,45 @@ double ConjugateGradients::length_to_bounds(const Rows& rows) const {
   return length;
 }
 
-PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double moved = 0;  // squared residual of what the laws have moved
   const bool set_changed = find_free(rows, v, seconds, moved);
-  push_.setZero(3, v.cols());
-  double product = 0, kept_product = 0;  // of r with the new and the last D^-1 r
-  double slope = 0;                      // of r along the old direction
+  push_.resizeLike(v);
+  each_columns(rows.threads, v.cols(),
+               [&](Eigen::Index first, Eigen::Index count) { push_.middleCols(first, count).setZero(); });
+  Sums<3> sums{};  // r with the new and the last D^-1 r, and along the old direction
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_scattered(block, sums, [&](std::size_t i, Sums<3>& own) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       typename Block::Value next = block.inverse_diagonal[i] * r;
       if (block.bounded() && free_[first_row + i] == Free::none) next.setZero();
       if (block.bounded() && free_[first_row + i] == Free::first) next.tail(Block::rows - 1).setZero();
       auto last = entries(last_, block, first_row, i);
-      product += r.dot(next);
-      kept_product += r.dot(last);
-      slope += r.dot(entries(direction_, block, first_row, i));
+      own[0] += r.dot(next);
+      own[1] += r.dot(last);
+      own[2] += r.dot(entries(direction_, block, first_row, i));
       last = next;
       block.apply(rows.inverse_mass, i, -next, push_);
-    }
+    });
   });
+  const double product = sums[0], kept_product = sums[1];
+  double slope = sums[2];
   const double beta =
       last_product_ > 0 && !set_changed ? std::max(0.0, (product - kept_product) / last_product_) : 0.0;
   square_ = product + beta * (beta * square_ - 2 * slope);
   slope = beta * slope - product;
-  velocity_ = push_ + beta * velocity_;
-  double curvature = squared_mass_norm(rows.inverse_mass, velocity_);
+  each_columns(rows.threads, v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    auto moving = velocity_.middleCols(first, count);
+    moving = push_.middleCols(first, count) + beta * moving;
+  });
+  double curvature = squared_mass_norm(rows.inverse_mass, velocity_, rows.threads);
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_each(block, curvature, [&](std::size_t i, double& own) {
       auto direction = entries(direction_, block, first_row, i);
       direction = beta * direction - entries(last_, block, first_row, i);
-      curvature += direction.dot(block.compliance[i] * direction);
-      if constexpr (is_local<Block>) curvature += direction.dot(velocity_.col(block.node[i][0]));
-    }
+      own += direction.dot(block.compliance[i] * direction);
+      if constexpr (is_local<Block>) own += direction.dot(velocity_.col(block.node[i][0]));
+    });
   });
   last_product_ = product;
   constexpr double redundant = 1e-10;  // s changes next to no velocity: what rows contradict each other by
@@ -117,19 +124,26 @@ PBD_FLATTEN Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds 
   const bool to_all = rows.contacts && curvature > shared * square_;
   const double length = std::min(-slope / curvature, to_all ? infinity : length_to_bounds(rows));
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
-    for (std::size_t i = 0; i < block.size(); ++i)
+    Nothing nothing;
+    add_each(block, nothing, [&](std::size_t i, Nothing&) {
       block.impulse[i] += length * entries(direction_, block, first_row, i);
+    });
   });
-  v += length * velocity_;
+  each_columns(rows.threads, v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    v.middleCols(first, count) += length * velocity_.middleCols(first, count);
+  });
+  Sums<1> cut_back{};  // above 0 where anything was
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
-    for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
+    if (!block.bounded()) return;
+    add_scattered(block, cut_back, [&](std::size_t i, Sums<1>& own) {
       const typename Block::Value back = cut(block, i, block.impulse[i]) - block.impulse[i];
-      if (back.isZero(0)) continue;
+      if (back.isZero(0)) return;
       block.impulse[i] += back;
       block.apply(rows.inverse_mass, i, back, v);
-      last_product_ = 0;
-    }
+      own[0] = 1;
+    });
   });
+  if (cut_back[0] > 0) last_product_ = 0;
   return {std::sqrt(moved + product)};
 }
 

@@ -5,19 +5,36 @@
 #include "rows/laws.h"
 
 namespace pbd {
+namespace {
 
-PBD_FLATTEN Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+/// Solves constraint i alone, and adds its squared residual to `squared`.
+template <class Block>
+void solve_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
+                      double& squared) {
+  const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+  typename Block::Value change = allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
+  squared += squared_residual(block, i, r, change);  // all that this change is for with friction
+  if constexpr (Block::rows == 3)
+    if (block.frictional()) change = solved_impulse(block, i, r) - block.impulse[i];
+  block.impulse[i] += change;
+  block.apply(inverse_mass, i, change, v);
+}
+
+}  // namespace
+
+Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  double squared = 0;
+  visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) PBD_FLATTEN {
+    for (std::size_t i = 0; i < block.size(); ++i) solve_constraint(rows.inverse_mass, block, i, v, squared);
+  });
+  return {std::sqrt(squared)};
+}
+
+Sweep ColouredGaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      typename Block::Value change = allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
-      squared += squared_residual(block, i, r, change);  // all that this change is for with friction
-      if constexpr (Block::rows == 3)
-        if (block.frictional()) change = solved_impulse(block, i, r) - block.impulse[i];
-      block.impulse[i] += change;
-      block.apply(rows.inverse_mass, i, change, v);
-    }
+    add_scattered(block, squared,
+                  [&](std::size_t i, double& sum) { solve_constraint(rows.inverse_mass, block, i, v, sum); });
   });
   return {std::sqrt(squared)};
 }

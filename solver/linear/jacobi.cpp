@@ -15,18 +15,21 @@ void Jacobi::begin(Rows& rows, const Points& v, bool fresh) {
   last_residual_ = lowest_residual_ = infinity;
 }
 
-PBD_FLATTEN Sweep Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
-  next_ = v;
+Sweep Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
+  next_.resizeLike(v);
+  each_columns(rows.threads, v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    next_.middleCols(first, count) = v.middleCols(first, count);
+  });
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_scattered(block, squared, [&](std::size_t i, double& sum) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       const typename Block::Value change =
           allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
-      squared += squared_residual(block, i, r, change);
+      sum += squared_residual(block, i, r, change);
       block.impulse[i] += omega_ * change;
       block.apply(rows.inverse_mass, i, omega_ * change, next_);
-    }
+    });
   });
   v.swap(next_);
   const double residual = std::sqrt(squared);

@@ -59,6 +59,11 @@ void require_solvable(const LinearSolver& any, const Rows& rows, Friction law) {
 
 namespace {
 
+template <class Kind>
+constexpr bool is_reordered = requires {
+  typename Kind::Reordered;
+};
+
 template <class>
 struct NameList;
 template <class... Kinds>
@@ -67,7 +72,7 @@ struct NameList<std::variant<Kinds...>> {
 
   static std::vector<std::string_view> general() {
     std::vector<std::string_view> names;
-    ((Kinds::solves_any_rows ? names.push_back(Kinds::name) : void()), ...);
+    ((Kinds::solves_any_rows && !is_reordered<Kinds> ? names.push_back(Kinds::name) : void()), ...);
     return names;
   }
 

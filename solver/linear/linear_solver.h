@@ -18,8 +18,8 @@
 
 namespace pbd {
 
-using LinearSolver = std::variant<GaussSeidel, Jacobi, NesterovJacobi, ConjugateGradients, Direct, Ldlt,
-                                  SemismoothNewton, AugmentedLagrangian>;
+using LinearSolver = std::variant<GaussSeidel, ColouredGaussSeidel, Jacobi, NesterovJacobi,
+                                  ConjugateGradients, Direct, Ldlt, SemismoothNewton, AugmentedLagrangian>;
 
 /// When to end the sweeps: residual <= max(absolute, relative * that of the first sweep), or after
 /// max_sweeps, further ones not counted.

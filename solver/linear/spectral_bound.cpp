@@ -10,26 +10,28 @@ double SpectralBound::power_step(const Rows& rows) {
   velocity_.setZero();
   std::size_t first_row = 0;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    for (std::size_t i = 0; i < block.size(); ++i)
+    Nothing nothing;
+    add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
       block.apply(rows.inverse_mass, i, entries(vector_, block, first_row, i), velocity_);
+    });
     first_row += block.size() * Block::rows;
   });
   // Rayleigh quotient of D^-1 N in the metric of N: (g^T D^-1 g)/(p^T g) with g = N p.
-  double upper = 0, lower = 0;
+  Sums<2> quotient{};  // above and below its line
   first_row = 0;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_each(block, quotient, [&](std::size_t i, Sums<2>& own) {
       auto p = entries(vector_, block, first_row, i);
       const typename Block::Value g =
           block.compliance[i] * p + block.jacobian[i] * block.gather(velocity_, i);
       const typename Block::Value next = block.inverse_diagonal[i] * g;
-      upper += g.dot(next);
-      lower += p.dot(g);
+      own[0] += g.dot(next);
+      own[1] += p.dot(g);
       p = next;
-    }
+    });
     first_row += block.size() * Block::rows;
   });
-  const double estimate = lower > 0 ? upper / lower : 0.0;
+  const double estimate = quotient[1] > 0 ? quotient[0] / quotient[1] : 0.0;
   if (estimate > 0)
     for (double& entry : vector_) entry /= estimate;
   ++sweeps_;

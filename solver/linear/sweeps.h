@@ -8,14 +8,6 @@
 
 #include "rows/rows.h"
 
-// Sweeps are flattened, all they call inlined, which GCC does not do of itself with so many kinds of rows;
-// not so with sanitizers, whose checks would make that too long to compile.
-#ifdef NDEBUG
-#define PBD_FLATTEN [[gnu::flatten]]
-#else
-#define PBD_FLATTEN
-#endif
-
 namespace pbd {
 
 /// Seconds spent on each block; a null pointer takes no time.

@@ -24,6 +24,8 @@ void validate(const Method& method) {
           "0 to 1");
   require(method.rho >= 0 && method.rho <= 1, "rho", method.rho, "0 to 1");
   require(method.alpha >= 0.5 && method.alpha <= 1, "alpha", method.alpha, "0.5 to 1");
+  constexpr int most_threads = 256;
+  require(method.threads >= 1 && method.threads <= most_threads, "threads", method.threads, "1 to 256");
   if (method.beta.has_value() != method.gamma.has_value())
     throw SetupError(method.beta ? "beta" : "gamma", "one of beta and gamma", "both, or neither");
   if (!method.beta) return;

@@ -19,6 +19,7 @@ struct Method {
   int max_sweeps = 1000;           // sweeps of the relaxation an outer iteration
   double inner_tolerance = 0.003;  // end an outer iteration's sweeps at this share of the nonlinear residual
   bool warm_start = true;          // begin with the previous step's impulses
+  int threads = 1;                 // that a step's loops are divided among; no result depends on it
   int memory = 20;                 // iterates that proximal and quasi_newton learn from
   double alpha = 0.55;  // of newmark, 1/2 to 1: its weight of the step's end; 1/2 conserves energy where all
                         // is linear, and is unstable with hard constraints

@@ -1,6 +1,9 @@
 #include "outer/metric.h"
 
+#include <iterator>
+
 #include "rows/polar.h"
+#include "rows/threads.h"
 
 namespace pbd {
 namespace {
@@ -50,8 +53,10 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
 
 void Metric::turn(const std::vector<Eigen::Matrix3d>& deformation) {
   if (!turns()) return;
-  for (std::size_t node = 0; node < deformation.size(); ++node)
-    rotation_[node] = rotation_of(deformation[node]) * factored_[node].transpose();
+  each_columns(threads, std::ssize(deformation), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index node = first; node < first + count; ++node)
+      rotation_[node] = rotation_of(deformation[node]) * factored_[node].transpose();
+  });
 }
 
 FactorReach Metric::reach(int node) const {
@@ -61,15 +66,19 @@ FactorReach Metric::reach(int node) const {
 
 void Metric::solve(const Points& right, Points& result) {
   result.resizeLike(right);
-  for (std::size_t node = 0; node < rotation_.size(); ++node)
-    if (pattern_.column[node] >= 0)
-      work_.col(pattern_.column[node]).noalias() = rotation_[node].transpose() * right.col(node);
+  each_columns(threads, right.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index node = first; node < first + count; ++node)
+      if (pattern_.column[node] >= 0)
+        work_.col(pattern_.column[node]).noalias() = rotation_[node].transpose() * right.col(node);
+  });
   std::visit([&](const auto& factor) { factor.solve(pattern_, work_); }, factor_);
-  for (std::size_t node = 0; node < rotation_.size(); ++node)
-    if (pattern_.column[node] >= 0)
-      result.col(node).noalias() = rotation_[node] * work_.col(pattern_.column[node]);
-    else
-      result.col(node).setZero();
+  each_columns(threads, right.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index node = first; node < first + count; ++node)
+      if (pattern_.column[node] >= 0)
+        result.col(node).noalias() = rotation_[node] * work_.col(pattern_.column[node]);
+      else
+        result.col(node).setZero();
+  });
 }
 
 }  // namespace pbd

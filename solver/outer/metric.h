@@ -44,6 +44,8 @@ class Metric {
   int factored() const { return factored_times_; }
   std::size_t nodes() const { return rotation_.size(); }
 
+  int threads = 1;  // that loops over nodes are divided among
+
   /// result = P^-1 right; zero where a node cannot move.
   void solve(const Points& right, Points& result);
 

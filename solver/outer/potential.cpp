@@ -5,19 +5,27 @@
 
 namespace pbd {
 
-void weigh(const std::vector<double>& inverse_mass, Points& v) {
-  for (std::size_t node = 0; node < inverse_mass.size(); ++node)
-    v.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+void weigh(const std::vector<double>& inverse_mass, Points& v, int threads) {
+  each_columns(threads, v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index node = first; node < first + count; ++node)
+      v.col(node) *= inverse_mass[node] > 0 ? 1 / inverse_mass[node] : 0.0;
+  });
 }
 
 RowResidual Potential::evaluate(StepSystem& system) {
   const Problem& problem = system.problem;
   CurrentIterate& at = system.at;
-  at.x = problem.map.x0 + problem.map.d * at.v;
+  const int threads = system.rows.threads;
+  at.x.resizeLike(at.v);
+  at.rebuilt.resizeLike(at.v);
+  each_columns(threads, at.v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    at.x.middleCols(first, count) =
+        problem.map.x0.middleCols(first, count) + problem.map.d * at.v.middleCols(first, count);
+    at.rebuilt.middleCols(first, count) = problem.map.v_free.middleCols(first, count);
+  });
   const Configuration here = placed(problem, at.x, at.poses, problem.x_time);
   system.rows.inverse_mass = problem.inverse_mass;
-  at.rebuilt = problem.map.v_free;
-  value = std::pow(mass_distance(problem.inverse_mass, at.v, problem.map.v_free), 2) / 2;
+  value = std::pow(mass_distance(problem.inverse_mass, at.v, problem.map.v_free, threads), 2) / 2;
   const RowPlace place{problem.map, here, nullptr, at.v, problem.inverse_mass, problem.finite_mass};
   RowResidual sums;
   for (Slot& slot : system.slots) {
@@ -29,11 +37,14 @@ RowResidual Potential::evaluate(StepSystem& system) {
       slot.source->linearise(place, slot.blocks(system.rows), sums);
     slot.cost.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  gradient = at.v - at.rebuilt;
+  gradient.resizeLike(at.v);
+  each_columns(threads, at.v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    gradient.middleCols(first, count) = at.v.middleCols(first, count) - at.rebuilt.middleCols(first, count);
+  });
   const Bodies& bodies = problem.bodies;
   for (int b = 0; b < bodies.count() && problem.implicit_gyroscopic; ++b)
     gradient.col(bodies.column(b)) -= problem.map.s * bodies.gyroscopic(b, at.v.col(bodies.column(b)));
-  weigh(problem.inverse_mass, gradient);
+  weigh(problem.inverse_mass, gradient, threads);
   apply_impulses(system.rows, at.rebuilt, eliminated);
   at.torque_missed = add_gyroscopic(system, at.rebuilt);
   return sums;
@@ -44,7 +55,8 @@ void Potential::begin_metric(StepSystem& system) {
   if (!metric.factored_for(problem.map)) factor_metric(system, MetricShape::rest);
   system.at.x = problem.map.x0 + problem.map.d * system.at.v;
   deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
-  for (const Slot& slot : system.slots) slot.source->add_deformation(system.at.x, deformation_);
+  for (const Slot& slot : system.slots)
+    slot.source->add_deformation(system.at.x, slot.view(system.rows), deformation_);
   metric.turn(deformation_);
 }
 
@@ -56,8 +68,10 @@ void Potential::factor_metric(StepSystem& system, MetricShape shape) {
     if (slot.eliminated) slot.source->add_metric(problem.map, x, shape, slot.blocks(system.rows), entries);
   deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
   if (shape == MetricShape::current)
-    for (const Slot& slot : system.slots) slot.source->add_deformation(system.at.x, deformation_);
+    for (const Slot& slot : system.slots)
+      slot.source->add_deformation(system.at.x, slot.view(system.rows), deformation_);
   metric.factor(problem.map, problem.inverse_mass, entries, deformation_, shape);
+  metric.threads = system.rows.threads;
   since_factor = 0;
 }
 

@@ -10,7 +10,7 @@
 namespace pbd {
 
 /// v <- M v, N s of m/s; zero where the mass is infinite.
-void weigh(const std::vector<double>& inverse_mass, Points& v);
+void weigh(const std::vector<double>& inverse_mass, Points& v, int threads = 1);
 
 struct Potential {
   double value = 0;  // J, at v

@@ -64,26 +64,28 @@ class EffectRows final : public Source {
                           std::vector<double>& added_mass) const override {
     for (const AnyBlock& any : blocks) {
       const auto& block = std::get<Block>(any);
-      for (std::size_t i = 0; i < block.size(); ++i) {
+      Nothing nothing;
+      add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
         const std::size_t entry = block.entry(i);
         const auto bound = C::geometric_bound(effect_, entry, local_at(effect_, entry, block.node[i], at),
                                               factor * block.impulse[i]);
         for (int a = 0; a < C::nodes; ++a) added_mass[block.node[i][a]] += map.d / 2 * bound[a];
-      }
+      });
     }
   }
 
   void perturb(const RowError& error, BlockSpan blocks, Points& push) const override {
-    Value value;
-    Jacobian jacobian;
     for (AnyBlock& any : blocks) {
       auto& block = std::get<Block>(any);
-      for (std::size_t i = 0; i < block.size(); ++i) {
+      Nothing nothing;
+      add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+        Value value;
+        Jacobian jacobian;
         evaluate(block, i, error.turned, value, jacobian);
         if (error.directions != nullptr) take_directions(block, i, *error.directions, jacobian);
         if (!block.offset.empty()) value -= block.offset[i];
         Operations::perturb(error, value, jacobian, block, i, push);
-      }
+      });
     }
   }
 
@@ -93,11 +95,11 @@ class EffectRows final : public Source {
       for (AnyBlock& any : blocks) {
         double potential = 0;
         auto& block = std::get<Block>(any);
-        for (std::size_t i = 0; i < block.size(); ++i) {
+        add_scattered(block, potential, [&](std::size_t i, double& own) {
           const auto respond = [&](Value value) -> const Value& {
             if (!block.offset.empty()) value -= block.offset[i];
             block.impulse[i].noalias() = block.stiffness[i] * (value / -map.d);
-            potential -= value.dot(block.impulse[i]) / (2 * map.d);
+            own -= value.dot(block.impulse[i]) / (2 * map.d);
             return block.impulse[i];
           };
           const auto push = push_of(effect_, i, positions_of(block.node[i], x), respond);
@@ -105,7 +107,7 @@ class EffectRows final : public Source {
             const int node = block.node[i][a];
             v.col(node) += inverse_mass[node] * push.col(a);
           }
-        }
+        });
         sum += potential;
       }
   }
@@ -136,12 +138,17 @@ class EffectRows final : public Source {
       }
   }
 
-  void add_deformation(const Points& x, std::vector<Eigen::Matrix3d>& deformation) const override {
+  void add_deformation(const Points& x, ConstBlockSpan blocks,
+                       std::vector<Eigen::Matrix3d>& deformation) const override {
     if constexpr (requires { C::weighted_deformation(effect_, 0, {}); })
-      for (std::size_t i = 0; i < constraint_count(effect_); ++i) {
-        const auto nodes = C::node(effect_, i);
-        const Eigen::Matrix3d own = C::weighted_deformation(effect_, i, positions_of(nodes, x));
-        for (const int node : nodes) deformation[node] += own;
+      for (const AnyBlock& any : blocks) {
+        const auto& block = std::get<Block>(any);
+        Nothing nothing;
+        add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+          const Eigen::Matrix3d own =
+              C::weighted_deformation(effect_, block.entry(i), positions_of(block.node[i], x));
+          for (const int node : block.node[i]) deformation[node] += own;
+        });
       }
   }
 
@@ -229,8 +236,8 @@ class EffectRows final : public Source {
   RowResidual linearise_block(const RowPlace& place, Block& block) const {
     RowResidual sums;
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
-    Value value;
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    add_each(block, sums, [&](std::size_t i, RowResidual& own_sums) {
+      Value value;
       const std::size_t entry = block.entry(i);
       const auto own = local_at(effect_, entry, block.node[i], place.at);
       C::evaluate(effect_, entry, own, value, block.jacobian[i]);
@@ -242,20 +249,24 @@ class EffectRows final : public Source {
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
       Operations::linearise(place, value, largest_coordinate<E>(own, block.node[i], place.inverse_mass),
-                            block, i, sums);
-    }
+                            block, i, own_sums);
+    });
     return sums;
   }
 
   void begin_damping(const StepBegin& begin, Block& block) const {
     const StepCoefficients& c = begin.coefficients;
-    Square share;  // (1 + T/d)^-1
-    Jacobian unused;
+    const auto share_of = [&](std::size_t entry) {  // (1 + T/d)^-1
+      return inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
+    };
+    const Square common = block.size() == 0 ? Square() : share_of(block.entry(0));
     block.offset.resize(block.size());
     block.begin_value.resize(block.size());
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    Nothing nothing;
+    add_each(block, nothing, [&](std::size_t i, Nothing&) {
       const std::size_t entry = block.entry(i);
       Value value, ahead, behind;
+      Jacobian unused;
       evaluate_anew(block, i, begin.at, value, block.jacobian[i]);
       Value from = value;  // c0
       if (c.x_v != 0) from += block.jacobian[i] * (c.x_v * block.gather(begin.v, i));
@@ -270,11 +281,10 @@ class EffectRows final : public Source {
         evaluate(block, i, begin.behind, behind, unused);
         from += bend_of_rate(c) * ((ahead - 2 * value + behind) / (c.d * c.d));
       }
-      if (i == 0 || !C::one_material)
-        share = inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
+      const Square share = C::one_material ? common : share_of(entry);
       block.offset[i] = from - share * from;
       block.compliance[i] = share * C::compliance(effect_, entry) / (c.s * c.d);
-    }
+    });
   }
 
   const Scene& scene_;

@@ -89,8 +89,15 @@ void scale_hard_biases(Rows& rows, double factor) {
 
 void apply_impulses(std::span<const AnyBlock> blocks, const std::vector<double>& inverse_mass, Points& v) {
   for_each_block(blocks, [&](const auto& block) {
-    for (std::size_t i = 0; i < block.size(); ++i) block.apply(inverse_mass, i, block.impulse[i], v);
+    Nothing nothing;
+    add_scattered(block, nothing,
+                  [&](std::size_t i, Nothing&) { block.apply(inverse_mass, i, block.impulse[i], v); });
   });
+}
+
+void divide(Rows& rows, int threads) {
+  rows.threads = threads;
+  for_each_block(rows.blocks, [&](auto& block) { block.divide(rows.inverse_mass, threads); });
 }
 
 void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "friction.h"
+#include "rows/chunks.h"
 #include "rows/constraint.h"
 
 namespace pbd {
@@ -37,6 +38,10 @@ struct RowBlock : ConstraintShape<R, K> {
   using Shape = ConstraintShape<R, K>;
   using Velocities = Eigen::Matrix<double, 3 * K, 1>;
 
+  static constexpr std::size_t row_bytes = sizeof(typename Shape::Jacobian) +
+                                           2 * sizeof(typename Shape::Square) +
+                                           2 * sizeof(typename Shape::Value);  // of a constraint, about
+
   std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
   std::vector<typename Shape::Nodes> node;
   std::vector<typename Shape::Jacobian> jacobian;
@@ -51,8 +56,10 @@ struct RowBlock : ConstraintShape<R, K> {
   std::vector<double> friction;                    // mu, for R = 3; empty where there is none
   std::vector<typename Shape::Square> delassus;    // N_ii, kept where there is friction
   Friction law = Friction::coulomb;
+  Chunks chunks;  // of its constraints; one where it was not divided since they were others
 
   std::size_t size() const { return node.size(); }
+  std::size_t chunk_length() const { return pbd::chunk_length(size(), row_bytes, frictional()); }
 
   /// Index in the effect of constraint i.
   std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
@@ -103,8 +110,18 @@ struct RowBlock : ConstraintShape<R, K> {
     const Velocities push = directions.transpose() * p;
     for (int a = 0; a < K; ++a) {
       const int index = node[i][a];
+      if (bounded() && inverse_mass[index] == 0) continue;  // other chunks of its colour may have it, too
       v.col(index) += inverse_mass[index] * push.template segment<3>(3 * a);
     }
+  }
+
+  /// Divides its constraints in chunks, for so many threads. Many contacts share nothing but what cannot
+  /// move: with `fixed_are_shared` these columns keep no chunks apart, and nothing may write to them
+  /// (`apply`).
+  void divide(const std::vector<double>& inverse_mass, int threads, bool fixed_are_shared = false) {
+    chunks.threads = threads;
+    pbd::divide({node.empty() ? nullptr : node[0].data(), K * node.size()}, K, chunk_length(), inverse_mass,
+                fixed_are_shared, chunks);
   }
 
   bool bounded() const { return !bounds.empty(); }
@@ -167,6 +184,7 @@ struct Rows {
   BlockList blocks;                  // in the scene's order; those of contacts may be empty
   bool contacts = false;             // some blocks are those of contacts
   int generation = 0;                // raised with each other set of contacts or compliances
+  int threads = 1;                   // that loops are divided among
 };
 
 /// Entry k of a start vector that no symmetry of a scene leaves out a mode of; in [-1, 1].
@@ -197,6 +215,9 @@ void scale_hard_biases(Rows& rows, double factor);
 
 /// v += W J^T p with the impulses stored in the blocks.
 void apply_impulses(std::span<const AnyBlock> blocks, const std::vector<double>& inverse_mass, Points& v);
+
+/// Divides the constraints of all blocks, and what else loops over rows, among so many threads.
+void divide(Rows& rows, int threads);
 
 /// The same of all rows; those of some blocks may be left out.
 void apply_impulses(const Rows& rows, Points& v, const std::vector<bool>& without = {});

@@ -153,7 +153,7 @@ class Source {
                           std::vector<MetricEntry>&) const {}
 
   /// Adds the volumes times the deformation gradients (m^3) of the elements about each node at positions x.
-  virtual void add_deformation(const Points& /*x*/, std::vector<Eigen::Matrix3d>&) const {}
+  virtual void add_deformation(const Points& /*x*/, ConstBlockSpan, std::vector<Eigen::Matrix3d>&) const {}
 
   /// Forces of compliant constraints as they are in a given state, without rows: adds the accelerations
   /// W J^T (-A^-1 (c + T J v)) (m/s^2); hard ones have no force by their value and add nothing.

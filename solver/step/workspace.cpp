@@ -40,6 +40,7 @@ StepSystem system_of(const Scene& scene, const Method& method) {
   system.solver = make_linear_solver(method.relaxation);
   system.slots =
       make_slots(scene, friction_by_name(method.friction), integrator.explicit_forces, system.rows);
+  divide(system.rows, method.threads);
   Problem& problem = system.problem;
   problem.inverse_mass = system.rows.inverse_mass;
   problem.finite_mass = finite_mass_of(scene);

@@ -1,0 +1,69 @@
+"""What do threads gain, and how near are sweeps to what memory gives?"""
+
+from common import figure, footnote, panels
+from finding import finding, guide
+from selecting import good
+from styles import BLUE, ORANGE, style
+from wording import number, span
+
+
+@figure("threads", "gain", table="sweeps")
+def gain(frame):
+    """How many times as fast sweeps are on all threads, beside what as many would be at best."""
+    return gains(frame, "relaxation", "sweep")
+
+
+@figure("threads", "steps", table="steps")
+def steps(frame):
+    """The same of whole steps."""
+    return gains(frame, "outer", "step")
+
+
+def gains(frame, bar, what):
+    several = good(frame[frame["threads"] > 1], "speedup")
+    scenes = list(frame["scene"].unique())
+    most = frame["threads"].max()
+    fig, axes = panels(len(scenes), columns=2, height=1.0 + 0.25 * frame[bar].nunique(), sharey=True)
+    for ax, scene in zip(axes, scenes):
+        here = several[(several["scene"] == scene) & (several["threads"] == most)]
+        ax.barh(here[bar], here["speedup"], color=[style(name)["color"] for name in here[bar]], height=0.6)
+        for name, value in zip(here[bar], here["speedup"]):
+            ax.text(value, name, f" {number(value)}", va="center", fontsize=7)
+        guide(ax, most, f"{number(most)} at best", horizontal=False)
+        ax.grid(axis="y", visible=False)
+        ax.set(xlabel=f"times as fast, {scene}", xlim=(0, 1.15 * most))
+    axes[0].invert_yaxis()
+    finding(fig, f"{number(most)} threads {what} {span(several['speedup'])} times as fast as one; "
+            f"{(several['same_bits'] == 1).sum()} of {len(several)} runs end in the same bits" if len(several)
+            else "One processor: no run on several threads")
+    return fig
+
+
+@figure("threads", "bandwidth", table="sweeps")
+def bandwidth(frame):
+    """The bytes a second that sweeps move at least, beside what copying memory moves."""
+    rows = good(frame, "share_of_copy")
+    scenes = list(frame["scene"].unique())
+    fig, axes = panels(len(scenes), columns=2, height=2.6, sharey=True)
+    for ax, scene in zip(axes, scenes):
+        here = rows[rows["scene"] == scene]
+        names = list(dict.fromkeys(here["relaxation"]))
+        for shift, threads, color in ((-0.18, 1, BLUE), (0.18, here["threads"].max(), ORANGE)):
+            own = here[here["threads"] == threads]
+            places = [names.index(name) + shift for name in own["relaxation"]]
+            ax.barh(places, own["share_of_copy"], height=0.32, color=color, label=f"{number(threads)} thread" + "s" * (threads > 1))
+            for place, value in zip(places, own["share_of_copy"]):
+                ax.text(value, place, f" {number(value)}", va="center", fontsize=6.5)
+            if threads == here["threads"].max() == 1:
+                break
+        ax.set_yticks(range(len(names)), names)
+        guide(ax, 1, "copying", horizontal=False)
+        ax.grid(axis="y", visible=False)
+        ax.set(title=scene, xlabel="share of the bandwidth of copying", xlim=(0, 1.3))
+    axes[0].invert_yaxis()
+    axes[0].legend(loc="lower right")
+    one = rows[rows["threads"] == 1]["share_of_copy"]
+    finding(fig, f"On one thread a sweep moves its bytes at {span(one)} of the speed of copying memory")
+    footnote(fig, "Bytes: the rows once, their impulses twice, each velocity in and out. What is far below copying is bound by arithmetic "
+             "and by waiting for the row before.")
+    return fig

@@ -1,0 +1,87 @@
+// How loops over a block's constraints are divided. Constraints that follow each other make a chunk. Chunks
+// of one colour share no column that moves, so that what they add to columns may be added at once, each by
+// its own thread, without atomics or copies. Loops that add to columns go colour by colour, in this order on
+// one thread, too: nothing depends on how many there are. A block of a single chunk goes in its own order.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rows/threads.h"
+
+// What is done for a constraint is flattened, all it calls inlined, which GCC does not do of itself with so
+// many kinds of rows; not so with sanitizers, whose checks would make that too long to compile.
+#ifdef NDEBUG
+#define PBD_FLATTEN __attribute__((flatten))
+#define PBD_KERNEL __attribute__((noinline, flatten))
+#else
+#define PBD_FLATTEN
+#define PBD_KERNEL __attribute__((noinline))
+#endif
+
+namespace pbd {
+
+struct Chunks {
+  int threads = 1;
+  std::vector<int> order;            // the chunks, colour by colour; empty where there is only one
+  std::vector<int> colour;           // the first place of each colour in `order`, and its end
+  std::vector<std::uint64_t> taken;  // scratch: of each column the colours of its chunks
+  std::vector<int> colour_of;        // scratch: of each chunk
+};
+
+/// Constraints of a chunk, of so many of so many bytes: 64 kB of rows, which take some ten times as long as
+/// to begin a task, or 16 kB of contacts with friction, each of which takes several times as long; of many
+/// constraints so many that there are 128 chunks, since memory is read the faster the longer it goes on, and
+/// longer chunks have fewer neighbours.
+inline std::size_t chunk_length(std::size_t constraints, std::size_t bytes, bool friction) {
+  constexpr std::size_t least_bytes = 65536, least_with_friction = 16384, most_chunks = 128;
+  return std::max((friction ? least_with_friction : least_bytes) / bytes,
+                  (constraints + most_chunks - 1) / most_chunks);
+}
+
+/// Divides constraints, `length` of them a chunk, each with so many of the columns. Each chunk takes the
+/// first colour that none of its columns has, those that cannot move left out if they are shared; beyond 63
+/// colours one of its own.
+void divide(std::span<const int> columns, int columns_of_each, std::size_t length,
+            const std::vector<double>& inverse_mass, bool fixed_are_shared, Chunks& chunks);
+
+/// f(i, sum) for every constraint: f adds to the columns of constraint i, and reads what is no column's that
+/// other constraints add to, or reads its own columns alone.
+template <class Block, class Sum, class F>
+void add_scattered(Block& block, Sum& total, F&& f) {
+  const Chunks& chunks = block.chunks;
+  const auto range = [&](std::size_t first, std::size_t last, Sum& sum) PBD_KERNEL {
+    Sum own = sum;  // in a register
+    for (std::size_t i = first; i < last; ++i) f(i, own);
+    sum = own;
+  };
+  if (chunks.order.empty()) return range(0, block.size(), total);
+  const std::size_t length = block.chunk_length();
+  for (std::size_t c = 0; c + 1 < chunks.colour.size(); ++c) {
+    const int* const order = chunks.order.data() + chunks.colour[c];
+    add_parts(chunks.threads, static_cast<std::size_t>(chunks.colour[c + 1] - chunks.colour[c]), total,
+              [&](std::size_t first, std::size_t last, Sum& sum) {
+                for (std::size_t k = first; k < last; ++k) {
+                  const std::size_t begin = static_cast<std::size_t>(order[k]) * length;
+                  range(begin, std::min(begin + length, block.size()), sum);
+                }
+              });
+  }
+}
+
+/// f(i, sum) for every constraint: f changes nothing but what is the constraint's own.
+template <class Block, class Sum, class F>
+void add_each(Block& block, Sum& total, F&& f) {
+  const std::size_t length = block.chunk_length(), count = (block.size() + length - 1) / length;
+  const auto range = [&](std::size_t first, std::size_t last, Sum& sum) PBD_KERNEL {
+    Sum own = sum;
+    for (std::size_t i = first * length; i < std::min(last * length, block.size()); ++i) f(i, own);
+    sum = own;
+  };
+  add_parts(block.chunks.threads, count, total, range);
+}
+
+}  // namespace pbd

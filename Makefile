@@ -105,8 +105,13 @@ tidy: deps ## run clang-tidy over the C++ sources, several at once
 	  -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wno-unused-command-line-argument \
 	  "^$(CURDIR)/(build/tidy/)?(solver|reference|experiments|tests)/"
 
-bench: build ## measure times, one thread, nothing else should run
-	$(PBDCHECK) run work_precision effects_cost --tier $(TIER) --threads 1 -o $(RESULTS)
+bench: build ## measure times; nothing else should run
+	@$(INSTALL) bench
+	cmake --preset release
+	cmake --build --preset release --target kernels
+	mkdir -p $(RESULTS)
+	build/release/kernels --benchmark_out=$(RESULTS)/kernels.json --benchmark_out_format=json
+	$(PBDCHECK) run work_precision effects_cost threads --tier $(TIER) --threads 1 -o $(RESULTS)
 
 clean: ## remove the builds (results stay)
 	rm -rf build

@@ -39,13 +39,26 @@ void stir(Scene& scene) {
       scene.initial.v.col(node) += Vec3(std::sin(1.3 * node), std::cos(0.7 * node), std::sin(2.1 * node + 1));
 }
 
-StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law)
+std::int64_t constraints_of(const Rows& rows) {
+  std::int64_t count = 0;
+  for_each_block(rows.blocks, [&](const auto& block) { count += static_cast<std::int64_t>(block.size()); });
+  return count;
+}
+
+std::int64_t least_bytes(const Rows& rows) {
+  constexpr std::int64_t impulse = sizeof(double), in_and_out = 2 * sizeof(Vec3);
+  return bytes(rows.blocks) + impulse * row_count(rows) +
+         in_and_out * static_cast<std::int64_t>(rows.inverse_mass.size());
+}
+
+StepRows::StepRows(const Scene& scene, const State& state, double h, Friction law, int threads)
     : scene_(scene),
       slots_(make_slots(scene, law, false, rows_)),
       bodies_(scene),
       map_{.x0 = {}, .v_free = {}, .d = h, .s = h, .h = h},
       coefficients_{h, h},
       time_(state.time) {
+  divide(rows_, threads);
   Points acceleration;
   bodies_.begin(state, map_.x0, start_v_);
   bodies_.place(map_.x0, start_poses_);

@@ -14,7 +14,7 @@ struct LinearStep {
 /// The rows of an implicit Euler step of h seconds from `state`; those of contacts by `law`.
 class StepRows {
  public:
-  StepRows(const pbd::Scene& scene, const pbd::State& state, double h, pbd::Friction law);
+  StepRows(const pbd::Scene& scene, const pbd::State& state, double h, pbd::Friction law, int threads = 1);
 
   /// Linearises them where velocities v (m/s, of nodes and then of bodies' rotations) lead, impulses zero.
   void linearise(const pbd::Points& v);
@@ -44,6 +44,13 @@ class StepRows {
   pbd::Points start_v_, no_acceleration_, x_;
   double time_;
 };
+
+/// How many constraints the rows are of.
+std::int64_t constraints_of(const pbd::Rows& rows);
+
+/// Bytes that a sweep over the rows moves at least: the rows once, their impulses twice, and the velocity of
+/// each column in and out.
+std::int64_t least_bytes(const pbd::Rows& rows);
 
 /// Adds smooth velocities that excite every mode.
 void stir(pbd::Scene& scene);

@@ -1,7 +1,6 @@
 // What do threads gain, and does a result depend on them? How near do sweeps come to what memory gives?
-// A sweep moves at least its rows once, their impulses twice, and each column's velocity in and out:
-//   bytes = bytes of the rows + bytes of impulses + 48 a column,
-// told as a share of what copying memory moves in the same run on as many threads.
+// The bytes that a sweep moves at least (harness/rows_of_step.h) are told a second, as a share of what
+// copying memory moves in the same run on as many threads.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -52,13 +51,6 @@ double copied_bytes_per_s(int threads) {
     });
   });
   return 2.0 * 24 * static_cast<double>(columns) / *std::min_element(seconds.begin(), seconds.end());
-}
-
-/// Bytes that a sweep over the rows moves at least.
-double least_bytes(const Rows& rows) {
-  constexpr double in_and_out = 48;
-  return static_cast<double>(bytes(rows.blocks)) + 8 * static_cast<double>(row_count(rows)) +
-         in_and_out * static_cast<double>(rows.inverse_mass.size());
 }
 
 struct Swept {
@@ -112,10 +104,7 @@ void sweep_scene(Context& context, Table& table, const std::string& name, Scene 
                  const std::vector<double>& copied, Gains& gains) {
   stir(scene);
   const LinearStep step = linear_step(scene, scene.initial, 1.0 / 240);
-  const double moved = least_bytes(step.rows);
-  std::int64_t constraints = 0;
-  for_each_block(step.rows.blocks,
-                 [&](const auto& block) { constraints += static_cast<std::int64_t>(block.size()); });
+  const auto moved = static_cast<double>(least_bytes(step.rows));
   for (const std::string relaxation :
        {"gauss_seidel", "coloured_gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients"}) {
     Swept one;
@@ -126,7 +115,7 @@ void sweep_scene(Context& context, Table& table, const std::string& name, Scene 
       const Measured seconds(found.seconds);
       const double copy = copied[static_cast<std::size_t>(threads - 1)];
       const bool same = same_bits(one.v, found.v);
-      table.row({name, relaxation, std::int64_t{threads}, constraints, row_count(step.rows),
+      table.row({name, relaxation, std::int64_t{threads}, constraints_of(step.rows), row_count(step.rows),
                  static_cast<std::int64_t>(moved), seconds.value, seconds.low, seconds.high,
                  moved / seconds.value, copy, moved / seconds.value / copy, 1 / share_of_one.value,
                  std::int64_t{same}, "ok", ""});

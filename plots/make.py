@@ -36,6 +36,7 @@ import softness  # noqa: F401
 import stability_map  # noqa: F401
 import time_order  # noqa: F401
 import trajectories  # noqa: F401
+import tunnelling  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
 from common import FIGURES, literal

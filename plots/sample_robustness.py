@@ -47,3 +47,11 @@ def generated_worlds(directory):
     write(directory, "generated_worlds", "agreement", "variant first_steps outcome",
           [(variant, count, outcome) for variant in ("turned", "mirrored", "other order") for count, outcome in
            ((450, "the same"), (10, "told apart by the tolerance alone"), (3, "another solution"), (2, "not told"), (20, "one missed"))])
+
+
+def tunnelling(directory):
+    rows = [(*kinds, continuous, 30, 28, 20, 12, 2, passed if not continuous else 0, 1, passed, "ok", "")
+            for continuous in (1, 0) for kinds, passed in ((("sphere", "box"), 7), (("box", "box"), 3), (("sphere", "cloth"), 12))]
+    write(directory, "tunnelling", "pairs", "first second continuous scenes hits steps_ok steps_missed steps_turned passed_ok "
+          "passed_in_touch passed_missed status reason", rows)
+    write(directory, "tunnelling", "passed", "first second scene step_status", [("box", "box", 6, "ok, from touch"), ("sphere", "cloth", 3, "missed")])

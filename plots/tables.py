@@ -132,6 +132,9 @@ TABLES = {
     ("generated_worlds", "ends"): "status steps",
     ("generated_worlds", "apart"): "world variant difference turn_rad outcome",
     ("generated_worlds", "agreement"): "variant first_steps outcome",
+    ("tunnelling", "pairs"): "first second continuous scenes hits steps_ok steps_missed steps_turned passed_ok passed_in_touch "
+                             "passed_missed status reason",
+    ("tunnelling", "passed"): "first second scene step_status",
     (".", "compare"): METHOD + " method",
 }
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
@@ -149,7 +152,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "passed", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

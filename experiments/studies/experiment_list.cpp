@@ -85,6 +85,7 @@ const std::vector<Experiment>& experiments() {
       {"generated_worlds",
        "Is a step of anything that says ok true, and the only one that the same scene in other words has?",
        generated_worlds},
+      {"tunnelling", "Do fast bodies, nodes and cloth pass through each other?", tunnelling},
   };
   return list;
 }

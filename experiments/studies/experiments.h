@@ -50,6 +50,7 @@ void effects_cost(Context& context);
 void point_hard_cases(Context& context);
 void generated_scenes(Context& context);
 void generated_worlds(Context& context);
+void tunnelling(Context& context);
 
 std::vector<Case> outer_convergence_cases(bool full);
 std::vector<Case> stability_map_cases(bool full);

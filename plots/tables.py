@@ -132,6 +132,8 @@ TABLES = {
     ("generated_worlds", "ends"): "status steps",
     ("generated_worlds", "apart"): "world variant difference turn_rad outcome",
     ("generated_worlds", "agreement"): "variant first_steps outcome",
+    ("generated_worlds", "judged"): "world step step_s tolerance error_of_scale nearest_start nearest_error_m nearest_error_of_scale "
+                                    "allowed reference_status reference_residual status reason",
     ("tunnelling", "pairs"): "first second continuous scenes hits steps_ok steps_missed steps_turned passed_ok passed_in_touch "
                              "passed_missed status reason",
     ("tunnelling", "passed"): "first second scene step_status",
@@ -152,7 +154,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "passed", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "passed", "judged", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

@@ -125,7 +125,26 @@ def generated_worlds(results):
             "What is refuted, the first 20.", ["world", "variant", "step", "check", "number", "bound", "what"],
             [[f"{r['world']:.0f}", r["variant"], f"{r['step']:.0f}", r["check"], number(r["number"]), number(r["bound"]), r["what"]]
              for _, r in worst.iterrows()]))
-    return section
+    return section.tell(results.table("generated_worlds", "judged"), judged_text, judged_table)
+
+
+def judged_text(judged):
+    """How near steps that say ok are to what the judge finds."""
+    said = judged[judged["status"] == "ok"]
+    told = said[said["nearest_error_of_scale"].notna()]
+    beyond = told[told["nearest_error_of_scale"] > told["allowed"]]
+    return (f"Of {counted(len(judged), 'scene')} that the judge of contact takes, one step each: {len(said)} say ok, and the judge finds a solution "
+            f"of {len(told)}. {len(told) - len(beyond)} of these are as near to it as their tolerance lets linear rows be, "
+            f"{len(beyond)} are not; the farthest is off by {number(told['nearest_error_of_scale'].max())} of the step's scale.")
+
+
+def judged_table(judged):
+    said = judged[judged["status"] == "ok"]
+    worst = said.assign(over=said["nearest_error_of_scale"] / said["allowed"]).sort_values("over", ascending=False).head(10)
+    return Table("Judged steps, the ten farthest from a solution beside what is allowed.",
+                 ["world", "step", "tolerance", "error over scale", "allowed", "nearest start", "the judge's residual", "the judge"],
+                 [[f"{r['world']:.0f}", f"{r['step']:.0f}", number(r["tolerance"]), number(r["nearest_error_of_scale"]), number(r["allowed"]),
+                   r["nearest_start"], number(r["reference_residual"]), r["reference_status"]] for _, r in worst.iterrows()])
 
 
 def tunnelling(results):

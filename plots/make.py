@@ -16,6 +16,7 @@ import effects_cost  # noqa: F401
 import energy  # noqa: F401
 import judged_frames  # noqa: F401
 import first_page  # noqa: F401
+import frame_scaling  # noqa: F401
 import friction  # noqa: F401
 import friction_cone  # noqa: F401
 import generated_scenes  # noqa: F401

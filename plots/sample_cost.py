@@ -106,3 +106,15 @@ def effects_cost(directory):
             for r in RELAXATIONS[:3] for n in (1000, 10000, 100000)]
     write(directory, "effects_cost", "scaling", "scene relaxation rows elements wall_s_per_sweep exponent status reason",
           rows + [("cantilever", "direct", 100000, 16666, float("nan"), 1.7, "skipped", "too large for the quick tier")])
+
+
+def frame_scaling(directory):
+    rows = [(scene, part, size, 20, 1 if size > 500 else 0, 2.5 * size, 9.0 * size, 3 * size ** power, 1e-4 * size ** (1 + power), 1e-5 * size,
+             3e-5 * size, "not_converged" if size > 500 else "ok", "1 of 20 frames missed" if size > 500 else "")
+            for scene, power in (("boxes_on_ground", 0.4), ("bunnies_on_cloth", 0.1), ("flexible_cow", 0.0))
+            for size in (16, 125, 1000) for part in ("falls", "strikes")]
+    write(directory, "frame_scaling", "frames", "scene part size frames missed_frames contacts rows iterations frame_cpu_s begin_cpu_s "
+          "iteration_cpu_s status reason", rows)
+    write(directory, "frame_scaling", "exponents", "scene part quantity exponent low high",
+          [("boxes_on_ground", part, quantity, 1.3, 1.2, 1.4) for part in ("falls", "strikes")
+           for quantity in ("frame", "until the first iterate", "iterations", "an iteration", "rows")])

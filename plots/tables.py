@@ -118,6 +118,9 @@ TABLES = {
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
+    ("frame_scaling", "frames"): "scene part size frames missed_frames contacts rows iterations frame_cpu_s begin_cpu_s "
+                                 "iteration_cpu_s status reason",
+    ("frame_scaling", "exponents"): "scene part quantity exponent low high",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",
     ("point_hard_cases", "gates"):
@@ -154,7 +157,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "passed", "judged", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "exponents", "passed", "judged", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

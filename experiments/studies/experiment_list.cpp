@@ -79,6 +79,7 @@ const std::vector<Experiment>& experiments() {
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},
+      {"frame_scaling", "Does a frame's time grow linearly with the scene?", frame_scaling},
       {"point_hard_cases", "Does one method without settings survive the scenes that solvers fail on?",
        point_hard_cases},
       {"generated_scenes", "Does a step that says ok tell the truth, whatever the scene?", generated_scenes},

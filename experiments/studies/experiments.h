@@ -47,6 +47,7 @@ void trajectories(Context& context);
 void advice(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);
+void frame_scaling(Context& context);
 void point_hard_cases(Context& context);
 void generated_scenes(Context& context);
 void generated_worlds(Context& context);

@@ -16,6 +16,7 @@ import effects_cost  # noqa: F401
 import energy  # noqa: F401
 import judged_frames  # noqa: F401
 import first_page  # noqa: F401
+import frame_scaling  # noqa: F401
 import friction  # noqa: F401
 import friction_cone  # noqa: F401
 import generated_scenes  # noqa: F401
@@ -37,6 +38,7 @@ import stability_map  # noqa: F401
 import threads  # noqa: F401
 import time_order  # noqa: F401
 import trajectories  # noqa: F401
+import tunnelling  # noqa: F401
 import work_precision  # noqa: F401
 from command import command
 from common import FIGURES, literal

@@ -28,7 +28,7 @@ TEXT = {"benchmark", "nearest_start", "solver", "scene", "outer", "relaxation", 
         "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "class", "method", "case", "name", "unit", "gate", "reference_status",
         "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law", "variant",
-        "check", "what", "kind", "truth"}
+        "check", "what", "kind", "truth", "first", "second", "step_status", "part"}
 
 
 class InputError(Exception):

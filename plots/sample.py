@@ -10,11 +10,11 @@ from sample_scenes import contact_scenes, figure_1, judged_frames
 from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems, friction_cone
 from sample_contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
-from sample_cost import METHOD_COLUMNS, advice, effects_cost, method_points, rival_newton, threads, trajectories, work_precision
+from sample_cost import METHOD_COLUMNS, advice, effects_cost, frame_scaling, method_points, rival_newton, threads, trajectories, work_precision
 from sample_files import verdict, write, write_run
 from sample_motion import damping, direction
 from sample_outer import contact_contraction, contraction, outer_convergence, stability_map
-from sample_robustness import generated_scenes, generated_worlds, point_hard_cases
+from sample_robustness import generated_scenes, generated_worlds, point_hard_cases, tunnelling
 from sample_solvers import conditioning, contact_convergence, dual_vs_primal, inexact, inner_convergence, mesh_refinement
 from sample_sweeps import late_friction, softness
 from sample_time import energy, time_order
@@ -48,7 +48,7 @@ def write_all(directory):
                        mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
                        friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
                        work_precision, trajectories, advice, rival_newton,
-                       effects_cost, threads, point_hard_cases, generated_scenes, generated_worlds, judges):
+                       effects_cost, frame_scaling, threads, point_hard_cases, generated_scenes, generated_worlds, tunnelling, judges):
         experiment(directory)
         name = experiment.__name__
         claimed = [verdict(claim, "It does", "share", 0.01, 0.05) for claim in CLAIMED.get(name, ())]

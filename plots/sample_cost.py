@@ -117,3 +117,15 @@ def threads(directory):
     write(directory, "threads", "steps", tables.TABLES["threads", "steps"],
           [(s, "implicit_euler", "auto", r, t, 40, 5, 1e-2 / t, 9e-3 / t, 1.1e-2 / t, 0.8 * t + 0.2, 1, "ok", "")
            for s, r in (("boxes_on_ground", names[1]), ("flexible_cow", names[4])) for t in (1, 2)])
+
+
+def frame_scaling(directory):
+    rows = [(scene, part, size, 20, 1 if size > 500 else 0, 2.5 * size, 9.0 * size, 3 * size ** power, 1e-4 * size ** (1 + power), 1e-5 * size,
+             3e-5 * size, "not_converged" if size > 500 else "ok", "1 of 20 frames missed" if size > 500 else "")
+            for scene, power in (("boxes_on_ground", 0.4), ("bunnies_on_cloth", 0.1), ("flexible_cow", 0.0))
+            for size in (16, 125, 1000) for part in ("falls", "strikes")]
+    write(directory, "frame_scaling", "frames", "scene part size frames missed_frames contacts rows iterations frame_cpu_s begin_cpu_s "
+          "iteration_cpu_s status reason", rows)
+    write(directory, "frame_scaling", "exponents", "scene part quantity exponent low high",
+          [("boxes_on_ground", part, quantity, 1.3, 1.2, 1.4) for part in ("falls", "strikes")
+           for quantity in ("frame", "until the first iterate", "iterations", "an iteration", "rows")])

@@ -44,6 +44,19 @@ def generated_worlds(directory):
     write(directory, "generated_worlds", "ends", "status steps", [("ok", 3900), ("not_converged", 80), ("diverged", 12)])
     write(directory, "generated_worlds", "apart", "world variant difference turn_rad outcome",
           [(20, "other order", 0.12, 0.57, "another solution"), (449, "other linear solver", 0.99, 6.2, "not told")])
+    write(directory, "generated_worlds", "judged", "world step step_s tolerance error_of_scale nearest_start nearest_error_m "
+          "nearest_error_of_scale allowed reference_status reference_residual status reason",
+          [(3, 1, 0.01, 1e-8, 2e-9, "own", 1e-9, 2e-9, 4e-7, "ok", 1e-12, "ok", ""),
+           (9, 2, 0.02, 1e-8, 0.1, "claim", 1e-3, 1e-2, 4e-7, "ok", 1e-12, "ok", ""),
+           (12, 3, 0.02, 1e-8, float("nan"), "own", float("nan"), float("nan"), float("nan"), "", float("nan"), "not_converged", "spent")])
     write(directory, "generated_worlds", "agreement", "variant first_steps outcome",
           [(variant, count, outcome) for variant in ("turned", "mirrored", "other order") for count, outcome in
            ((450, "the same"), (10, "told apart by the tolerance alone"), (3, "another solution"), (2, "not told"), (20, "one missed"))])
+
+
+def tunnelling(directory):
+    rows = [(*kinds, continuous, 30, 28, 20, 12, 2, passed if not continuous else 0, 1, passed, "ok", "")
+            for continuous in (1, 0) for kinds, passed in ((("sphere", "box"), 7), (("box", "box"), 3), (("sphere", "cloth"), 12))]
+    write(directory, "tunnelling", "pairs", "first second continuous scenes hits steps_ok steps_missed steps_turned passed_ok "
+          "passed_in_touch passed_missed status reason", rows)
+    write(directory, "tunnelling", "passed", "first second scene step_status", [("box", "box", 6, "ok, from touch"), ("sphere", "cloth", 3, "missed")])

@@ -122,6 +122,9 @@ TABLES = {
                            "copied_bytes_per_s share_of_copy speedup same_bits status reason",
     ("threads", "steps"): "scene integrator outer relaxation threads first_step steps wall_s_per_step wall_s_low wall_s_high speedup "
                           "same_bits status reason",
+    ("frame_scaling", "frames"): "scene part size frames missed_frames contacts rows iterations frame_cpu_s begin_cpu_s "
+                                 "iteration_cpu_s status reason",
+    ("frame_scaling", "exponents"): "scene part quantity exponent low high",
     ("judges", "agreement"): "scene nodes step_s reference_a reference_b difference residual_a residual_b "
                              "wall_s_a wall_s_b status reason",
     ("point_hard_cases", "gates"):
@@ -136,6 +139,11 @@ TABLES = {
     ("generated_worlds", "ends"): "status steps",
     ("generated_worlds", "apart"): "world variant difference turn_rad outcome",
     ("generated_worlds", "agreement"): "variant first_steps outcome",
+    ("generated_worlds", "judged"): "world step step_s tolerance error_of_scale nearest_start nearest_error_m nearest_error_of_scale "
+                                    "allowed reference_status reference_residual status reason",
+    ("tunnelling", "pairs"): "first second continuous scenes hits steps_ok steps_missed steps_turned passed_ok passed_in_touch "
+                             "passed_missed status reason",
+    ("tunnelling", "passed"): "first second scene step_status",
     (".", "compare"): METHOD + " method",
 }
 SOLVES = {  # tables of traces, where a solve has many rows: the columns that name one
@@ -153,7 +161,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("rival_newton", "traces"): "scene elements young_pa poisson method",
 }
 VERDICTS = "id class statement quantity measured measured_low measured_high bound verdict reason"
-OWN_TABLES = ("verdicts", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
+OWN_TABLES = ("verdicts", "exponents", "passed", "judged", "recommended", "ends", "refuted", "broken", "apart", "bounds", "budgets")  # shown by the report, never a figure
 
 
 def columns(experiment, table):

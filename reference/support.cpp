@@ -6,6 +6,12 @@
 namespace pbd::reference {
 namespace {
 
+Vec3 farthest_of(const Points& points, const Vec3& u) {
+  Eigen::Index best = 0;
+  (u.transpose() * points).maxCoeff(&best);
+  return points.col(best);
+}
+
 /// The farthest point along `u` in the shape's frame.
 struct Farthest {
   const Vec3& u;
@@ -18,19 +24,14 @@ struct Farthest {
     return shape.radius * across.normalized() + end(shape.length);
   }
   Vec3 operator()(const Capsule& shape) const { return shape.radius * u.normalized() + end(shape.length); }
-  Vec3 operator()(const ClosedMesh& shape) const { return of(shape.surface.x); }
-  Vec3 operator()(const ConvexHull& shape) const { return of(shape.surface.x); }
+  Vec3 operator()(const ClosedMesh& shape) const { return farthest_of(shape.surface.x, u); }
+  Vec3 operator()(const ConvexHull& shape) const { return farthest_of(shape.surface.x, u); }
   Vec3 operator()(const HalfSpace&) const { return Vec3::Zero(); }
 
   Vec3 signs() const {
     return {std::copysign(1.0, u.x()), std::copysign(1.0, u.y()), std::copysign(1.0, u.z())};
   }
   Vec3 end(double length) const { return Vec3::UnitZ() * std::copysign(length / 2, u.z()); }
-  Vec3 of(const Points& points) const {
-    Eigen::Index best = 0;
-    (u.transpose() * points).maxCoeff(&best);
-    return points.col(best);
-  }
 };
 
 bool is_half_space(const PlacedShape& placed) {
@@ -113,6 +114,27 @@ bool parts(const PlacedShape& a, const PlacedShape& b, const Vec3& shift, Vec3& 
   return false;
 }
 
+/// How far the origin is from a convex set of which `point(n)` is the least along n.
+template <class Point>
+DistanceBounds distance_of(const Point& point) {
+  Simplex simplex;
+  simplex.point[0] = point(Vec3::UnitX());
+  simplex.count = 1;
+  Vec3 nearest = simplex.point[0];
+  DistanceBounds bounds{0, nearest.norm()};
+  constexpr int most = 200;  // as of `parts`; the bounds hold wherever it ends
+  for (int step = 0; step < most && bounds.proved < bounds.found; ++step) {
+    const Vec3 n = nearest / bounds.found, next = point(n);
+    if (const double proved = n.dot(next); proved > bounds.proved) bounds.proved = proved, bounds.along = n;
+    simplex.point[simplex.count++] = next;
+    nearest = reduce(simplex);
+    if (simplex.count == 4) return {0, 0};
+    if (!(nearest.norm() < bounds.found)) break;
+    bounds.found = nearest.norm();
+  }
+  return bounds;
+}
+
 Vec3 farthest_corner(const std::array<Vec3, 3>& triangle, const Vec3& u) {
   return *std::max_element(triangle.begin(), triangle.end(),
                            [&](const Vec3& x, const Vec3& y) { return u.dot(x) < u.dot(y); });
@@ -190,25 +212,12 @@ bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const
 }
 
 DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle) {
-  const auto point = [&](const Vec3& n) -> Vec3 {
-    return farthest_point(a, -n) - farthest_corner(triangle, n);
-  };
-  Simplex simplex;
-  simplex.point[0] = point(Vec3::UnitX());
-  simplex.count = 1;
-  Vec3 nearest = simplex.point[0];
-  DistanceBounds bounds{0, nearest.norm()};
-  constexpr int most = 200;  // as of `parts`; the bounds hold wherever it ends
-  for (int step = 0; step < most && bounds.proved < bounds.found; ++step) {
-    const Vec3 n = nearest / bounds.found, next = point(n);
-    bounds.proved = std::max(bounds.proved, n.dot(next));
-    simplex.point[simplex.count++] = next;
-    nearest = reduce(simplex);
-    if (simplex.count == 4) return {0, 0};
-    if (!(nearest.norm() < bounds.found)) break;
-    bounds.found = nearest.norm();
-  }
-  return bounds;
+  return distance_of(
+      [&](const Vec3& n) -> Vec3 { return farthest_point(a, -n) - farthest_corner(triangle, n); });
+}
+
+DistanceBounds distance(const Points& a, const Points& b) {
+  return distance_of([&](const Vec3& n) -> Vec3 { return farthest_of(a, -n) - farthest_of(b, n); });
 }
 
 Size size_of(const Shape& shape) {

@@ -45,11 +45,18 @@ double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<
 bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
                  double& nearest);
 
-/// Two bounds of how far a convex shape with an end is from a triangle (m): both 0 where they meet.
+/// Two bounds of how far convex sets a and b are from each other (m): both 0 where they meet. `proved` is
+/// what they are apart along the unit vector `along`, from b to a; there is none where nothing is proved.
 struct DistanceBounds {
   double proved, found;  // at least, at most
+  Vec3 along = Vec3::Zero();
 };
+
+/// Of a shape with an end and a triangle.
 DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle);
+
+/// Of the hulls of two sets of points, a column each, at least one.
+DistanceBounds distance(const Points& a, const Points& b);
 
 /// No point is farther from the frame's origin than `outer` (infinite for a half space); `round` is the
 /// radius of what is round of the shape, half the least side of a box, and of other polyhedra half the

@@ -1,5 +1,9 @@
 #include "harness/rows_of_step.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
 #include "dense.h"
 #include "effects/sources.h"
 
@@ -29,6 +33,22 @@ DenseRows dense(const Rows& rows, int nodes) {
     }
   });
   return all;
+}
+
+/// N = J W J^T + Sigma.
+Eigen::MatrixXd dual_matrix(const Rows& rows, const DenseRows& all) {
+  Eigen::VectorXd weights(all.jacobian.cols());
+  for (Eigen::Index k = 0; k < weights.size(); ++k)
+    weights[k] = rows.inverse_mass[static_cast<std::size_t>(k / 3)];
+  return reference::product_transposed(all.jacobian * weights.asDiagonal(), all.jacobian) + all.sigma;
+}
+
+/// Symmetric; of a semidefinite matrix.
+template <class Square>
+Square square_root(const Square& a) {
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(a);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -129,14 +149,35 @@ LinearStep linear_step(const Scene& scene, const State& state, double h, Frictio
 Points dense_solution(const LinearStep& step) {
   const auto nodes = static_cast<int>(step.rows.inverse_mass.size());
   const DenseRows all = dense(step.rows, nodes);
-  Eigen::VectorXd weights(3 * nodes);
-  for (int k = 0; k < weights.size(); ++k)
-    weights[k] = step.rows.inverse_mass[static_cast<std::size_t>(k / 3)];
-  const Eigen::MatrixXd weighted = all.jacobian * weights.asDiagonal();
-  const Eigen::MatrixXd n = weighted * all.jacobian.transpose() + all.sigma;
+  const Eigen::MatrixXd n = dual_matrix(step.rows, all);
   const Eigen::VectorXd missed = all.bias + all.jacobian * step.v_free.reshaped();
   const Eigen::VectorXd impulses = reference::solve_semidefinite(n, -missed);
-  return step.v_free + (weighted.transpose() * impulses).reshaped(3, nodes);
+  Points change = reference::transposed_product(all.jacobian, impulses).reshaped(3, nodes);
+  for (int k = 0; k < nodes; ++k) change.col(k) *= step.rows.inverse_mass[static_cast<std::size_t>(k)];
+  return step.v_free + change;
+}
+
+double error_per_residual(const Scene& scene, const State& begin, const State& end, double h, Friction law) {
+  StepRows step(scene, begin, h, law);
+  Points v, unused;
+  Bodies(scene).begin(end, unused, v);
+  step.linearise(v);
+  const auto nodes = static_cast<int>(step.rows().inverse_mass.size());
+  const DenseRows all = dense(step.rows(), nodes);
+  if (all.bias.size() == 0) return 1;
+  // N_ii^-1 = L L, and L N L has the eigenvalues asked for.
+  Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(all.bias.size(), all.bias.size());
+  std::int64_t row = 0;
+  for_each_block(step.rows().blocks, [&]<class Block>(const Block& block) {
+    for (std::size_t i = 0; i < block.size(); ++i, row += Block::rows)
+      scaled.block(row, row, Block::rows, Block::rows) = square_root(block.inverse_diagonal[i]);
+  });
+  const Eigen::MatrixXd n = dual_matrix(step.rows(), all);
+  const Eigen::VectorXd values = reference::symmetric_eigen(reference::congruence(n, scaled)).values;
+  const double rounding = 1e-12 * values.maxCoeff();
+  const auto least =
+      std::find_if(values.begin(), values.end(), [&](double value) { return value > rounding; });
+  return 1 + 1 / std::sqrt(*least);
 }
 
 double residual(const Rows& rows, const Points& v) {

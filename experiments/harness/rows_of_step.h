@@ -65,4 +65,9 @@ pbd::Points dense_solution(const LinearStep& step);
 /// sqrt(sum_i r_i^T N_ii^-1 r_i) of r = J v + b + Sigma p at the rows' impulses, sqrt(J).
 double residual(const pbd::Rows& rows, const pbd::Points& v);
 
+/// 1 + lambda^(-1/2), lambda the least eigenvalue above rounding of N = J W J^T + Sigma beside its blocks
+/// N_ii, of the rows of an implicit Euler step of h seconds, with what is near as it begins, where `end` is.
+double error_per_residual(const pbd::Scene& scene, const pbd::State& begin, const pbd::State& end, double h,
+                          pbd::Friction law);
+
 }  // namespace pbdcheck

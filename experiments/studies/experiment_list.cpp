@@ -80,12 +80,14 @@ const std::vector<Experiment>& experiments() {
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},
       {"threads", "What do threads gain, and how near are sweeps to what memory gives?", threads},
+      {"frame_scaling", "Does a frame's time grow linearly with the scene?", frame_scaling},
       {"point_hard_cases", "Does one method without settings survive the scenes that solvers fail on?",
        point_hard_cases},
       {"generated_scenes", "Does a step that says ok tell the truth, whatever the scene?", generated_scenes},
       {"generated_worlds",
        "Is a step of anything that says ok true, and the only one that the same scene in other words has?",
        generated_worlds},
+      {"tunnelling", "Do fast bodies, nodes and cloth pass through each other?", tunnelling},
   };
   return list;
 }

@@ -48,9 +48,11 @@ void advice(Context& context);
 void rival_newton(Context& context);
 void effects_cost(Context& context);
 void threads(Context& context);
+void frame_scaling(Context& context);
 void point_hard_cases(Context& context);
 void generated_scenes(Context& context);
 void generated_worlds(Context& context);
+void tunnelling(Context& context);
 
 std::vector<Case> outer_convergence_cases(bool full);
 std::vector<Case> stability_map_cases(bool full);

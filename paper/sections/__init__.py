@@ -9,13 +9,13 @@ from sections.bodies import joints, redundant, rotation
 from sections.bench import contact_hard_cases, simbenchmark
 from sections.cones import cone_problems, friction_cone
 from sections.contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
-from sections.cost import effects_cost, rival_newton, threads, work_precision
+from sections.cost import effects_cost, frame_scaling, rival_newton, threads, work_precision
 from sections.energy import energy
 from sections.motion import damping, direction
 from sections.outer import contact_contraction, contraction, outer_convergence, stability_map
 from sections.relaxations import conditioning, inexact, inner_convergence
 from sections.sweeps import contact_convergence, late_friction, softness
-from sections.robustness import generated_scenes, generated_worlds, point_hard_cases
+from sections.robustness import generated_scenes, generated_worlds, point_hard_cases, tunnelling
 from sections.scenes import contact_scenes, figure_1, judged_frames
 from sections.time import time_order
 from sections.trajectories import advice, trajectories
@@ -27,7 +27,7 @@ SECTIONS = {function.__name__: function for function in (
     mesh_refinement, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
     friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
     work_precision, trajectories, advice, rival_newton,
-    effects_cost, threads, point_hard_cases, generated_scenes, generated_worlds)}
+    effects_cost, frame_scaling, threads, point_hard_cases, generated_scenes, generated_worlds, tunnelling)}
 
 
 def section_of(results, experiment):

@@ -166,6 +166,7 @@ def threads(results):
         "share no node that moves.",
         figures=[
             Figure("threads_gain", "How many times as fast a sweep is on all threads."),
+            Figure("threads_steps", "How many times as fast whole steps are on all threads."),
             Figure("threads_bandwidth", "The bytes a second that a sweep moves at least, as a share of what copying memory moves on as many "
                    "threads.")])
     sweeps, steps = results.table("threads", "sweeps"), results.table("threads", "steps")
@@ -181,3 +182,40 @@ def threads(results):
             [[f"`{r['scene']}`", f"`{r['outer']}`, `{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_step"]),
               number(r["speedup"]), "yes" if r["same_bits"] == 1 else "no"] for _, r in steps.iterrows()], first=True))
     return section
+
+
+def frame_scaling(results):
+    section = Section(
+        "Does a frame's time grow linearly with the scene?",
+        "The paper's three scenes from an eighth of their size to eight times it: more columns and layers of boxes; a wider cloth of the "
+        "same cells with more bunnies; a cow of smaller tetrahedra. The time is that of the processor, apart for the first frame, the fall, what "
+        "follows the first touch and rest. If a frame takes more than in proportion, is it by more iterations or by longer ones?",
+        figures=[Figure("frame_scaling_growth", "Times for each unit of size, and iterations a frame, over those of the smallest scene. "
+                        "Until the first iterate contacts are found and rows are made.")])
+    section.tell(results.table("frame_scaling", "exponents"), growth_text, exponents_table)
+    return section.tell(results.table("frame_scaling", "frames"), frames_table)
+
+
+def growth_text(exponents):
+    """Which frames grow faster than the power 1.1, and by what."""
+    told = exponents.pivot_table(index=["scene", "part"], columns="quantity", values="exponent", sort=False)
+    beyond = told[told["frame"] > 1.1]
+    if not len(beyond):
+        return f"No frame's time grows faster than the power 1.1; the largest exponent is {number(told['frame'].max())}."
+    return ("Faster than the power 1.1 grows a frame's time of " + "; ".join(
+        f"`{scene}` where it {part} ({number(row['frame'])}: {number(row['iterations'])} by the number of iterations, "
+        f"{number(row['an iteration'])} by the time of one)" for (scene, part), row in beyond.iterrows()) + ".")
+
+
+def exponents_table(exponents):
+    return Table("Exponents over the scene's size, with twice their standard error.", ["scene", "part", "of", "exponent", "from", "to"],
+                 [[f"`{r['scene']}`", r["part"], r["quantity"], number(r["exponent"]), number(r["low"]), number(r["high"])]
+                  for _, r in exponents.iterrows()])
+
+
+def frames_table(frames):
+    return Table("Means over the frames of each part.", ["scene", "part", "size", "frames", "missed", "contacts", "rows", "iterations",
+                                                         "a frame (s)", "until the first iterate (s)", "an iteration (s)"],
+                 [[f"`{r['scene']}`", r["part"], *(f"{r[c]:.0f}" for c in ("size", "frames", "missed_frames")),
+                   *(number(r[c]) for c in ("contacts", "rows", "iterations", "frame_cpu_s", "begin_cpu_s", "iteration_cpu_s"))]
+                  for _, r in frames.iterrows()], detail=True)

@@ -125,4 +125,65 @@ def generated_worlds(results):
             "What is refuted, the first 20.", ["world", "variant", "step", "check", "number", "bound", "what"],
             [[f"{r['world']:.0f}", r["variant"], f"{r['step']:.0f}", r["check"], number(r["number"]), number(r["bound"]), r["what"]]
              for _, r in worst.iterrows()]))
-    return section
+    return section.tell(results.table("generated_worlds", "judged"), judged_text, judged_table)
+
+
+def judged_text(judged):
+    """How near steps that say ok are to what the judge finds."""
+    said = judged[judged["status"] == "ok"]
+    told = said[said["nearest_error_of_scale"].notna()]
+    beyond = told[told["nearest_error_of_scale"] > told["allowed"]]
+    return (f"Of {counted(len(judged), 'scene')} that the judge of contact takes, one step each: {len(said)} say ok, and the judge finds a solution "
+            f"of {len(told)}. {len(told) - len(beyond)} of these are as near to it as their tolerance lets linear rows be, "
+            f"{len(beyond)} are not; the farthest is off by {number(told['nearest_error_of_scale'].max())} of the step's scale.")
+
+
+def judged_table(judged):
+    said = judged[judged["status"] == "ok"]
+    worst = said.assign(over=said["nearest_error_of_scale"] / said["allowed"]).sort_values("over", ascending=False).head(10)
+    return Table("Judged steps, the ten farthest from a solution beside what is allowed.",
+                 ["world", "step", "tolerance", "error over scale", "allowed", "nearest start", "the judge's residual", "the judge"],
+                 [[f"{r['world']:.0f}", f"{r['step']:.0f}", number(r["tolerance"]), number(r["nearest_error_of_scale"]), number(r["allowed"]),
+                   r["nearest_start"], number(r["reference_residual"]), r["reference_status"]] for _, r in worst.iterrows()])
+
+
+def tunnelling(results):
+    section = Section(
+        "Does anything pass through anything?",
+        "Two things are thrown at each other by 1 to 100 times their size a step: bodies of all shapes, thin ones too, nodes, cloth, the "
+        "ground. Fixed, light and heavy ones are hit in the middle or grazed. A judge that shares no code with the solver's search of contacts follows "
+        "the way from each step's begin to its end. Do the cores of the two, nine tenths of their shapes, meet on it?",
+        figures=[Figure("tunnelling_pairs", "Steps that pass, pair by pair; dark by their share. A missed step is one that says it missed its "
+                        "tolerance.")])
+    section.tell(results.table("tunnelling", "pairs"), passages_text, touch_text, passages_table)
+    return section.tell(results.table("tunnelling", "passed"), passed_table)
+
+
+def passages_text(pairs):
+    """What passes with continuous detection, in steps that say ok and in others, and that the judge sees it without."""
+    said, alone = (pairs[pairs["continuous"] == kind].sum(numeric_only=True) for kind in (1, 0))
+    return (f"Of {int(said['scenes'])} scenes {int(said['hits'])} would pass if nothing stopped them. With continuous detection "
+            f"{int(said['passed_ok'])} of {counted(int(said['steps_ok']), 'solved step')} pass. Without it {int(alone['passed_ok'])} of "
+            f"{int(alone['steps_ok'])} do, so that the judge sees what passes. But {counted(int(said['steps_missed']), 'step')} miss their tolerance, and "
+            f"{int(said['passed_missed'])} of these lead through: at such speeds detection tells that a step fails; it does not stop what is fast.")
+
+
+def touch_text(pairs):
+    said = pairs[pairs["continuous"] == 1].sum(numeric_only=True)
+    return (f"Ways are looked at for what begins a step apart. {int(said['passed_in_touch'])} solved steps that begin in touch pass. "
+            f"{int(said['steps_turned'])} solved steps turn a body by more than half a turn; their ways are not judged.")
+
+
+def passages_table(pairs):
+    said = pairs[pairs["continuous"] == 1]
+    return Table("Continuous detection, pair by pair.",
+                 ["first", "second", "scenes", "would pass", "solved steps", "that pass", "that pass, begun in touch", "missed steps", "that pass"],
+                 [[r["first"], r["second"], *(f"{r[c]:.0f}" for c in ("scenes", "hits", "steps_ok", "passed_ok", "passed_in_touch", "steps_missed",
+                                                                   "passed_missed"))] for _, r in said.iterrows()], detail=True)
+
+
+def passed_table(passed):
+    order = {"ok": 0, "ok, from touch": 1, "missed": 2}
+    worst = passed.sort_values("step_status", key=lambda column: column.map(order), kind="stable").head(20)
+    return Table("Scenes with a step that passes, the first 20, solved steps first.", ["first", "second", "scene", "step"],
+                 [list(row) for row in worst[["first", "second", "scene", "step_status"]].astype(str).to_numpy()], detail=True)

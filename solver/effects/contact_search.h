@@ -194,6 +194,7 @@ class ContactSearch {
                         double allowed, double behind);
   bool begins_cut(const Pair& pair) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
+  void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
   double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,

@@ -78,6 +78,22 @@ double ContactSearch::entering(const Pair& pair, const Configuration& start, con
   return apart;
 }
 
+/// States what touches round of `found_` at a share of the way, and has passed at `end`, as the plane
+/// between, which b carries: a distance has no sign by which to see that one passed the other.
+void ContactSearch::part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end,
+                                   double share) {
+  const auto [first, second] = pair.collider;
+  const std::array<Frame, 2> at{frame_between(first, start, end, share),
+                                frame_between(second, start, end, share)};
+  for (ContactPoint& point : found_) {
+    if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) continue;
+    if (touching_at(active(point, first, second), end).gap < 0) continue;
+    const Frame &a = at[point.swapped ? 1 : 0], &b = at[point.swapped ? 0 : 1];
+    point.direction_b = b.rotation.transpose() * touching(point, a, b).normal;
+    point.kind = ContactPoint::Kind::face;
+  }
+}
+
 /// Walks the way of a pair that begins apart. True where it touches by features that overlap at `end` by more
 /// than `allowed`, or is in each other by more than that (negative, m); sets `overlapping_` to those
 /// features, if there are any. A gap falls by no more than both travel, so that no smaller share needs to be
@@ -100,6 +116,7 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
     const bool inside = gap < allowed;
     if (inside) share = entering(pair, start, end, -slack, apart, share);
     generate_between(pair, start, end, share, 2 * slack);
+    if (inside) part_by_planes(pair, start, end, share);
     keep_overlapping(pair, start, end, allowed, -slack);
     if (inside || !overlapping_.empty()) return true;
   }

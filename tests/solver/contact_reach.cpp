@@ -117,3 +117,27 @@ TEST_CASE("sheets that approach each other do not pass through each other") {
   const double gap = (b - a).cross(c - a).normalized().dot(Vec3(end.x.col(3)) - a);
   CHECK(gap >= thickness - 1e-9);
 }
+
+TEST_CASE("balls and nodes that are thrown twenty of their sizes a step at each other stop where they meet") {
+  // The gap g closes in the step, v_a - v_b = g/h, and momentum stays: v_a + v_b = v for equal masses.
+  constexpr double radius = 0.1, gap = 1.3, h = 0.01, speed = 400;
+  for (const bool node : {false, true}) {
+    BodyScene build({.friction = 0}, 0);
+    build.ball(radius, 1, {.position = {0, 0, 0}});
+    const Vec3 from(-gap - 2 * radius, 0, 0), velocity(speed, 0, 0);
+    if (!node) build.ball(radius, 1, {.position = from, .velocity = velocity});
+    Scene scene = build.finish();
+    auto& contact = std::get<Contact>(scene.effects.back());
+    contact.continuous = true;
+    if (node) {
+      contact.node = {add_node(scene, from, 1, velocity)};
+      contact.radius = {radius};
+      contact.node_material = {0};
+    }
+    State state = scene.initial;
+    Workspace workspace(scene, contact_method("direct"));
+    CHECK(step(workspace, h, state).status == Status::ok);
+    CHECK(std::abs(state.v(0, 1) - (speed + gap / h) / 2) <= 1e-6 * speed);
+    CHECK(std::abs(state.v(0, 0) - (speed - gap / h) / 2) <= 1e-6 * speed);
+  }
+}

@@ -7,24 +7,13 @@
 #include "outer/outer_names.h"
 #include "scenes/body_shapes.h"
 #include "step/integrators.h"
+#include "studies/robustness/lump.h"
 #include "studies/robustness/world_building.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-
-/// The hull of directions, as it is or with each corner drawn in: then it has hollows.
-TriangleMesh lump(Random& random, bool hollow) {
-  Points x(3, 6 + random.below(7));
-  for (int i = 0; i < 6; ++i) x.col(i) = (i % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(i / 2);
-  for (Eigen::Index i = 6; i < x.cols(); ++i) x.col(i) = random.direction();
-  TriangleMesh surface = convex_hull(x);
-  const double size = random.uniform(0.15, 0.4);
-  for (Eigen::Index i = 0; i < surface.x.cols(); ++i)
-    surface.x.col(i) *= size * (hollow ? random.uniform(0.5, 1) : 1);
-  return surface;
-}
 
 Shape any_shape(Random& random) {
   const double radius = random.uniform(0.1, 0.25), length = random.uniform(0.2, 0.5);

@@ -4,7 +4,6 @@
 // may have several solutions.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -13,8 +12,10 @@
 #include <fmt/format.h>
 
 #include "error.h"
+#include "harness/processor_time.h"
 #include "harness/step_checks.h"
 #include "studies/experiments.h"
+#include "studies/robustness/judged_worlds.h"
 #include "studies/robustness/same_step.h"
 #include "validate.h"
 
@@ -43,13 +44,6 @@ struct Outcome {
   double slowest = 0;  // s of the processor, of a step
   std::vector<Comparison> compared;
 };
-
-/// s, that this thread has worked: other work on the machine makes no step slow.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void simulate(const World& world, Outcome& outcome) {
   Workspace workspace(world.scene, world.method);
@@ -152,6 +146,7 @@ void generated_worlds(Context& context) {
                   fmt::format("s of the processor, the slowest step (of world {})", slowest.second),
                   slowest.first, 60);
   for (Table* table : {&refuted, &broken, &ends, &apart, &agreement}) table->close();
+  judge_worlds(context, context.full() ? 200 : 20);
 }
 
 }  // namespace pbdcheck

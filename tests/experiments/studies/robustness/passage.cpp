@@ -1,0 +1,100 @@
+// What the judge of passages says of planted ways, and that thrown pairs are as they are said to be.
+#include "studies/robustness/passage.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "studies/robustness/thrown_pair.h"
+#include "validate.h"
+
+using namespace pbdcheck;
+using pbd::Vec3;
+
+namespace {
+
+/// A body of each shape at the origin.
+struct Two {
+  pbd::Scene scene;
+  std::array<Core, 2> core;
+  pbd::State from, to;
+
+  Two(const pbd::Shape& a, const pbd::Shape& b) {
+    for (const int body : {0, 1}) {
+      add_body(scene, Vec3::Zero(), 1, Vec3::Ones());
+      core[static_cast<std::size_t>(body)] = core_of({body == 0 ? a : b, body}, core_share);
+    }
+    from = to = scene.initial;
+  }
+  bool passes(const Vec3& begin, const Vec3& end) {
+    from.x.col(0) = begin;
+    to.x.col(0) = end;
+    return pass_through(scene, core[0], core[1], from, to);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a ball on a straight way passes where the way comes nearer to another one than both cores") {
+  Two balls(pbd::Sphere{0.1}, pbd::Sphere{0.2});
+  const double reach = core_share * 0.3;
+  for (const double share : {0.9, 0.999, 1.001, 1.1})
+    CHECK(balls.passes({-50, share * reach, 0}, {50, share * reach, 0}) == (share < 1));
+  CHECK_FALSE(balls.passes({-50, 0, 0}, {-reach - 1e-3, 0, 0}));
+  CHECK(balls.passes({-50, 0, 0}, {-reach + 1e-3, 0, 0}));
+}
+
+TEST_CASE("a ball passes through a thin plate and a mesh, and beside their edges does not") {
+  const Vec3 sides(2, 2, 0.01);
+  for (const pbd::Shape& plate :
+       {pbd::Shape(pbd::Box{sides}), pbd::Shape(pbd::ClosedMesh(pbd::box_surface(sides)))}) {
+    Two two(pbd::Sphere{0.1}, plate);
+    CHECK(two.passes({0.3, 0.2, 40}, {0.3, 0.2, -60}));
+    CHECK_FALSE(two.passes({1.0, 0.2, 40}, {1.0, 0.2, -60}));
+    CHECK_FALSE(two.passes({0, 0, 40}, {60, 0, 0.12}));
+  }
+}
+
+TEST_CASE("a rod that turns in place passes what its way leads through, and no other") {
+  // Its end is at 0.9, its core's at 0.81, and sweeps a quarter of a circle.
+  Two two(pbd::Capsule{0.01, 1.78}, pbd::Sphere{0.05});
+  const auto along = [](double angle) { return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitX())); };
+  two.to.orientation[0] = along(std::numbers::pi / 2);  // from z to -y
+  const auto at = [&](double angle, double distance) {
+    const Vec3 x = distance * Vec3(0, -std::sin(angle), std::cos(angle));
+    two.from.x.col(1) = two.to.x.col(1) = x;
+    return two.passes(Vec3::Zero(), Vec3::Zero());
+  };
+  CHECK(at(0.8, 0.8));
+  CHECK_FALSE(at(0.8, 0.81 + 0.9 * 0.05 + 1e-3));
+  CHECK_FALSE(at(-0.8, 0.8));
+}
+
+TEST_CASE("of a cylinder the core is inside, and the whole about it") {
+  const pbd::Cylinder cylinder{0.5, 0.2};
+  const auto radius = [&](double share) -> double {
+    return core_of({cylinder, 0}, share).piece[0].topRows(2).colwise().norm().maxCoeff();
+  };
+  CHECK(std::abs(radius(core_share) - core_share * 0.5) <= 1e-12);
+  CHECK(std::abs(radius(1) - 0.5 / std::cos(std::numbers::pi / 32)) <= 1e-12);
+}
+
+TEST_CASE("below a half space is passed, and above it not, whatever the way was") {
+  Two two(pbd::Box{{1, 1, 1}}, pbd::HalfSpace{});
+  CHECK_FALSE(two.passes({0, 0, 9}, {0, 0, 0.5}));
+  CHECK_FALSE(two.passes({0, 0, 9}, {0, 0, 0.451}));
+  CHECK(two.passes({0, 0, 9}, {0, 0, 0.449}));
+}
+
+TEST_CASE("thrown pairs are valid scenes, begin apart, and are the same each time") {
+  for (const auto& kinds : thrown_pairs()) {
+    INFO(thing_names[static_cast<std::size_t>(kinds[0])] << ", "
+                                                         << thing_names[static_cast<std::size_t>(kinds[1])]);
+    for (int i = 0; i < 3; ++i) {
+      const ThrownPair once = thrown_pair(kinds, i, true), again = thrown_pair(kinds, i, true);
+      CHECK_NOTHROW(pbd::validate(once.scene));
+      CHECK(once.scene.initial.x == again.scene.initial.x);
+      CHECK(apart(once.scene, once.whole[0], once.whole[1], once.scene.initial) >= 0.999 * once.apart);
+    }
+  }
+}

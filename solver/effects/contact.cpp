@@ -113,6 +113,13 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   return fill(begin, std::array{begin.at, free, reached}, blocks) ? Widened::others : Widened::alike;
 }
 
+bool ContactRows::hold_back(const StepBegin& begin, const Configuration& reached,
+                            std::vector<double>& share) {
+  if (!effect_.continuous) return false;
+  if (search_.extend(begin.bodies, begin.at, reached.x)) search_.find(begin.at, found_);
+  return search_.hold_back(begin.bodies, begin.at, reached, share);
+}
+
 bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accuracy) {
   constexpr double touching = 1e-6;  // of the speed at the start: what is left of the gap, a second
   bool any = false;

@@ -59,6 +59,7 @@ class ContactRows final : public Source {
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
   void perturb(const RowError& error, BlockSpan blocks, Points& push) const override;
+  bool hold_back(const StepBegin& begin, const Configuration& reached, std::vector<double>& share) override;
   void add_contact_forces(const StepMap& map, const Configuration& at, const Points& v, ConstBlockSpan blocks,
                           std::vector<ContactForce>& forces) const override;
 

@@ -83,6 +83,11 @@ class ContactSearch {
   bool look_again(const Configuration& start, const Configuration& end, const Configuration& free,
                   double tolerance, const ContactLists& contacts);
 
+  /// Of pairs that begin apart and meet on the way to `end`: lowers the shares of it that the columns of both
+  /// may go to one at which they are apart. True if any is lower.
+  bool hold_back(const Bodies& bodies, const Configuration& start, const Configuration& end,
+                 std::vector<double>& share);
+
   /// True if `find` will give other contacts: some of these pass, and their pairs meet by other features on
   /// the way of the free motion.
   bool find_met(const Configuration& start, const Configuration& free, const ContactLists& contacts);
@@ -231,6 +236,7 @@ class ContactSearch {
   std::vector<ActiveContact> near_before_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
+  double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
   Points between_x_;               // m, on the way of a contact's carriers; the others' are of no use

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "effects/contact_search.h"
 
@@ -103,18 +104,19 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
   constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double travel = travel_between(one, two), round = round_radius_of(one, two);
-  double gap = pair.nearest, share = 0, apart = 0, touching_for = 0;
+  double gap = pair.nearest, share = 0, touching_for = 0;
+  apart_ = 0;
   for (int k = 0; k < most; ++k) {
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
     share += std::max(gap, touching_for) / travel;
     if (!(share < 1)) return false;
     gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
     if (gap > slack) {
-      apart = share;
+      apart_ = share;
       continue;
     }
     const bool inside = gap < allowed;
-    if (inside) share = entering(pair, start, end, -slack, apart, share);
+    if (inside) share = entering(pair, start, end, -slack, apart_, share);
     generate_between(pair, start, end, share, 2 * slack);
     if (inside) part_by_planes(pair, start, end, share);
     keep_overlapping(pair, start, end, allowed, -slack);
@@ -193,6 +195,29 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
                                const Configuration& free, double tolerance, const ContactLists& contacts) {
   besides_ = std::max(tolerance, least_beside);
   return drop_left(start, end, free, contacts) || see_overlaps(start, end, contacts);
+}
+
+bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, const Configuration& end,
+                              std::vector<double>& share) {
+  bool any = false;
+  for (const NearPair& near : near_pairs_) {
+    const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
+    const Pair pair{.collider = near.collider, .nearest = near.nearest, .overlooked = slack};
+    if (!std::isfinite(slack) || !(pair.nearest > slack)) continue;
+    if (!meets(pair, start, end, -slack, slack)) continue;
+    any = true;
+    const auto lower = [&](Eigen::Index column) { share[column] = std::min(share[column], apart_); };
+    for (const int collider : near.collider) {
+      const Motion& motion = motions_[collider];
+      if (motion.kind == Carrier::triangle)
+        for (const int node : effect_.triangle[motion.carrier]) lower(node);
+      else if (motion.kind == Carrier::node)
+        lower(motion.carrier);
+      else
+        lower(bodies.node(motion.carrier)), lower(bodies.column(motion.carrier));
+    }
+  }
+  return any;
 }
 
 }  // namespace pbd

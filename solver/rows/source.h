@@ -180,6 +180,12 @@ class Source {
   /// no row tells of; they are to be linearised again then.
   virtual Widened widen(const StepBegin&, const Configuration& /*reached*/, BlockSpan) { return Widened::no; }
 
+  /// Lowers the share of its way to `reached` that each column may go, so that nothing passes there what it
+  /// begins apart from: true if any is lower. Where ways are not looked at nothing is.
+  virtual bool hold_back(const StepBegin&, const Configuration& /*reached*/, std::vector<double>& /*share*/) {
+    return false;
+  }
+
   virtual void add_contact_forces(const StepMap&, const Configuration&, const Points& /*v*/, ConstBlockSpan,
                                   std::vector<ContactForce>&) const {}
 

@@ -130,6 +130,15 @@ bool History::widen(StepSystem& system, double tolerance) const {
   return widened;
 }
 
+bool History::hold_back(StepSystem& system, std::vector<double>& share) const {
+  const Configuration start = system.problem.start();
+  const StepBegin begin = step_begin(system.problem, start, start, start);
+  const Configuration reached{system.at.x, system.at.poses, system.problem.x_time};
+  bool any = false;
+  for (Slot& slot : system.slots) any |= slot.source->hold_back(begin, reached, share);
+  return any;
+}
+
 /// Gets the sources ready for the step of the system's map; true if their rows are others than before.
 bool History::begin_sources(StepSystem& system) {
   const Problem& problem = system.problem;

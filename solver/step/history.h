@@ -19,6 +19,10 @@ class History {
   /// true if one did, perhaps the same rows.
   bool widen(StepSystem& system, double tolerance) const;
 
+  /// Lowers the share of its way to the iterate that each column may go, so that nothing passes what it
+  /// begins apart from where ways are looked at; true if any is lower.
+  bool hold_back(StepSystem& system, std::vector<double>& share) const;
+
   /// Carries the map on to the step's end; it may have been missed.
   void end_step(double h, const StepSystem& system, bool missed, State& state);
 

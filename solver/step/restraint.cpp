@@ -167,6 +167,24 @@ bool Restraint::restrain(StepSystem& system, const Points& given) {
   return slowed;
 }
 
+bool Restraint::shorten(StepSystem& system, const std::vector<double>& share) const {
+  std::vector<double> least(components_.count(), 1.0);
+  for (std::size_t column = 0; column < share.size(); ++column)
+    if (const int component = components_.of_column[column]; component >= 0)
+      least[component] = std::min(least[component], share[column]);
+  const Problem& problem = system.problem;
+  bool any = false;
+  for (int column = 0; column < problem.bodies.columns(); ++column) {
+    const int component = components_.of_column[column];
+    if (component < 0 || least[component] == 1) continue;
+    const Vec3 way = system.at.x.col(column) - problem.start_x.col(column);
+    any |= !way.isZero(0);
+    system.at.v.col(column) =
+        (problem.start_x.col(column) + least[component] * way - problem.map.x0.col(column)) / problem.map.d;
+  }
+  return any;
+}
+
 void Restraint::keep_lost(const StepSystem& system) {
   find_open(system, system.at.v);
   lost_.assign(open_.size(), 0);

@@ -10,6 +10,9 @@
 // what missed steps leave open is energy that they have spent. A component's own motion is that of its centre
 // of mass; where it is held from outside, the slowest of what holds it.
 //
+// Under continuous contact the way of a component that would pass something is shortened to where they are
+// apart: its velocity with it, as a step of what it goes would have it.
+//
 // Limits: what holds a component is taken not to turn. The angular momentum of what nothing holds is lost
 // with u; scaled impulses would keep it, and let joints and overlaps go. With warm_start off nothing is taken
 // back: what has sunk stays until a step is solved.
@@ -25,6 +28,10 @@ class Restraint {
   /// Slows the iterate's v if it gains energy, and returns whether it did: rows and x are to be refreshed
   /// then. Linearises the rows at v. `given` are the accelerations by given forces (m/s^2).
   bool restrain(StepSystem& system, const Points& given);
+
+  /// Shortens the way of each component that `restrain` found to the least of its columns' shares; false if
+  /// what these ask for stands already.
+  bool shorten(StepSystem& system, const std::vector<double>& share) const;
 
   /// Keeps for the next step what has been lost where rows, refreshed at the restrained iterate, are open.
   void keep_lost(const StepSystem& system);

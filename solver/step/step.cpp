@@ -41,6 +41,7 @@ struct StepRun {
   void begin(double h, const State& state);
   void solve(const Observer& observer);
   void restrain();
+  void hold_back();
   void end(double h, State& state);
 
  private:
@@ -177,7 +178,25 @@ void StepRun::restrain() {
     forget(w.outer);
     measure_here();
   }
+  hold_back();
   w.restraint.keep_lost(w.system);
+}
+
+/// A missed step leads through nothing whose way is looked at. What meets on the way that is left is held
+/// back again, soon where it began.
+void StepRun::hold_back() {
+  constexpr int patience = 20;
+  std::vector<double> share;
+  for (int k = 0;; ++k) {
+    share.assign(static_cast<std::size_t>(w.system.problem.bodies.columns()), 1.0);
+    if (!w.history.hold_back(w.system, share)) return;
+    if (k >= patience)
+      for (double& each : share)
+        if (each < 1) each = 0;
+    if (!w.restraint.shorten(w.system, share)) return;
+    forget(w.outer);
+    measure_here();
+  }
 }
 
 void StepRun::end(double h, State& state) {

@@ -20,9 +20,9 @@
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
-// step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, what bounces under
-// newmark, which places it by the mean of two velocities, closed meshes beside other than half spaces,
-// surfaces in each other, and triangles that a body cuts as a step begins.
+// step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
+// bounces under other integrators, which place it by more than its velocity at the end, closed meshes beside
+// other than half spaces, surfaces in each other, and triangles that a body cuts as a step begins.
 #pragma once
 
 #include "step_claim.h"

@@ -84,6 +84,7 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   if (!begin.warm_start) seeds_.clear();
   waiting_.clear();
   const std::array<Configuration, 2> places{begin.at, {free_.x, free_.pose, begin.at.time}};
+  strikes_ = false;
   const bool others = fill(begin, places, blocks);
   if (!bounces_ || !search_.find_met(begin.at, places[1], contacts_)) return others;
   return fill(begin, places, blocks) || others;
@@ -127,7 +128,7 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
       if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
       contact.restitution = contact.law.restitution;
       collided_.emplace(contact.pair(), contact.features.key);
-      any = true;
+      any = strikes_ = true;
     }
   });
   return any;

@@ -56,6 +56,7 @@ class ContactRows final : public Source {
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
   bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
+  bool strikes() const override { return strikes_; }
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
   void perturb(const RowError& error, BlockSpan blocks, Points& push) const override;
@@ -96,6 +97,7 @@ class ContactRows final : public Source {
   std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
   bool bounces_ = false;                                             // some law has restitution
   bool recovering_ = false;  // from what missed steps have left overlapping
+  bool strikes_ = false;                                             // in this step
 };
 
 }  // namespace pbd

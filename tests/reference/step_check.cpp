@@ -225,6 +225,24 @@ TEST_CASE("contacts: force, cone, slip, gap and depth") {
   CHECK(refuted(deep) == Names{"depth"});
 }
 
+TEST_CASE("contacts: force, cone, slip and depth under integrators of second order") {
+  for (const std::string_view integrator : {"newmark", "bdf2", "generalised_alpha"}) {
+    INFO(integrator);
+    Step step = box_on_ground(0.5, 1);
+    step.integrator = integrator;
+    CHECK(refuted(step).empty());
+    for (auto& contact : step.contacts) contact.force.x() *= -1;
+    CHECK(refuted(step) == Names{"sliding"});
+    for (auto& contact : step.contacts) contact.force *= -1;
+    CHECK(refuted(step) == Names{"contact pulls", "friction", "sliding"});
+    Step deep = balls();
+    deep.integrator = integrator;
+    CHECK(refuted(deep).empty());
+    deep.end.x(0, 0) += 1e-3;
+    CHECK(refuted(deep) == Names{"depth"});
+  }
+}
+
 TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carries") {
   constexpr double thickness = 0.01, radius = 0.1, fall = 0.1;  // m, m/s
   const auto falling = [&](double gap) {

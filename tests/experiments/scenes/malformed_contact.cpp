@@ -125,7 +125,8 @@ const std::vector<Mistake> contact_mistakes{
     {probe("body = \"ball\"\nnode = 1\n"), {"scene.toml:24: probe.0.node", "unknown key"}},
     {contact("[method]\nfriction = \"columb\"\n"),
      {"scene.toml:22: method.friction", "did you mean `coulomb`?"}},
-    {contact("[method]\nintegrator = \"bdf2\"\n"), {"integrator: got bdf2 with contact", "implicit_euler"}},
+    {contact("[method]\nintegrator = \"midpoint\"\n"),
+     {"integrator: got midpoint with contact", "implicit_euler"}},
 };
 
 }  // namespace

@@ -69,6 +69,12 @@ Vec3 Sides::velocity(int k, const Vec3& point, const State& state) const {
   return v + (orientation * Vec3(state.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
 }
 
+Vec3 Sides::surface_velocity(int k) const {
+  if (k >= count() || is_node(k)) return Vec3::Zero();
+  const Collider& own = contact_.collider[static_cast<std::size_t>(k)];
+  return placed(k, claim_.end).frame.rotation * own.surface_velocity;
+}
+
 double Sides::lever(int k, const Vec3& point) const {
   const Side own = side(k);
   return own.body < 0 ? 0.0 : (point - claim_.end.x.col(own.node)).norm();

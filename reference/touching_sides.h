@@ -33,7 +33,11 @@ class Sides {
 
   /// m/s, of the point of a side where the step ends, by the velocities of `state`.
   Vec3 velocity(int k, const Vec3& point, const State& state) const;
-  /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
+  /// m/s, of a side's surface along itself where the step ends, beside that of its points: the part of it
+  /// across a normal counts.
+  Vec3 surface_velocity(int k) const;
+  /// Largest change of a point's velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever
+  /// 0.
   double inverse_mass(int k, double lever) const;
   /// Least change of the normal velocity by an impulse of 1 N s, times 3 of a surface, whose three weights
   /// may be equal.

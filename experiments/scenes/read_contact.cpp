@@ -146,9 +146,10 @@ void read_contact(Keys& root, Builder& builder) {
   read_material_pairs(keys, parts, law);
   read_apart(keys, builder);
   keys.refuse_unknown();
-  for (const auto& [body, material] : parts.bodies) {
+  for (const auto& [body, material, surface_velocity] : parts.bodies) {
     const auto& [name, shape, to_body] = builder.bodies[static_cast<std::size_t>(body)];
-    effect.collider.push_back({shape, body, {to_body.translation(), to_body.linear()}, material});
+    effect.collider.push_back(
+        {shape, body, {to_body.translation(), to_body.linear()}, material, surface_velocity});
   }
   builder.add(keys.line(), std::move(effect));
 }

@@ -113,13 +113,21 @@ BodyMotion read_motion(Keys& keys, const std::string& hold) {
 
 /// What touches others is the shape; `contact = false` keeps it out.
 void read_body_contact(Keys& keys, Builder& builder, bool shaped, std::int64_t copies) {
-  for (const auto* key : {"material", "contact"})
+  for (const auto* key : {"material", "contact", "surface_velocity_m_s"})
     if (!shaped && keys.has(key)) keys.refuse(key, "contact without a shape", "a body with a shape");
   const int material = builder.material(keys);
-  if (keys.has("contact")) builder.contact.mentioned = keys.where();
-  if (!shaped || !keys.flag_or("contact", true)) return;
+  for (const auto* key : {"contact", "surface_velocity_m_s"})
+    if (keys.has(key)) builder.contact.mentioned = keys.where();
+  if (!shaped || !keys.flag_or("contact", true)) {
+    if (keys.has("surface_velocity_m_s"))
+      keys.refuse("surface_velocity_m_s", "a surface that touches nothing",
+                  "a body that takes part in contact");
+    return;
+  }
+  const pbd::Vec3 surface_velocity = keys.vector_or("surface_velocity_m_s", pbd::Vec3::Zero());
   for (std::int64_t i = 0; i < copies; ++i)
-    builder.contact.bodies.push_back({static_cast<int>(builder.bodies.size() + i), material});
+    builder.contact.bodies.push_back(
+        {static_cast<int>(builder.bodies.size() + i), material, surface_velocity});
 }
 
 void read_rigid_body(Keys& keys, Builder& builder) {

@@ -39,8 +39,10 @@ struct ActiveContact {
   bool passes = false;        // its features have parted where the free motion closes its gap
   bool acts = false;          // has more of an impulse than an iterate's tolerance where that ended
   ContactLaw law;             // of its materials
-  double offset = 0;          // m, of the gap by damping
-  double compliance = 0;      // m/N, with damping's share
+  bool conveys = false;       // a surface moves along itself
+  std::array<Vec3, 2> surface_velocity{Vec3(0, 0, 0), Vec3(0, 0, 0)};  // m/s, so, in the bodies' frames
+  double offset = 0;                                                   // m, of the gap by damping
+  double compliance = 0;                                               // m/N, with damping's share
 
   std::array<int, 2> pair() const {
     return {std::min(collider[0], collider[1]), std::max(collider[0], collider[1])};
@@ -165,6 +167,14 @@ Directions<Block::rows> directions_in(const ActiveContact& contact,
   if (contact.of_surfaces && contact.surface.kind == SurfaceContact::Kind::edge_edge)
     directions += jacobian.template middleCols<3>(3);
   return directions;
+}
+
+/// Velocity of a's surface against b's by what moves along itself, in the world, m/s.
+inline Vec3 conveyed(const ActiveContact& contact, const Configuration& at) {
+  const auto own = [&](int side) -> Vec3 {
+    return frame_of(contact, side, at).rotation * contact.surface_velocity[side];
+  };
+  return own(0) - own(1);
 }
 
 /// The nodes of a contact's rows.

@@ -8,7 +8,8 @@
 //               u(v_l) by a body's spin in its own axes: what rolls sinks by the curvature of its path if it
 //               is kept from approaching alone. The gap may then be the one to which that speed leads from
 //               x0: with newmark and alpha = 1/2 energy is kept for e = 1
-//   tangential  t_j . u(v), two directions across n that follow it
+//   tangential  t_j . (u(v) + s), two directions across n that follow it, s the velocity at which surfaces
+//               that move along themselves go against each other
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
 // Features are those of the step's beginning, and of its end where something overlaps there or a contact has
@@ -55,8 +56,8 @@ class ContactRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
   bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
-  void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   bool strikes() const override { return strikes_; }
+  void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
   void perturb(const RowError& error, BlockSpan blocks, Points& push) const override;
@@ -96,8 +97,8 @@ class ContactRows final : public Source {
   FreeEnd free_;                                                     // where the step's free motion ends
   std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
   bool bounces_ = false;                                             // some law has restitution
-  bool recovering_ = false;  // from what missed steps have left overlapping
   bool strikes_ = false;                                             // in this step
+  bool recovering_ = false;  // from what missed steps have left overlapping
 };
 
 }  // namespace pbd

@@ -78,6 +78,11 @@ ActiveContact ContactSearch::active(const ContactPoint& point, int first, int se
     const Motion& own = motions_[sides[side]];
     contact.carrier[side] = own.carrier;
     if (own.kind == Carrier::node) contact.node_side = side;
+    if (own.kind == Carrier::body && !effect_.collider[sides[side]].surface_velocity.isZero(0)) {
+      const Collider& collider = effect_.collider[sides[side]];
+      contact.surface_velocity[side] = collider.frame.rotation * collider.surface_velocity;
+      contact.conveys = true;
+    }
     if (own.kind != Carrier::triangle) continue;
     contact.triangle_side = side;
     contact.triangle = feature_of(point, side, triangle_, effect_.triangle[own.carrier]);

@@ -19,12 +19,14 @@ struct ContactLaw {
   bool operator==(const ContactLaw&) const = default;
 };
 
-/// A shape that may touch others, in a frame of its rigid body.
+/// A shape that may touch others, in a frame of its rigid body. Its surface may move along itself, as a
+/// conveyor's does: by the part across a contact's normal of a velocity in the shape's frame (m/s).
 struct Collider {
   Shape shape;
   int body = 0;
   Frame frame{};
   int material = 0;
+  Vec3 surface_velocity = Vec3::Zero();
 };
 
 /// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,

@@ -243,6 +243,23 @@ TEST_CASE("contacts: force, cone, slip and depth under integrators of second ord
   }
 }
 
+TEST_CASE("contacts: a belt drags by its slip, and brings energy") {
+  Step step = box_on_ground(0.5, 1);  // seen by who goes along with the box
+  step.scene.initial.v(0, 1) -= 1;
+  step.end.v(0, 1) -= 1;
+  step.move();
+  for (auto& contact : step.contacts) contact.point.x() -= h;
+  const auto set_belt = [&](double speed) {
+    std::get<Contact>(step.scene.effects.back()).collider[0].surface_velocity.x() = speed;
+  };
+  set_belt(-1);
+  CHECK(refuted(step).empty());
+  for (const double other : {0.0, 1.0}) {
+    set_belt(other);
+    CHECK(refuted(step) == Names{"energy", "sliding"});
+  }
+}
+
 TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carries") {
   constexpr double thickness = 0.01, radius = 0.1, fall = 0.1;  // m, m/s
   const auto falling = [&](double gap) {

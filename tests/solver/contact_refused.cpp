@@ -47,6 +47,7 @@ TEST_CASE("shapes, frames and laws that are none are refused by what they are an
       {[](Contact& c) { c.collider[0].frame.origin.x() = infinity; }, {"frame origin[0]", "inf"}},
       {[](Contact& c) { c.collider[0].frame.rotation *= 1.001; }, {"frame rotation[0]", "a rotation"}},
       {[](Contact& c) { c.collider[0].frame.rotation *= -1; }, {"frame rotation[0]", "determinant -1"}},
+      {[](Contact& c) { c.collider[1].surface_velocity.y() = infinity; }, {"surface velocity[1]", "inf"}},
       {[](Contact& c) { c.law[3].compliance = -1; }, {"compliance[3]", "got -1"}},
       {[](Contact& c) { c.law[3].damping = std::nan(""); }, {"damping[3]", "nan"}},
       {[](Contact& c) { c.law[2].friction = 0.1; }, {"law[1]", "symmetric"}},

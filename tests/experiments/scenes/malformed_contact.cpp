@@ -103,6 +103,15 @@ const std::vector<Mistake> contact_mistakes{
     {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n[[contact.apart]]\nbodies = "
                 "[\"ball\", \"third\"]\n"),
      {"scene.toml:28: contact.apart.0.bodies", "`third`, which touches nothing"}},
+    {third_body("mass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nsurface_velocity_m_s = [1, 0, 0]\n"),
+     {"scene.toml:25: rigid_body.3.surface_velocity_m_s", "contact without a shape", "a body with a shape"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n"
+                "surface_velocity_m_s = [1, 0, 0]\n"),
+     {"scene.toml:27: rigid_body.3.surface_velocity_m_s", "a surface that touches nothing"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nsurface_velocity_m_s = [1, 0]\n"),
+     {"scene.toml:26: rigid_body.3.surface_velocity_m_s"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nsurface_velocity_m_s = [inf, 0, 0]\n"),
+     {"scene.toml:26: rigid_body.3.surface_velocity_m_s", "got inf", "finite"}},
     {particle("radius_m = -1\n"), {"scene.toml:25: particle.0.contact.radius_m", "got -1", ">= 0"}},
     {particle("radius = 1\n"), {"scene.toml:25: particle.0.contact.radius", "did you mean `radius_m`?"}},
     {particle("surface = true\n"), {"scene.toml:25: particle.0.contact.surface", "unknown key"}},

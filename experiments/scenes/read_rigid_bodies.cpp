@@ -130,6 +130,33 @@ void read_body_contact(Keys& keys, Builder& builder, bool shaped, std::int64_t c
         {static_cast<int>(builder.bodies.size() + i), material, surface_velocity});
 }
 
+/// The poses of a body that is led through them, from the shape's pose `placed` on; one that leaves a place
+/// or a rotation out keeps that of the one before. `principal` takes the body's frame to the shape's.
+std::optional<PoseCourse> read_poses(Keys& keys, const std::string& hold, Eigen::Isometry3d placed,
+                                     const Eigen::Isometry3d& principal) {
+  auto tables = keys.tables("pose");
+  if (tables.empty()) return std::nullopt;
+  if (hold != "moving")
+    keys.refuse("pose", fmt::format("poses of a body with held = \"{}\"", hold), "held = \"moving\"");
+  for (const auto* key : {"velocity_m_s", "angular_velocity_rad_s", "over_time", "copies"})
+    if (keys.has(key)) keys.refuse(key, fmt::format("poses and {}", key), "one of them");
+  const auto pose = [&]() -> BodyPose {
+    const Eigen::Isometry3d body = placed * principal;
+    return {body.translation(), Eigen::Quaterniond(body.linear()).normalized()};
+  };
+  PoseCourse course(pose());
+  for (auto& table : tables) {
+    const double time = table.number("time_s", Range::positive);
+    if (!(time > course.last()))
+      table.refuse("time_s", fmt::format("the time {} after {}", time, course.last()), "times that grow");
+    placed.translation() = table.vector_or("position_m", placed.translation());
+    if (table.has("rotation_rad")) placed.linear() = read_rotation(table);
+    course.add(time, pose());
+    table.refuse_unknown();
+  }
+  return course;
+}
+
 void read_rigid_body(Keys& keys, Builder& builder) {
   Copies copies(keys, builder);
   Shape shape = read_shape(keys, builder);
@@ -156,10 +183,12 @@ void read_rigid_body(Keys& keys, Builder& builder) {
   Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();  // shape's frame to world
   placed.linear() = read_rotation(keys);
   placed.translation() = keys.vector_or("position_m", pbd::Vec3::Zero());
-  keys.refuse_unknown();
   Eigen::Isometry3d principal = Eigen::Isometry3d::Identity();  // body to shape's frame
   principal.linear() = inertia.principal.axes.toRotationMatrix();
   principal.translation() = inertia.centre;
+  if (const auto course = read_poses(keys, hold, placed, principal))
+    builder.script.poses(builder.bodies.size(), *course);
+  keys.refuse_unknown();
   if (held) {
     inertia.mass = pbd::infinity;
     inertia.principal.moments.setConstant(pbd::infinity);

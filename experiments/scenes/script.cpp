@@ -55,6 +55,12 @@ void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, p
     state.v.col(node) = factor * stated.initial.v.col(node);
     state.spin.col(body) = factor * stated.initial.spin.col(body);
   }
+  for (const auto& [i, course] : poses_) {
+    const int node = stated.bodies[i].node;
+    const auto [velocity, spin] = course.over(begin, end, {state.x.col(node), state.orientation[i]});
+    state.v.col(node) = velocity;
+    state.spin.col(static_cast<Eigen::Index>(i)) = spin;
+  }
 }
 
 void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {

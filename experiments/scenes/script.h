@@ -1,11 +1,12 @@
 // What a scene file says of time: factors of forces, torques, motors' rates and the velocities of moving
 // bodies. A step takes their means over it, so that momentum, angles and places are those of the integral at
-// the end of every step, whatever the integrator.
+// the end of every step, whatever the integrator. Poses of moving bodies are met where steps end, too.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "scenes/pose_course.h"
 #include "step/step.h"
 
 namespace pbdcheck {
@@ -29,6 +30,8 @@ class Script {
   void slide(std::size_t index, Course course) { slides_.push_back({index, std::move(course)}); }
   void body(std::size_t index, Course course) { bodies_.push_back({index, std::move(course)}); }
 
+  void poses(std::size_t index, PoseCourse course) { poses_.push_back({index, std::move(course)}); }
+
   /// `scene` as `stated` but for the step of h seconds from `state`, whose moving bodies get their
   /// velocities.
   void begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const;
@@ -42,11 +45,13 @@ class Script {
   void hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const;
 
  private:
+  template <class C>
   struct Entry {
     std::size_t index;
-    Course course;
+    C course;
   };
-  std::vector<Entry> forces_, torques_, angles_, slides_, bodies_;
+  std::vector<Entry<Course>> forces_, torques_, angles_, slides_, bodies_;
+  std::vector<Entry<PoseCourse>> poses_;
 };
 
 }  // namespace pbdcheck

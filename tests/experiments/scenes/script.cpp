@@ -138,6 +138,27 @@ TEST_CASE("a body is led through its poses, on straight ways and the shorter tur
   }
 }
 
+// 1 - s^2 (3 - 2 s), s = t/T, of what parts of joints begin apart.
+TEST_CASE("joints whose parts begin apart close in their time, from rest to rest") {
+  const auto left = [](double t) {
+    const double s = std::min(t / 1.5, 1.0);
+    return 1 - s * s * (3 - 2 * s);
+  };
+  const std::string body =
+      "[[rigid_body]]\nname = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nposition_m = [3, 0.3, 0.4]\n"
+      "[[joint]]\nbodies = [\"world\", \"a\"]\nclose_s = 1.5\npoints_m = [[3, 0, 0], [3, 0.3, 0.4]]\n";
+  for (const std::string kind : {"ball\"\n", "weld\"\n", "hinge\"\naxis = [1, 0, 0]\n",
+                                 "universal\"\naxis = [1, 0, 0]\nsecond_axis = [0, 1, 0]\n",
+                                 "slider\"\naxis = [1, 0, 0]\n", "distance\"\nrest_length_m = 0.1\n"}) {
+    INFO(kind);
+    run(body + "kind = \"" + kind, "implicit_euler", [&](const pbd::State& state) {
+      const double length =
+          kind.starts_with("distance") ? 0.1 + 0.4 * left(state.time) : 0.5 * left(state.time);
+      CHECK((state.x.col(0) - Vec3(3, 0.6 * length, 0.8 * length)).norm() < 1e-9);
+    });
+  }
+}
+
 TEST_CASE("motors follow the integral of their rate") {
   run("[[rigid_body]]\nname = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\n"
       "[[joint]]\nkind = \"slider\"\nbodies = [\"world\", \"a\"]\npoint_m = [0, 0, 0]\naxis = [1, 0, 0]\n"

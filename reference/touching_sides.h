@@ -13,7 +13,7 @@ struct Side {
   bool of_surface() const { return node < 0; }
 };
 
-/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge.
+/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge. Nodes of one element do not.
 bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b);
 
 /// What a finding calls a pair.

@@ -139,6 +139,7 @@ void read_contact(Keys& root, Builder& builder) {
   if (effect.thickness == 0 && !effect.triangle.empty() && !parts.bodies.empty())
     keys.refuse("thickness_m", "a number > 0 where surfaces and bodies take part: a point has no side");
   effect.surfaces_touch = keys.flag_or("surfaces_touch", effect.surfaces_touch);
+  effect.nodes_touch = keys.flag_or("nodes_touch", effect.nodes_touch);
   effect.continuous = keys.flag_or("continuous", effect.continuous);
   const auto law = read_law(keys, {});
   effect.materials = static_cast<int>(parts.materials.size());

@@ -60,7 +60,7 @@ ContactRows::ContactRows(const Scene& scene, const Contact& effect, Friction law
                            [](const ContactLaw& own) { return own.restitution > 0; })) {}
 
 void ContactRows::allocate(bool, BlockList& blocks) {
-  if (effect_.collider.empty() && effect_.triangle.empty()) return;
+  if (effect_.collider.empty() && effect_.triangle.empty() && !effect_.nodes_touch) return;
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
   RowBlock<3, 5> of_triangles;
@@ -184,7 +184,7 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       std::array<int, 2> collider = contacts[i].collider;
       for (const int side : {0, 1}) {
         if (side == contacts[i].triangle_side) collider[side] = first_node + contacts[i].triangle.node[0];
-        if (contacts[i].of_surfaces) collider[side] += first_node;
+        if (contacts[i].of_surfaces && !contacts[i].surface.of_spheres()) collider[side] += first_node;
       }
       const auto acting = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
       const Vec3 normal = acting.row(0);

@@ -16,13 +16,14 @@
 // left its features: one that touches where its shapes are not (left_contacts.cpp) acts no more in the step.
 //
 // Limits: impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they
-// turn nothing together. Nodes do not touch nodes. Deformable surfaces touch each other by nodes over
-// triangles and edges that cross, where the nearest points lie on them as the step begins; the side is the
-// one on which it begins. What overlaps from the start stays on the wrong side; a node that comes over an
-// edge or a corner within a step is held by whatever else is near. Bodies touch each triangle half a
-// thickness from it, by all features of both; features that triangles share count once, and where a body is
-// nearer to a triangle beside them, not at all. `thickness` should be well below the shortest edge; a crease
-// so sharp that its triangles are nearer than that parts them by force, and such steps may not converge.
+// turn nothing together. Nodes go through nodes that they pass in one step. Deformable surfaces touch each
+// other by nodes over triangles and edges that cross, where the nearest points lie on them as the step
+// begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side; a
+// node that comes over an edge or a corner within a step is held by whatever else is near. Bodies touch each
+// triangle half a thickness from it, by all features of both; features that triangles share count once, and
+// where a body is nearer to a triangle beside them, not at all. `thickness` should be well below the shortest
+// edge; a crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
+// converge.
 //
 // What a missed step leaves overlapping, or a diverged one began with, parts by a tenth of that a step, and
 // what forces move in one, until nothing overlaps: to part at once would throw it, by all the speed that has

@@ -112,6 +112,7 @@ const std::vector<Mistake> contact_mistakes{
      {"scene.toml:26: rigid_body.3.surface_velocity_m_s"}},
     {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nsurface_velocity_m_s = [inf, 0, 0]\n"),
      {"scene.toml:26: rigid_body.3.surface_velocity_m_s", "got inf", "finite"}},
+    {contact("nodes_touch = 1\n"), {"scene.toml:21: contact.nodes_touch", "got 1", "true or false"}},
     {particle("radius_m = -1\n"), {"scene.toml:25: particle.0.contact.radius_m", "got -1", ">= 0"}},
     {particle("radius = 1\n"), {"scene.toml:25: particle.0.contact.radius", "did you mean `radius_m`?"}},
     {particle("surface = true\n"), {"scene.toml:25: particle.0.contact.surface", "unknown key"}},

@@ -60,8 +60,8 @@ void check_sliding(const StepClaim& claim, const ClaimedContact& c, const Contac
                    const Sides& sides, Findings& findings) {
   const double mu = open.law.friction;
   if (!(mu > 0)) return;
-  if (!is_euler_step(claim) || explicit_forces(claim) || claim.friction == Friction::box)
-    return findings.leave_out("sliding: by this integrator or law");
+  if (explicit_forces(claim) || claim.direction_blend != 1 || claim.friction == Friction::box)
+    return findings.leave_out("sliding: by this integrator, blend of directions or law");
   if (std::max(c.collider[0], c.collider[1]) >= sides.count())
     return findings.leave_out("sliding: on surfaces");
   const double speed = open.slip.norm(), h = claim.h;

@@ -1,10 +1,10 @@
 // What the laws of contact say of the forces and places that somebody claims for the end of a step.
 //
 // A contact's residual is below `level` (sqrt(J), step_check.h): a step -W r of its impulse p, r the velocity
-// u_t across the normal and (gap)/h along it, the law takes back to p up to e = level sqrt(W). W is at most
-// 1/(1/m_a + 1/m_b), and 1/W at most w = 1/m_a + 1/m_b + |lever|^2/I of both + 2 A/h^2. Hence, with s =
-// level sqrt(w), the lever under explicit forces the longest one where the step begins, since their
-// directions are taken there:
+// u_t of the surfaces across the normal and (gap)/h along it, the law takes back to p up to e = level
+// sqrt(W). W is at most 1/(1/m_a + 1/m_b), and 1/W at most w = 1/m_a + 1/m_b + |lever|^2/I of both + 2 A/h^2.
+// Hence, with s = level sqrt(w), the lever under explicit forces the longest one where the step begins, since
+// their directions are taken there:
 //   force    -F_n h <= e and (|F_t| - mu F_n) h <= (1 + mu) e; the box law allows sqrt(2) mu
 //   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
 //   rebound  where shapes may bounce, pressed ones that end apart do so at e times the speed, along the end's
@@ -20,9 +20,9 @@
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
-// step's begin, nor of the box law, nor on surfaces; depth not of compliant contacts, what bounces under
-// newmark, which places it by the mean of two velocities, closed meshes beside other than half spaces,
-// surfaces in each other, and triangles that a body cuts as a step begins.
+// step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
+// bounces under other integrators, which place it by more than its velocity at the end, closed meshes beside
+// other than half spaces, surfaces in each other, and triangles that a body cuts as a step begins.
 #pragma once
 
 #include "step_claim.h"

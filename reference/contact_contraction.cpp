@@ -88,6 +88,9 @@ class LinearisedStep {
         throw SetupError(where, "a contact of a node or surface", "contacts of bodies");
     const ContactLaw& law = contact.between(static_cast<std::size_t>(each.collider[0]),
                                             static_cast<std::size_t>(each.collider[1]));
+    for (const int k : each.collider)
+      if (!contact.collider[static_cast<std::size_t>(k)].surface_velocity.isZero(0))
+        throw SetupError(where, "a surface that moves along itself", "contacts without");
     if (law.restitution > 0 || law.compliance > 0)
       throw SetupError(where, "restitution or compliance", "contacts without");
     std::array<Feature, 2> side;

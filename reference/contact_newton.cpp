@@ -64,7 +64,7 @@ Findings depths_of(const Scene& scene, const ContactStep& own, const Vector& vel
   const State end = own.step.end(velocity);
   const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
   Findings findings;
-  if (!own.contact.collider.empty() || !own.contact.triangle.empty())
+  if (!own.contact.collider.empty() || !own.contact.triangle.empty() || own.contact.nodes_touch)
     check_depths(claim, own.contact, 0, findings);
   return findings;
 }

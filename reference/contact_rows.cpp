@@ -31,6 +31,19 @@ void add_parts(const RigidModel& model, const ContactFeature& feature, const std
   parts.emplace_back(turn, -directions * rotation * cross_matrix(local));
 }
 
+/// Velocity of a's surface against b's by what moves along itself, m/s.
+Vec3 conveyed(const Contact& contact, const FeaturePair& pair, const Placement& at) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::size_t k : {0, 1}) {
+    const auto side = static_cast<std::size_t>(pair.surface[k]);
+    if (side >= contact.collider.size()) continue;
+    const Collider& own = contact.collider[side];
+    const Vec3 along = own.frame.rotation * own.surface_velocity;
+    sum += (k == 0 ? 1.0 : -1.0) * (at.orientation[static_cast<std::size_t>(own.body)] * along);
+  }
+  return sum;
+}
+
 /// The unknowns' places, each of which a test may move.
 struct Moving {
   const RigidModel& model;
@@ -82,6 +95,7 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const ContactPose& pose
     add_parts(step.model, *feature, *weight, at, found.place, sign * directions, row.parts);
   row.seen = directions * against(own.pair, found, at, pose.end);
   row.normal_velocity = row.seen[0];
+  row.seen.tail<2>() += directions.bottomRows<2>() * conveyed(contact, own.pair, at);
   row.seen[0] = (found.gap - (own.collides ? own.rebound : own.target)) / step.h;
   if (own.collides)
     row.seen[0] = std::min(

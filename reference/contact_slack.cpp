@@ -18,7 +18,9 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
   Vec3 slip = Vec3::Zero();
   if (a < sides.count() && b < sides.count())
     slip = sides.velocity(a, contact.point, claim.end) - sides.velocity(b, contact.point, claim.end);
-  slip -= contact.normal.dot(slip) * contact.normal;
+  const auto across = [&](const Vec3& v) -> Vec3 { return v - contact.normal.dot(v) * contact.normal; };
+  const Vec3 conveyed = across(sides.surface_velocity(a) - sides.surface_velocity(b));
+  slip = across(slip) + conveyed;
   // The squares of a triangle's three weights sum to a third at least.
   constexpr double share = 1.0 / 3;
   return {law,
@@ -26,7 +28,8 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
           contact.force - normal * contact.normal,
           level / std::sqrt(share * centres),
           level * std::sqrt(all),
-          slip};
+          slip,
+          conveyed};
 }
 
 }  // namespace pbd::reference

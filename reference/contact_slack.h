@@ -10,7 +10,8 @@ struct ContactSlack {
   double normal;             // F_n, N
   Vec3 friction;             // F_t, N
   double impulse, velocity;  // e (N s) and s (m/s)
-  Vec3 slip;                 // u_t, m/s; zero on surfaces
+  Vec3 slip;                 // u_t, m/s, with `conveyed`; zero on deformable surfaces
+  Vec3 conveyed;             // m/s, of it what surfaces do that move along themselves
 };
 
 /// `level` in sqrt(J).

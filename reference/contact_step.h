@@ -8,7 +8,7 @@
 //   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
 //         and n . (u + e u_l), u their velocities against each other; in u_l a body's spin is what it is
 //         where the step begins, in the body's own axes
-//   u_t = t . u
+//   u_t = t . (u + s), s the velocity at which surfaces that move along themselves go against each other
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
 // what is parting too slowly for its e, collides.

@@ -148,7 +148,7 @@ void Depths::check_triangles() {
 
 void Depths::check_all() {
   const auto colliders = static_cast<int>(contact_.collider.size());
-  for (int i = 0; i < colliders; ++i)
+  for (int i = 0; i < (contact_.nodes_touch ? sides_.count() : colliders); ++i)
     for (int j = i + 1; j < sides_.count(); ++j) check(i, j);
   check_triangles();
 }

@@ -180,7 +180,8 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
         continue;
       }
       const bool nodes = a.corner.front().body < 0 && b.corner.front().body < 0;
-      if (i == k || nodes || (a.plane && b.plane)) continue;
+      const bool apart = nodes && (!contact.nodes_touch || b.deformable);
+      if (i == k || apart || (a.plane && b.plane)) continue;
       if (!b.deformable) {
         if (may_touch(scene, contact, side_of(a), side_of(b))) pairs_.push_back({i, k});
         continue;

@@ -16,7 +16,8 @@ bool anything_moves(const Scene& scene) {
 }
 
 bool has_contact_rule(const StepClaim& claim) {
-  return is_euler_step(claim) || claim.integrator == "newmark";
+  return is_euler_step(claim) || claim.integrator == "newmark" || claim.integrator == "bdf2" ||
+         claim.integrator == "generalised_alpha";
 }
 
 }  // namespace

@@ -19,11 +19,11 @@
 // in proportion to itself.
 //
 // Limits: momentum is judged of implicit_euler (directions at the end) and symplectic_euler, of other
-// integrators hard constraints alone, and contacts under newmark. Nodes of surfaces that press on themselves
-// or each other are judged by their sum, since it is not told how a contact's force is shared among them;
-// bodies in contact under symplectic_euler by their linear momentum. Damped constraints are not judged by
-// their values, and what damped point joints and attachments act on not by its momentum. Angles of pi, where
-// they jump, are left out.
+// integrators hard constraints alone, and under newmark, bdf2 and generalised_alpha contacts. Nodes of
+// surfaces that press on themselves or each other are judged by their sum, since it is not told how a
+// contact's force is shared among them; bodies in contact under symplectic_euler by their linear momentum.
+// Damped constraints are not judged by their values, and what damped point joints and attachments act on not
+// by its momentum. Angles of pi, where they jump, are left out.
 #pragma once
 
 #include <optional>

@@ -142,6 +142,7 @@ void Energy::add_contact(const ClaimedContact& c, const Sides& sides) {
   for (const auto& [k, sign] : {std::pair{a, 1.0}, std::pair{b, -1.0}})
     if (sides.inverse_mass(k, 1) == 0)
       allow(-sign * h * c.force.dot(sides.velocity(k, c.point, claim_.end)));  // is led
+  allow(-h * open.friction.dot(open.conveyed));
   terms_ += h * c.force.norm() * (slip + start.norm());
   allow(2 * open.law.friction * (std::abs(open.normal) * h + open.impulse) * open.velocity +
         (1 + open.law.friction) * slip * open.impulse);

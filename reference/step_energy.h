@@ -9,7 +9,8 @@
 //                                                 allows
 //   contacts                                      F_n times the gap told and the depth at which they begin:
 //                                                 support functions show it along the normal; friction and
-//                                                 collisions bring nothing; bodies that are led, their work
+//                                                 collisions bring nothing; bodies that are led and surfaces
+//                                                 that move along themselves, their work
 // A point that turns by h w at the lever r leaves its tangent by at most |h w|^2 r/2.
 //
 // A collision's normal velocity ends as -e of that at the step's start, e <= 1, so that F_n acts along the

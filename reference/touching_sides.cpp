@@ -5,8 +5,26 @@
 
 namespace pbd::reference {
 
+namespace {
+
+/// True if some element has both nodes.
+bool share_element(const Scene& scene, int a, int b) {
+  const auto has_both = [&]<class E>(const E& own) {
+    if constexpr (requires { own.node[0][1]; })
+      return std::any_of(own.node.begin(), own.node.end(), [&](const auto& nodes) {
+        return std::count(nodes.begin(), nodes.end(), a) > 0 && std::count(nodes.begin(), nodes.end(), b) > 0;
+      });
+    return false;
+  };
+  return std::any_of(scene.effects.begin(), scene.effects.end(),
+                     [&](const Effect& effect) { return std::visit(has_both, effect); });
+}
+
+}  // namespace
+
 bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b) {
   if (a.node == b.node) return false;
+  if (a.body < 0 && b.body < 0) return contact.nodes_touch && !share_element(scene, a.node, b.node);
   const auto both = [&](const std::array<int, 2>& pair) {
     return pair == std::array{a.body, b.body} || pair == std::array{b.body, a.body};
   };
@@ -67,6 +85,12 @@ Vec3 Sides::velocity(int k, const Vec3& point, const State& state) const {
   if (own.body < 0) return v;
   const auto& orientation = claim_.end.orientation[static_cast<std::size_t>(own.body)];
   return v + (orientation * Vec3(state.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
+}
+
+Vec3 Sides::surface_velocity(int k) const {
+  if (k >= count() || is_node(k)) return Vec3::Zero();
+  const Collider& own = contact_.collider[static_cast<std::size_t>(k)];
+  return placed(k, claim_.end).frame.rotation * own.surface_velocity;
 }
 
 double Sides::lever(int k, const Vec3& point) const {

@@ -13,7 +13,7 @@ struct Side {
   bool of_surface() const { return node < 0; }
 };
 
-/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge.
+/// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge. Nodes of one element do not.
 bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b);
 
 /// What a finding calls a pair.
@@ -33,7 +33,11 @@ class Sides {
 
   /// m/s, of the point of a side where the step ends, by the velocities of `state`.
   Vec3 velocity(int k, const Vec3& point, const State& state) const;
-  /// Largest change of that velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever 0.
+  /// m/s, of a side's surface along itself where the step ends, beside that of its points: the part of it
+  /// across a normal counts.
+  Vec3 surface_velocity(int k) const;
+  /// Largest change of a point's velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever
+  /// 0.
   double inverse_mass(int k, double lever) const;
   /// Least change of the normal velocity by an impulse of 1 N s, times 3 of a surface, whose three weights
   /// may be equal.

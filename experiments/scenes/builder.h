@@ -41,6 +41,7 @@ auto located(const std::string& where, Make make) {
 struct ContactParts {
   struct Body {
     int body, material;
+    pbd::Vec3 surface_velocity;  // m/s, in the shape's frame
   };
   std::vector<Body> bodies;
   pbd::Contact effect;                     // its nodes and triangles

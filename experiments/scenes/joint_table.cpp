@@ -22,6 +22,12 @@ JointTable::JointTable(Keys& table, Builder& scene, JointEffects& made)
 }
 
 void JointTable::read_point() {
+  if (keys.has("points_m")) {
+    if (keys.has("point_m"))
+      keys.refuse("points_m", "one place and two", "point_m, or points_m with close_s");
+    closing = {own(0, read_points()), keys.number("close_s", Range::positive)};
+    return;
+  }
   const pbd::Vec3 place = keys.vector("point_m");
   point = {own_point(0, place), own_point(1, place)};
   joint.point = point[1];

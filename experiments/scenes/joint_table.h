@@ -40,6 +40,7 @@ struct JointTable {
   std::array<Eigen::Quaterniond, 2> orientation{};
   std::array<pbd::Vec3, 2> centre{}, point{};  // m, in the world; m, in the bodies' frames
   double damping = 0;                          // s
+  std::optional<Closing<pbd::Vec3>> closing;   // of the points, in the first body's frame
 
   JointTable(Keys& table, Builder& scene, JointEffects& made);
 
@@ -75,6 +76,7 @@ struct JointTable {
     effect.bounds.back() = bounds;
   }
 
+  /// The place of both, or those of each, which close within a time.
   void read_point();
 
   /// The distance vector of the two places.

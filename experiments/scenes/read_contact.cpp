@@ -139,6 +139,7 @@ void read_contact(Keys& root, Builder& builder) {
   if (effect.thickness == 0 && !effect.triangle.empty() && !parts.bodies.empty())
     keys.refuse("thickness_m", "a number > 0 where surfaces and bodies take part: a point has no side");
   effect.surfaces_touch = keys.flag_or("surfaces_touch", effect.surfaces_touch);
+  effect.nodes_touch = keys.flag_or("nodes_touch", effect.nodes_touch);
   effect.continuous = keys.flag_or("continuous", effect.continuous);
   const auto law = read_law(keys, {});
   effect.materials = static_cast<int>(parts.materials.size());
@@ -146,9 +147,10 @@ void read_contact(Keys& root, Builder& builder) {
   read_material_pairs(keys, parts, law);
   read_apart(keys, builder);
   keys.refuse_unknown();
-  for (const auto& [body, material] : parts.bodies) {
+  for (const auto& [body, material, surface_velocity] : parts.bodies) {
     const auto& [name, shape, to_body] = builder.bodies[static_cast<std::size_t>(body)];
-    effect.collider.push_back({shape, body, {to_body.translation(), to_body.linear()}, material});
+    effect.collider.push_back(
+        {shape, body, {to_body.translation(), to_body.linear()}, material, surface_velocity});
   }
   builder.add(keys.line(), std::move(effect));
 }

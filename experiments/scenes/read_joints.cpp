@@ -48,6 +48,13 @@ void add_line(JointTable& table) {
   auto& effect = table.add<pbd::LineJoint>(table.positions());
   effect.point.push_back(table.point);
   effect.axis.push_back(table.own(0, read_axis(table.keys, "axis")));
+  if (table.closing) table.builder.script.line(effect.body.size() - 1, *table.closing);
+}
+
+void add_point(JointTable& table) {
+  auto& effect = table.add<pbd::PointJoint>(table.positions());
+  effect.point.push_back(table.point);
+  if (table.closing) table.builder.script.point(effect.body.size() - 1, *table.closing);
 }
 
 template <class Effect>
@@ -68,11 +75,15 @@ void add_distance(JointTable& table) {
                             "a rest length or compliance > 0, or a ball");
     return length;
   };
-  add_limited(table, "length_m", "max_force_n", Range::positive, {"rest_length_m", "max_force_n"}, rest,
-              [&](double length, const pbd::ForceBounds& bounds) {
+  add_limited(table, "length_m", "max_force_n", Range::positive, {"rest_length_m", "max_force_n", "close_s"},
+              rest, [&](double length, const pbd::ForceBounds& bounds) {
                 auto& effect = table.add<pbd::BodyDistance>(compliance);
                 effect.point.push_back(table.point);
                 effect.rest_length.push_back(length);
+                if (table.keys.has("close_s"))
+                  table.builder.script.length(
+                      effect.body.size() - 1,
+                      {initial - length, table.keys.number("close_s", Range::positive)});
                 table.set_bounds(effect, bounds);
               });
 }
@@ -131,7 +142,7 @@ NamedJoint read_joint(JointTable& table, const std::string& kind) {
     if (kind == "slider")
       add_line(table);
     else
-      table.add<pbd::PointJoint>(table.positions()).point.push_back(table.point);
+      add_point(table);
     if (kind == "hinge") add_axes(table, table.add<pbd::AxisJoint>(table.rotations()), "axis", "axis");
     if (kind == "universal")
       add_axes(table, table.add<pbd::PerpendicularJoint>(table.rotations()), "axis", "second_axis");

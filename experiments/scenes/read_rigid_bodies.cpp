@@ -113,13 +113,48 @@ BodyMotion read_motion(Keys& keys, const std::string& hold) {
 
 /// What touches others is the shape; `contact = false` keeps it out.
 void read_body_contact(Keys& keys, Builder& builder, bool shaped, std::int64_t copies) {
-  for (const auto* key : {"material", "contact"})
+  for (const auto* key : {"material", "contact", "surface_velocity_m_s"})
     if (!shaped && keys.has(key)) keys.refuse(key, "contact without a shape", "a body with a shape");
   const int material = builder.material(keys);
-  if (keys.has("contact")) builder.contact.mentioned = keys.where();
-  if (!shaped || !keys.flag_or("contact", true)) return;
+  for (const auto* key : {"contact", "surface_velocity_m_s"})
+    if (keys.has(key)) builder.contact.mentioned = keys.where();
+  if (!shaped || !keys.flag_or("contact", true)) {
+    if (keys.has("surface_velocity_m_s"))
+      keys.refuse("surface_velocity_m_s", "a surface that touches nothing",
+                  "a body that takes part in contact");
+    return;
+  }
+  const pbd::Vec3 surface_velocity = keys.vector_or("surface_velocity_m_s", pbd::Vec3::Zero());
   for (std::int64_t i = 0; i < copies; ++i)
-    builder.contact.bodies.push_back({static_cast<int>(builder.bodies.size() + i), material});
+    builder.contact.bodies.push_back(
+        {static_cast<int>(builder.bodies.size() + i), material, surface_velocity});
+}
+
+/// The poses of a body that is led through them, from the shape's pose `placed` on; one that leaves a place
+/// or a rotation out keeps that of the one before. `principal` takes the body's frame to the shape's.
+std::optional<PoseCourse> read_poses(Keys& keys, const std::string& hold, Eigen::Isometry3d placed,
+                                     const Eigen::Isometry3d& principal) {
+  auto tables = keys.tables("pose");
+  if (tables.empty()) return std::nullopt;
+  if (hold != "moving")
+    keys.refuse("pose", fmt::format("poses of a body with held = \"{}\"", hold), "held = \"moving\"");
+  for (const auto* key : {"velocity_m_s", "angular_velocity_rad_s", "over_time", "copies"})
+    if (keys.has(key)) keys.refuse(key, fmt::format("poses and {}", key), "one of them");
+  const auto pose = [&]() -> BodyPose {
+    const Eigen::Isometry3d body = placed * principal;
+    return {body.translation(), Eigen::Quaterniond(body.linear()).normalized()};
+  };
+  PoseCourse course(pose());
+  for (auto& table : tables) {
+    const double time = table.number("time_s", Range::positive);
+    if (!(time > course.last()))
+      table.refuse("time_s", fmt::format("the time {} after {}", time, course.last()), "times that grow");
+    placed.translation() = table.vector_or("position_m", placed.translation());
+    if (table.has("rotation_rad")) placed.linear() = read_rotation(table);
+    course.add(time, pose());
+    table.refuse_unknown();
+  }
+  return course;
 }
 
 void read_rigid_body(Keys& keys, Builder& builder) {
@@ -148,10 +183,12 @@ void read_rigid_body(Keys& keys, Builder& builder) {
   Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();  // shape's frame to world
   placed.linear() = read_rotation(keys);
   placed.translation() = keys.vector_or("position_m", pbd::Vec3::Zero());
-  keys.refuse_unknown();
   Eigen::Isometry3d principal = Eigen::Isometry3d::Identity();  // body to shape's frame
   principal.linear() = inertia.principal.axes.toRotationMatrix();
   principal.translation() = inertia.centre;
+  if (const auto course = read_poses(keys, hold, placed, principal))
+    builder.script.poses(builder.bodies.size(), *course);
+  keys.refuse_unknown();
   if (held) {
     inertia.mass = pbd::infinity;
     inertia.principal.moments.setConstant(pbd::infinity);

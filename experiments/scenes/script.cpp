@@ -55,6 +55,19 @@ void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, p
     state.v.col(node) = factor * stated.initial.v.col(node);
     state.spin.col(body) = factor * stated.initial.spin.col(body);
   }
+  for (const auto& [i, closing] : points_)
+    only<pbd::PointJoint>(scene).point[i][0] = only<pbd::PointJoint>(stated).point[i][0] + closing.left(end);
+  for (const auto& [i, closing] : lines_)
+    only<pbd::LineJoint>(scene).point[i][0] = only<pbd::LineJoint>(stated).point[i][0] + closing.left(end);
+  for (const auto& [i, closing] : lengths_)
+    only<pbd::BodyDistance>(scene).rest_length[i] =
+        only<pbd::BodyDistance>(stated).rest_length[i] + closing.left(end);
+  for (const auto& [i, course] : poses_) {
+    const int node = stated.bodies[i].node;
+    const auto [velocity, spin] = course.over(begin, end, {state.x.col(node), state.orientation[i]});
+    state.v.col(node) = velocity;
+    state.spin.col(static_cast<Eigen::Index>(i)) = spin;
+  }
 }
 
 void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {
@@ -62,7 +75,10 @@ void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {
     return (std::holds_alternative<pbd::ExternalForce>(effect) && !forces_.empty()) ||
            (std::holds_alternative<pbd::ExternalTorque>(effect) && !torques_.empty()) ||
            (std::holds_alternative<pbd::AngleJoint>(effect) && !angles_.empty()) ||
-           (std::holds_alternative<pbd::SlideJoint>(effect) && !slides_.empty());
+           (std::holds_alternative<pbd::SlideJoint>(effect) && !slides_.empty()) ||
+           (std::holds_alternative<pbd::PointJoint>(effect) && !points_.empty()) ||
+           (std::holds_alternative<pbd::LineJoint>(effect) && !lines_.empty()) ||
+           (std::holds_alternative<pbd::BodyDistance>(effect) && !lengths_.empty());
   };
   for (std::size_t i = 0; i < scene.effects.size(); ++i)
     if (follows(scene.effects[i])) workspace.change(i, scene.effects[i]);

@@ -1,11 +1,13 @@
 // What a scene file says of time: factors of forces, torques, motors' rates and the velocities of moving
 // bodies. A step takes their means over it, so that momentum, angles and places are those of the integral at
-// the end of every step, whatever the integrator.
+// the end of every step, whatever the integrator. Poses of moving bodies are met where steps end, too.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
+#include "scenes/pose_course.h"
 #include "step/step.h"
 
 namespace pbdcheck {
@@ -20,6 +22,19 @@ struct Course {
   double mean(double begin, double end) const { return (integral(end) - integral(begin)) / (end - begin); }
 };
 
+/// What joints begin apart by (m), and the time (s) in which they close: from rest to rest, at half of it by
+/// half.
+template <class Offset>
+struct Closing {
+  Offset offset;
+  double duration;
+
+  Offset left(double time) const {
+    const double share = std::min(time / duration, 1.0);
+    return (1 - share * share * (3 - 2 * share)) * offset;
+  }
+};
+
 class Script {
  public:
   /// Of entry `index` of the scene's forces, torques, angles or slides, and of a moving body.
@@ -29,24 +44,37 @@ class Script {
   void slide(std::size_t index, Course course) { slides_.push_back({index, std::move(course)}); }
   void body(std::size_t index, Course course) { bodies_.push_back({index, std::move(course)}); }
 
+  void poses(std::size_t index, PoseCourse course) { poses_.push_back({index, std::move(course)}); }
+
+  /// Of point and line joints the first body's points begin off by an offset in its frame, of distances the
+  /// rest lengths.
+  void point(std::size_t index, const Closing<pbd::Vec3>& by) { points_.push_back({index, by}); }
+  void line(std::size_t index, const Closing<pbd::Vec3>& by) { lines_.push_back({index, by}); }
+  void length(std::size_t index, const Closing<double>& by) { lengths_.push_back({index, by}); }
+
   /// `scene` as `stated` but for the step of h seconds from `state`, whose moving bodies get their
   /// velocities.
   void begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const;
 
   /// True if steps have scenes of their own, not states alone.
   bool changes_scene() const {
-    return !(forces_.empty() && torques_.empty() && angles_.empty() && slides_.empty());
+    return !(forces_.empty() && torques_.empty() && angles_.empty() && slides_.empty() && points_.empty() &&
+             lines_.empty() && lengths_.empty());
   }
 
   /// Hands what `begin_step` has set in `scene` on to a workspace of that scene.
   void hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const;
 
  private:
+  template <class C>
   struct Entry {
     std::size_t index;
-    Course course;
+    C course;
   };
-  std::vector<Entry> forces_, torques_, angles_, slides_, bodies_;
+  std::vector<Entry<Course>> forces_, torques_, angles_, slides_, bodies_;
+  std::vector<Entry<PoseCourse>> poses_;
+  std::vector<Entry<Closing<pbd::Vec3>>> points_, lines_;
+  std::vector<Entry<Closing<double>>> lengths_;
 };
 
 }  // namespace pbdcheck

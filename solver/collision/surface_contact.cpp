@@ -50,7 +50,9 @@ SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
 SurfaceTouching node_edge(const SurfaceContact& contact, const Points& x) {
   const Vec3 from = x.col(contact.node[0]) - x.col(contact.node[2]),
              f = x.col(contact.node[3]) - x.col(contact.node[2]);
-  const double squared = f.squaredNorm(), t = squared > 0 ? std::clamp(from.dot(f) / squared, 0.0, 1.0) : 0.5;
+  const double squared = f.squaredNorm(), t = squared > 0 ? std::clamp(from.dot(f) / squared, 0.0, 1.0)
+                                              : contact.of_spheres() ? 0.0
+                                                                     : 0.5;
   const Vec3 apart = from - t * f;
   SurfaceTouching found;
   found.normal = unit_or(apart, contact.toward);

@@ -8,6 +8,8 @@
 //   node 0 against edge 2 3         n from the edge's nearest point to x0, w = (1, 0, t - 1, -t); where the
 //                                   surface ends or is folded, its triangles away from the node; the nearest
 //                                   point may be an end, which is how nodes touch nodes
+//   sphere 0 against sphere 2       the same of an edge without length, nodes 2 and 3 being one, w = (1, 0,
+//                                   -1, 0), the thickness the sum of their radii
 // The sign keeps the side on which the step begins. A node and an edge have none: a node that comes out on
 // the other side within one step, by more than the thickness, goes through.
 #pragma once
@@ -30,6 +32,8 @@ struct SurfaceContact {
   double side = 1;
   Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
   double thickness = 0;        // m, at which surfaces touch
+
+  bool of_spheres() const { return kind == Kind::node_edge && node[2] == node[3]; }
 };
 
 struct SurfaceTouching {

@@ -21,7 +21,8 @@ struct ActiveContact {
   ContactPoint features;        // in the frames of its carriers
   std::array<int, 2> carrier;   // body, node or triangle of a and b
   std::array<int, 2> collider;  // as the effect counts them, nodes behind the shapes, triangles behind these;
-                                // of surfaces the node and a triangle's first one, or the edges' first ones
+                                // of surfaces (not spheres) the node and a triangle's first one, or the
+                                // edges' first ones
   int node_side = -1;           // 0 or 1 where a or b is a node
   int triangle_side = -1;       // 0 or 1 where a or b is a triangle; `triangle` then tells what of it
   TriangleFeature triangle;
@@ -39,8 +40,10 @@ struct ActiveContact {
   bool passes = false;        // its features have parted where the free motion closes its gap
   bool acts = false;          // has more of an impulse than an iterate's tolerance where that ended
   ContactLaw law;             // of its materials
-  double offset = 0;          // m, of the gap by damping
-  double compliance = 0;      // m/N, with damping's share
+  bool conveys = false;       // a surface moves along itself
+  std::array<Vec3, 2> surface_velocity{Vec3(0, 0, 0), Vec3(0, 0, 0)};  // m/s, so, in the bodies' frames
+  double offset = 0;                                                   // m, of the gap by damping
+  double compliance = 0;                                               // m/N, with damping's share
 
   std::array<int, 2> pair() const {
     return {std::min(collider[0], collider[1]), std::max(collider[0], collider[1])};
@@ -165,6 +168,14 @@ Directions<Block::rows> directions_in(const ActiveContact& contact,
   if (contact.of_surfaces && contact.surface.kind == SurfaceContact::Kind::edge_edge)
     directions += jacobian.template middleCols<3>(3);
   return directions;
+}
+
+/// Velocity of a's surface against b's by what moves along itself, in the world, m/s.
+inline Vec3 conveyed(const ActiveContact& contact, const Configuration& at) {
+  const auto own = [&](int side) -> Vec3 {
+    return frame_of(contact, side, at).rotation * contact.surface_velocity[side];
+  };
+  return own(0) - own(1);
 }
 
 /// The nodes of a contact's rows.

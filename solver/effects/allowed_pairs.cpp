@@ -5,11 +5,18 @@
 namespace pbd {
 
 AllowedPairs::AllowedPairs(const Scene& scene, const Contact& effect) : apart_(effect.apart) {
+  const auto link = [&](const auto& elements) {
+    for (const auto& nodes : elements)
+      for (const int a : nodes)
+        for (const int b : nodes) linked_.push_back({a, b});
+  };
   for (const Effect& other : scene.effects)
     std::visit(
         [&]<class E>(const E& joint) {
           if constexpr (requires { joint.body[0][1]; })
             apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
+          if constexpr (requires { joint.node[0][1]; })
+            if (effect.nodes_touch) link(joint.node);
           if constexpr (std::same_as<E, Attachment>)
             for (std::size_t i = 0; i < joint.node.size(); ++i)
               attached_.push_back({joint.node[i], joint.body[i]});
@@ -21,11 +28,16 @@ AllowedPairs::AllowedPairs(const Scene& scene, const Contact& effect) : apart_(e
     if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
   std::sort(apart_.begin(), apart_.end());
   std::sort(attached_.begin(), attached_.end());
+  std::sort(linked_.begin(), linked_.end());
 }
 
 bool AllowedPairs::bodies(int first, int second) const {
   const std::array<int, 2> pair{std::min(first, second), std::max(first, second)};
   return !std::binary_search(apart_.begin(), apart_.end(), pair);
+}
+
+bool AllowedPairs::nodes(int first, int second) const {
+  return first != second && !std::binary_search(linked_.begin(), linked_.end(), std::array{first, second});
 }
 
 bool AllowedPairs::node_and_body(int node, int body) const {

@@ -12,10 +12,14 @@ namespace {
 
 /// What the rows ask to vanish, or not to be negative, without the compliance's part, per second.
 template <class Block>
-typename Block::Value rates(const ActiveContact& contact, const typename Block::Jacobian& jacobian,
-                            double gap, const StepMap& map, const typename Block::Velocities& start_v,
-                            const typename Block::Velocities& v) {
+typename Block::Value rates(const ActiveContact& contact, const Configuration& at,
+                            const typename Block::Jacobian& jacobian, double gap, const StepMap& map,
+                            const typename Block::Velocities& start_v, const typename Block::Velocities& v) {
   typename Block::Value rate = jacobian * v;
+  if constexpr (Block::rows == 3)
+    if (contact.conveys)
+      rate.template tail<2>() +=
+          directions_in<Block>(contact, jacobian).template bottomRows<2>() * conveyed(contact, at);
   const bool collides = contact.restitution > 0;
   const double apart = (gap - (collides ? contact.rebound : contact.target) - contact.offset) / map.d;
   rate[0] = collides ? std::min(rate[0] + contact.restitution * (jacobian * start_v)[0], apart) : apart;
@@ -29,7 +33,7 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   auto& jacobian = block.jacobian[i];
   const Touching found = evaluate<Block>(contact, place.at, jacobian);
   if (place.directions != nullptr) evaluate<Block>(contact, *place.directions, jacobian);
-  const typename Block::Value rate = rates<Block>(contact, jacobian, found.gap, place.map,
+  const typename Block::Value rate = rates<Block>(contact, place.at, jacobian, found.gap, place.map,
                                                   block.gather(start_v, i), block.gather(place.v, i));
   block.bias[i] = rate - jacobian * block.gather(place.v, i);
   block.compliance[i].setZero();
@@ -56,7 +60,7 @@ ContactRows::ContactRows(const Scene& scene, const Contact& effect, Friction law
                            [](const ContactLaw& own) { return own.restitution > 0; })) {}
 
 void ContactRows::allocate(bool, BlockList& blocks) {
-  if (effect_.collider.empty() && effect_.triangle.empty()) return;
+  if (effect_.collider.empty() && effect_.triangle.empty() && !effect_.nodes_touch) return;
   RowBlock<3, 4> of_bodies;
   RowBlock<3, 3> of_nodes;
   RowBlock<3, 5> of_triangles;
@@ -80,6 +84,7 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   begin.bodies.place(free_.x, free_.pose);
   search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.v, free_.x, begin.inverse_mass);
   collided_.clear();
+  strikes_ = false;
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
   waiting_.clear();
@@ -134,7 +139,7 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
       if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
       contact.restitution = contact.law.restitution;
       collided_.emplace(contact.pair(), contact.features.key);
-      any = true;
+      any = strikes_ = true;
     }
   });
   return any;
@@ -167,8 +172,8 @@ void ContactRows::perturb(const RowError& error, BlockSpan blocks, Points& push)
       const typename Block::Value before = block.bias[i] + block.jacobian[i] * block.gather(error.v, i);
       const typename Block::Velocities moved =
           block.gather(error.v, i) + error.scale * block.gather(error.error, i);
-      const typename Block::Value after =
-          rates<Block>(contacts[i], jacobian, found.gap, error.map, block.gather(start_v_, i), moved);
+      const typename Block::Value after = rates<Block>(contacts[i], error.turned, jacobian, found.gap,
+                                                       error.map, block.gather(start_v_, i), moved);
       block.bias[i] = (after - before) / error.scale - block.jacobian[i] * block.gather(error.error, i);
       block.bounds[i].freedom = block.impulse[i][0] > 0 ? Freedom::free : Freedom::held;
       block.impulse[i].setZero();
@@ -187,11 +192,12 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       std::array<int, 2> collider = contacts[i].collider;
       for (const int side : {0, 1}) {
         if (side == contacts[i].triangle_side) collider[side] = first_node + contacts[i].triangle.node[0];
-        if (contacts[i].of_surfaces) collider[side] += first_node;
+        if (contacts[i].of_surfaces && !contacts[i].surface.of_spheres()) collider[side] += first_node;
       }
       const auto acting = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
       const Vec3 normal = acting.row(0);
       Vec3 slip = directions_in<Full>(contacts[i], jacobian).transpose() * (jacobian * block.gather(v, i));
+      if (contacts[i].conveys) slip += conveyed(contacts[i], at);
       slip -= normal.dot(slip) * normal;
       forces.push_back({collider, place_of(contacts[i], found), normal,
                         acting.transpose() * block.impulse[i] / map.h, slip, found.gap});

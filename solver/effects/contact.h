@@ -8,20 +8,22 @@
 //               u(v_l) by a body's spin in its own axes: what rolls sinks by the curvature of its path if it
 //               is kept from approaching alone. The gap may then be the one to which that speed leads from
 //               x0: with newmark and alpha = 1/2 energy is kept for e = 1
-//   tangential  t_j . u(v), two directions across n that follow it
+//   tangential  t_j . (u(v) + s), two directions across n that follow it, s the velocity at which surfaces
+//               that move along themselves go against each other
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
 //
 // Features are those of the step's beginning, and of its end where something overlaps there or a contact has
 // left its features: one that touches where its shapes are not (left_contacts.cpp) acts no more in the step.
 //
 // Limits: impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they
-// turn nothing together. Nodes do not touch nodes. Deformable surfaces touch each other by nodes over
-// triangles and edges that cross, where the nearest points lie on them as the step begins; the side is the
-// one on which it begins. What overlaps from the start stays on the wrong side; a node that comes over an
-// edge or a corner within a step is held by whatever else is near. Bodies touch each triangle half a
-// thickness from it, by all features of both; features that triangles share count once, and where a body is
-// nearer to a triangle beside them, not at all. `thickness` should be well below the shortest edge; a crease
-// so sharp that its triangles are nearer than that parts them by force, and such steps may not converge.
+// turn nothing together. Nodes go through nodes that they pass in one step. Deformable surfaces touch each
+// other by nodes over triangles and edges that cross, where the nearest points lie on them as the step
+// begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side; a
+// node that comes over an edge or a corner within a step is held by whatever else is near. Bodies touch each
+// triangle half a thickness from it, by all features of both; features that triangles share count once, and
+// where a body is nearer to a triangle beside them, not at all. `thickness` should be well below the shortest
+// edge; a crease so sharp that its triangles are nearer than that parts them by force, and such steps may not
+// converge.
 //
 // What a missed step leaves overlapping, or a diverged one began with, parts by a tenth of that a step, and
 // what forces move in one, until nothing overlaps: to part at once would throw it, by all the speed that has
@@ -55,6 +57,7 @@ class ContactRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
   bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
+  bool strikes() const override { return strikes_; }
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
@@ -96,6 +99,7 @@ class ContactRows final : public Source {
   FreeEnd free_;                                                     // where the step's free motion ends
   std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
   bool bounces_ = false;                                             // some law has restitution
+  bool strikes_ = false;                                             // in this step
   bool recovering_ = false;  // from what missed steps have left overlapping
 };
 

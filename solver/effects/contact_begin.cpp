@@ -7,6 +7,18 @@
 #include "rows/row_operations.h"
 
 namespace pbd {
+namespace {
+
+/// True if it meets by the speed at which it approaches, not for what forces bring alone.
+template <class Block>
+bool hits(const Points& forced, const ActiveContact& contact, double d, double ahead, const Block& block,
+          std::size_t i) {
+  constexpr double pressed = 1e-3;  // of the speed that forces bring: what rests approaches by no more
+  if (!(contact.closing > 0) || !(ahead < 0)) return false;
+  return contact.closing * d > pressed * std::abs((block.jacobian[i] * block.gather(forced, i))[0]);
+}
+
+}  // namespace
 
 void ContactRows::keep_impulses(ConstBlockSpan blocks) {
   seeds_.clear();
@@ -67,6 +79,7 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.target = contact.late ? std::min(contact.target, recovered) : recovered;
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
+  strikes_ = strikes_ || hits(shifts.forced, contact, begin.map.d, ahead, block, i);
   const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
   const bool meets = closes && meets_freely(begin, contact, gap, ahead);
   contact.passes = closes && !meets;

@@ -59,6 +59,8 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
 bool ContactSearch::may_touch(int first, int second) const {
   const int body = motions_[first].carrier;  // nodes and triangles stand behind bodies
   const Motion& two = motions_[second];
+  if (motions_[first].kind == Carrier::node)
+    return two.kind == Carrier::node && allowed_.nodes(body, two.carrier);
   if (two.kind == Carrier::body) return allowed_.bodies(body, two.carrier);
   if (two.kind == Carrier::node) return allowed_.node_and_body(two.carrier, body);
   const auto& nodes = effect_.triangle[two.carrier];
@@ -78,6 +80,11 @@ ActiveContact ContactSearch::active(const ContactPoint& point, int first, int se
     const Motion& own = motions_[sides[side]];
     contact.carrier[side] = own.carrier;
     if (own.kind == Carrier::node) contact.node_side = side;
+    if (own.kind == Carrier::body && !effect_.collider[sides[side]].surface_velocity.isZero(0)) {
+      const Collider& collider = effect_.collider[sides[side]];
+      contact.surface_velocity[side] = collider.frame.rotation * collider.surface_velocity;
+      contact.conveys = true;
+    }
     if (own.kind != Carrier::triangle) continue;
     contact.triangle_side = side;
     contact.triangle = feature_of(point, side, triangle_, effect_.triangle[own.carrier]);
@@ -104,6 +111,7 @@ std::vector<ActiveContact>::iterator ContactSearch::late_contact(const PairFeatu
 void ContactSearch::search_pair(int first, int second, const Configuration& start) {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
+  if (one.kind == Carrier::node) return search_nodes(first, second, start.x);
   const double travel = travel_between(one, two);
   if (two.kind == Carrier::triangle) triangle_.place(corners(two, start.x));
   find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn});
@@ -117,12 +125,33 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
   near_pairs_.push_back({{first, second}, nearest, near_.size()});
 }
 
+/// Spheres of two nodes, if they are near.
+void ContactSearch::search_nodes(int first, int second, const Points& x) {
+  const Motion &one = motions_[first], &two = motions_[second];
+  ActiveContact contact;
+  contact.of_surfaces = true;
+  contact.carrier = {-1, -1};
+  contact.features.point_a = contact.features.point_b = Vec3::Zero();
+  contact.surface = {{one.carrier, one.carrier, two.carrier, two.carrier},
+                     SurfaceContact::Kind::node_edge,
+                     1,
+                     Vec3::UnitZ(),
+                     one.radius + two.radius};
+  contact.collider = {first, second};
+  contact.law = effect_.between(first, second);
+  const double gap = touching(contact.surface, x).gap;
+  if (!(contact.surface.thickness > 0) || gap > effect_.margin + travel_between(one, two)) return;
+  near_.push_back(contact);
+  near_pairs_.push_back({{first, second}, gap, near_.size()});
+}
+
 /// Of what is near, and what came to touch later, the contacts of a pair.
 void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact> near,
                              ContactLists& contacts) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const auto add = [&](const ActiveContact& contact) {
-    const std::size_t group = two.kind == Carrier::body   ? bodies_rough
+    const std::size_t group = contact.of_surfaces         ? surfaces_rough
+                              : two.kind == Carrier::body ? bodies_rough
                               : two.kind == Carrier::node ? nodes_rough
                                                           : triangles_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
@@ -164,8 +193,10 @@ void ContactSearch::search(const Configuration& start) {
     AxisBox box = box_of(motion, start.x);
     box.extend(AxisBox(box.min() + motion.course, box.max() + motion.course));
     const Vec3 slack = Vec3::Constant(motion.travel + effect_.margin);
-    // Nodes and triangles are not paired with each other here, nor bodies with themselves.
-    const int group = motion.kind == Carrier::body ? motion.carrier : -1;
+    // Nodes, where they do not touch each other, and triangles are not paired here, nor bodies with
+    // themselves.
+    const bool alone = motion.kind == Carrier::node && effect_.nodes_touch;
+    const int group = motion.kind == Carrier::body ? motion.carrier : alone ? -2 - motion.carrier : -1;
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
   auto before = pairs_before_.begin();

@@ -171,6 +171,7 @@ class ContactSearch {
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
   void search_pair(int first, int second, const Configuration& start);
+  void search_nodes(int first, int second, const Points& x);
   void add_pair(const NearPair& pair, std::span<const ActiveContact> near, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;
   std::vector<ActiveContact>::iterator late_contact(const PairFeatures& features);
@@ -178,7 +179,6 @@ class ContactSearch {
   /// Sets `found_`; a triangle is the one that was placed last.
   void find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
                    const Reach& reach);
-
   /// m, with the frames of the pair in the order of the colliders.
   static double gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second);
 

@@ -19,19 +19,23 @@ struct ContactLaw {
   bool operator==(const ContactLaw&) const = default;
 };
 
-/// A shape that may touch others, in a frame of its rigid body.
+/// A shape that may touch others, in a frame of its rigid body. Its surface may move along itself, as a
+/// conveyor's does: by the part across a contact's normal of a velocity in the shape's frame (m/s).
 struct Collider {
   Shape shape;
   int body = 0;
   Frame frame{};
   int material = 0;
+  Vec3 surface_velocity = Vec3::Zero();
 };
 
 /// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
 /// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`,
 /// and with colliders at half of it, which is not 0 then. Two colliders of one body, of bodies that a joint
 /// connects, or of bodies named in `apart` do not touch, nor does a node, or a triangle of it, the body that
-/// it is attached to. `law` has an entry for each pair of materials, row by row of a symmetric table. Gaps g
+/// it is attached to; nodes touch each other with `nodes_touch` alone, but not those of one link, hinge,
+/// triangle or tetrahedron. `law` has an entry for each pair of materials, row by row of a symmetric table.
+/// Gaps g
 /// >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery` (m/s).
 /// Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved step
 /// colliders do not pass through colliders, nodes and triangles that they begin apart from either, on
@@ -52,6 +56,7 @@ struct Contact {
   double recovery = infinity;
   bool continuous = false;
   bool surfaces_touch = true;
+  bool nodes_touch = false;
 
   /// Of the material of collider, node or triangle k, each behind the ones before.
   int material(std::size_t k) const {

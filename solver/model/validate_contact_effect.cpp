@@ -64,6 +64,8 @@ void validate_collider(const EffectCheck& check, const Collider& collider, std::
   REQUIRE(rotation.allFinite() && off <= unit_slack && rotation.determinant() > 0,
           check.at(i, "frame rotation"), "a matrix of determinant " + text(rotation.determinant()),
           "a rotation: columns of length 1 at right angles");
+  REQUIRE(collider.surface_velocity.allFinite(), check.at(i, "surface velocity"),
+          text(collider.surface_velocity), "finite numbers, m/s");
 }
 
 }  // namespace

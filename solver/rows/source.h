@@ -176,6 +176,9 @@ class Source {
   /// to collide, collide: true if there is any.
   virtual bool collide(ConstBlockSpan, const Points& /*v*/, double /*accuracy*/) { return false; }
 
+  /// True if the step, as far as it is known, has an impact: velocities jump.
+  virtual bool strikes() const { return false; }
+
   /// Finds rows anew where the solved step went farther than was thought of, or where something overlaps that
   /// no row tells of; they are to be linearised again then.
   virtual Widened widen(const StepBegin&, const Configuration& /*reached*/, BlockSpan) { return Widened::no; }

@@ -22,6 +22,22 @@ bool History::is_where_it_ended(const State& state) const {
          std::equal(state.orientation.begin(), state.orientation.end(), ended_.orientation.begin(), same);
 }
 
+/// What impulses of contacts have brought as the last step ended.
+void History::find_pressed(bool goes_on, const StepSystem& system) {
+  if (!system.rows.contacts || integrator_->keeps == Keeps::nothing) return;
+  pressed_.setZero(3, system.problem.bodies.columns());
+  if (!goes_on) return;
+  for (const Slot& slot : system.slots)
+    if (slot.source->kind().contacts)
+      apply_impulses(slot.view(system.rows), system.problem.inverse_mass, pressed_);
+}
+
+/// True if velocities jump in the step, so that it is no part of a smooth motion.
+bool History::strikes(const StepSystem& system) const {
+  return integrator_->begins_anew && std::any_of(system.slots.begin(), system.slots.end(),
+                                                 [](const Slot& slot) { return slot.source->strikes(); });
+}
+
 /// q_l and a_l of the step that begins.
 void History::carry_on(double h, bool goes_on, StepSystem& system) {
   const Problem& problem = system.problem;
@@ -37,21 +53,20 @@ void History::carry_on(double h, bool goes_on, StepSystem& system) {
     return;
   }
   q_ += (system.at.v - problem.map.v_free) / problem.map.s;
-  if (system.rows.contacts) {  // they act as the step ends alone
-    impulse_.setZero(3, q_.cols());
-    for (const Slot& slot : system.slots)
-      if (slot.source->kind().contacts)
-        apply_impulses(slot.view(system.rows), problem.inverse_mass, impulse_);
-    q_ -= impulse_ / problem.map.s;
-  }
   if (c.a_v > 0) a_ = (system.at.v - v_ - c.a_a * a_) / c.a_v;
+  if (pressed_.cols() > 0) {
+    q_ -= pressed_ / problem.map.s;
+    if (c.a_v > 0) a_ -= pressed_ / c.a_v;
+  }
   // a_l is the acceleration at an instant apart from t_l, in proportion to the step.
   if (h != h_) a_ = q_ + h / h_ * (a_ - q_);
 }
 
-void History::set_map(double h, bool goes_on, Problem& problem) {
-  problem.coefficients = integrator_->coefficients(
-      {problem.method, h, goes_on ? h_ : infinity, goes_on || !problem.hard_constraints});
+void History::set_map(double h, bool goes_on, StepSystem& system) {
+  Problem& problem = system.problem;
+  const bool unknown_forces = problem.hard_constraints || (system.rows.contacts && integrator_->begins_anew);
+  problem.coefficients =
+      integrator_->coefficients({problem.method, h, goes_on ? h_ : infinity, goes_on || !unknown_forces});
   const StepCoefficients& c = problem.coefficients;
   StepMap& map = problem.map;
   map.d = c.d;
@@ -62,11 +77,13 @@ void History::set_map(double h, bool goes_on, Problem& problem) {
   problem.x_time = problem.start_time + h / c.extension;
   if (c.x_v != 0) map.x0 += c.x_v * problem.start_v;
   if (c.x_a != 0) map.x0 += c.x_a * a_;
+  if (c.x_a != 0 && pressed_.cols() > 0) map.x0 += c.x_a / h_ * pressed_;
   if (c.v_q != 0) map.v_free += c.v_q * q_;
   if (c.v_a != 0) map.v_free += c.v_a * a_;
   if (c.before != 0) {
     map.x0 += c.before * (problem.start_x - x_);
     map.v_free += c.before * (problem.start_v - v_);
+    if (pressed_.cols() > 0) map.v_free -= c.before * pressed_;
   }
 }
 
@@ -88,9 +105,15 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
     for (const Slot& slot : system.slots)
       slot.source->add_compliant_forces(problem.start(), problem.start_v, problem.inverse_mass,
                                         acceleration_);
+  find_pressed(goes_on, system);
   if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
-  set_map(h, goes_on, problem);
-  if (begin_sources(system)) ++system.rows.generation;
+  set_map(h, goes_on, system);
+  bool others = begin_sources(system);
+  if (goes_on && strikes(system)) {
+    set_map(h, false, system);
+    others |= begin_sources(system);
+  }
+  if (others) ++system.rows.generation;
   h_ = 0;  // until the step has ended
   if (integrator_->keeps == Keeps::nothing) return;
   x_ = problem.start_x;
@@ -167,7 +190,7 @@ void History::end_step(double h, const StepSystem& system, bool missed, State& s
     problem.bodies.end(end_x_, end_v_, state);
   }
   state.time += h;
-  if (integrator_->keeps != Keeps::nothing) h_ = h;
+  if (integrator_->keeps != Keeps::nothing) h_ = strikes(system) ? 0 : h;
   keep_end(system, state);
 }
 

@@ -57,8 +57,8 @@ const std::vector<Integrator>& integrators() {
       {"implicit_euler", 1, "order 1", implicit_euler, Keeps::nothing, false, true},
       {"newmark", 1, "order 1, 2 with alpha = 0.5; alpha, or beta and gamma", newmark, Keeps::accelerations,
        false, true},
-      {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations},
-      {"bdf2", 2, "order 2", bdf2, Keeps::states},
+      {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations, false, false, true},
+      {"bdf2", 2, "order 2", bdf2, Keeps::states, false, false, true},
       {"midpoint", 2, "order 2, for compliant constraints", midpoint},
       {"symplectic_euler", 1, "order 1, explicit", implicit_euler, Keeps::nothing, true, true}};
   return list;

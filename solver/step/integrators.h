@@ -20,9 +20,14 @@
 //   midpoint          q and v at the middle: an implicit Euler step of h/2, carried on as far again
 //   symplectic_euler  v_l+1 = v_l + h q_l, x_l+1 = x_l + h v_l+1; hard constraints met at the end along their
 //                     directions at the start (SHAKE: ryckaert1977numerical)
+// Impulses of contacts act as a step ends: q_l, a_l and v_l-1 are those of the motion without them (the
+// smooth part of bruls2014simultaneous), but for a_l in x0, so that what rests stays at rest. To
+// generalised_alpha and bdf2 a step with an impact is one of implicit Euler, and so is the next one, which is
+// a start: nothing goes on of what jumps.
 // A first step knows the forces of compliant constraints by their value, those of hard ones not: there
-// newmark and generalised_alpha begin with implicit Euler, and so does bdf2 always; their order stays. A
-// state that is not the last step's end is a start, too, and so is what follows a diverged step.
+// newmark and generalised_alpha begin with implicit Euler, and so do, always, bdf2 and with contact
+// generalised_alpha; their order stays. A state that is not the last step's end is a start, too, and so is
+// what follows a diverged step.
 //
 // Limits: newmark with alpha below about 0.52, generalised_alpha with rho above about 0.9 and midpoint are
 // unstable with hard constraints (the trapezoidal rule on an equation of index 3); left at one outer
@@ -60,6 +65,9 @@ struct Integrator {
   Keeps keeps = Keeps::nothing;
   bool explicit_forces = false;  // compliant constraints act as given forces, hard ones along J(x_l)
   bool contact = false;          // allowed: nothing that it carries on jumps at impacts
+  bool begins_anew = false;      // at impacts, so that it allows contact, too
+
+  bool allows_contact() const { return contact || begins_anew; }
 };
 
 /// All integrators.

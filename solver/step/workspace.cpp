@@ -12,11 +12,14 @@ namespace pbd {
 namespace {
 
 void require_contact(const Integrator& integrator, const Method& method) {
-  if (!integrator.contact)
+  if (!integrator.allows_contact())
     throw SetupError("integrator", std::string(integrator.name) + " with contact",
-                     "implicit_euler, newmark by alpha or symplectic_euler");
+                     "an integrator that meets constraints where steps end: implicit_euler, newmark by "
+                     "alpha, generalised_alpha, bdf2 or symplectic_euler");
   if (method.beta && method.gamma)
-    throw SetupError("beta", "Newmark's own family with contact", "newmark by alpha");
+    throw SetupError("beta", "Newmark's own family with contact",
+                     "newmark by alpha, or generalised_alpha: places of the family may hang on accelerations "
+                     "alone, which impacts have none of");
 }
 
 double finite_mass_of(const Scene& scene) {

@@ -2,8 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "claimed_step.h"
-#include "scenes/contacts.h"
+#include "claimed_contacts.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -19,48 +18,6 @@ Step free_fall() {
   Step step(scene);
   step.end.v.col(0).z() -= h * g;
   step.move();
-  return step;
-}
-
-/// A box of 4 kg and 0.1 m height on the ground, as contacts() counts them: 0 the ground, 1 the box.
-Step box_on_ground(double friction, double speed) {
-  pbdcheck::BodyScene scene(ContactLaw{.friction = friction}, g);
-  scene.ground();
-  scene.box({0.2, 0.2, 0.1}, 4, {.position = {0, 0, 0.05}, .velocity = {speed, 0, 0}});
-  Step step(scene.finish());
-  const double drag = speed > 0 ? friction * 4 * g : 0;
-  step.end.v.col(1).x() -= h * drag / 4;
-  step.move();
-  // Friction turns the box forward: the pressure moves so far ahead that it does not turn.
-  const double ahead = drag * 0.05 / (4 * g), share = ahead / 0.2;
-  for (const double x : {-0.1, 0.1})
-    for (const double y : {-0.1, 0.1}) {
-      const double part = 0.25 + (x > 0 ? share : -share) / 2;
-      step.contacts.push_back({.collider = {1, 0},
-                               .point = step.end.x.col(1) + Vec3(x, y, -0.05),
-                               .normal = Vec3::UnitZ(),
-                               .force = {-drag * part, 0, 4 * g * part},
-                               .gap = 0});
-    }
-  return step;
-}
-
-/// Balls of 0.1 m; the first meets the second, without restitution, and both go on together.
-Step balls() {
-  pbdcheck::BodyScene scene(ContactLaw{.friction = 0}, 0);
-  scene.ball(0.1, 1, {.position = {-0.102, 0, 0}, .velocity = {1, 0, 0}});
-  scene.ball(0.1, 3, {.position = {0.1, 0, 0}});
-  Step step(scene.finish());
-  // The gap of 2 mm closes: v0 - v1 = 0.2 m/s, v0 + 3 v1 = 1 m/s.
-  const double after = 0.2;
-  step.end.v.col(0).x() = after + 0.2;
-  step.end.v.col(1).x() = after;
-  step.move();
-  step.contacts.push_back({.collider = {0, 1},
-                           .point = (step.end.x.col(0) + step.end.x.col(1)) / 2,
-                           .normal = -Vec3::UnitX(),
-                           .force = {-3 * after / h, 0, 0},
-                           .gap = 0});
   return step;
 }
 
@@ -185,73 +142,6 @@ TEST_CASE("constraints: at rest an angle is known to rounding") {
     step.forces[0] = {0};
     CHECK(refuted(step) == names);
   }
-}
-
-TEST_CASE("contacts: force, cone, slip, gap and depth") {
-  Step turned = box_on_ground(0.5, 1);
-  for (auto& contact : turned.contacts) contact.force.x() *= -1;
-  CHECK(refuted(turned) == Names{"angular momentum", "momentum", "sliding"});
-
-  Step beyond = box_on_ground(0.5, 1);
-  beyond.scene.effects.back() = [&] {
-    auto contact = std::get<Contact>(beyond.scene.effects.back());
-    contact.law[0].friction = 0.49;
-    return contact;
-  }();
-  CHECK(refuted(beyond) == Names{"friction", "sliding"});
-
-  Step idle = box_on_ground(0.5, 1);
-  idle.contacts[0].force.x() *= 0.9;  // another takes its share
-  idle.contacts[1].force.x() += 0.1 / 0.9 * idle.contacts[0].force.x();
-  CHECK(refuted(idle).count("sliding") == 1);
-
-  Step pulls = box_on_ground(0.5, 0);
-  for (const int sign : {-1, 1}) {  // two pull as others push more
-    pulls.contacts[sign < 0 ? 0 : 1].force.z() += 20 * sign;
-    pulls.contacts[sign < 0 ? 3 : 2].force.z() += 20 * sign;
-  }
-  CHECK(refuted(pulls).count("contact pulls") == 1);
-
-  Step open = balls();
-  open.contacts[0].gap = 1e-6;
-  CHECK(refuted(open) == Names{"open contact"});
-  open.contacts[0].gap = -1e-6;
-  CHECK(refuted(open) == Names{"gap told"});
-
-  Step deep = balls();  // as if they had not met
-  deep.contacts.clear();
-  deep.end.v = deep.scene.initial.v;
-  deep.move();
-  CHECK(refuted(deep) == Names{"depth"});
-}
-
-TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carries") {
-  constexpr double thickness = 0.01, radius = 0.1, fall = 0.1;  // m, m/s
-  const auto falling = [&](double gap) {
-    Scene scene;
-    add_body(scene, Vec3(0.1, 0.1, radius + thickness / 2 + gap), 2, Vec3::Constant(0.01),
-             Eigen::Quaterniond::Identity(), Vec3(0, 0, -fall));
-    Contact contact;
-    contact.thickness = thickness;
-    contact.collider.push_back({Sphere{radius}, 0});
-    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) add_node(scene, x, infinity);
-    contact.triangle.push_back({1, 2, 3});
-    scene.effects.emplace_back(contact);
-    Step step(scene);
-    step.move();
-    return step;
-  };
-  CHECK(refuted(falling(Step::h * fall + 1e-9)).empty());
-  CHECK(refuted(falling(Step::h * fall - 2e-4 * radius)) == Names{"depth"});
-
-  Step stopped = falling(Step::h * fall / 2);  // the surface takes half of the speed
-  stopped.end.v.col(0) /= 2;
-  stopped.move();
-  const Vec3 force(0, 0, 2 * fall / 2 / Step::h);
-  stopped.contacts.push_back({{0, 2}, Vec3(0.1, 0.1, 0), Vec3::UnitZ(), force, 0});
-  CHECK(refuted(stopped).empty());
-  stopped.contacts[0].force *= 1.001;
-  CHECK(refuted(stopped) == Names{"momentum"});
 }
 
 TEST_CASE("momentum: what free surfaces and bodies exchange adds up") {

@@ -112,7 +112,7 @@ TEST_CASE("soft ground carries a box's weight, sunk in by its share of it, under
   const Scene scene = build.finish();
   for (const auto& [integrator, alpha] :
        {std::pair{"implicit_euler", 1.0}, std::pair{"symplectic_euler", 1.0}, std::pair{"newmark", 0.55},
-        std::pair{"newmark", 0.75}}) {
+        std::pair{"newmark", 0.75}, std::pair{"bdf2", 1.0}, std::pair{"generalised_alpha", 1.0}}) {
     Method method = contact_method("direct");
     method.integrator = integrator;
     method.alpha = alpha;

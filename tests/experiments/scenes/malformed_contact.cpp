@@ -103,6 +103,16 @@ const std::vector<Mistake> contact_mistakes{
     {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n[[contact.apart]]\nbodies = "
                 "[\"ball\", \"third\"]\n"),
      {"scene.toml:28: contact.apart.0.bodies", "`third`, which touches nothing"}},
+    {third_body("mass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nsurface_velocity_m_s = [1, 0, 0]\n"),
+     {"scene.toml:25: rigid_body.3.surface_velocity_m_s", "contact without a shape", "a body with a shape"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\ncontact = false\n"
+                "surface_velocity_m_s = [1, 0, 0]\n"),
+     {"scene.toml:27: rigid_body.3.surface_velocity_m_s", "a surface that touches nothing"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nsurface_velocity_m_s = [1, 0]\n"),
+     {"scene.toml:26: rigid_body.3.surface_velocity_m_s"}},
+    {third_body("shape = \"sphere\"\nradius_m = 1\nmass_kg = 1\nsurface_velocity_m_s = [inf, 0, 0]\n"),
+     {"scene.toml:26: rigid_body.3.surface_velocity_m_s", "got inf", "finite"}},
+    {contact("nodes_touch = 1\n"), {"scene.toml:21: contact.nodes_touch", "got 1", "true or false"}},
     {particle("radius_m = -1\n"), {"scene.toml:25: particle.0.contact.radius_m", "got -1", ">= 0"}},
     {particle("radius = 1\n"), {"scene.toml:25: particle.0.contact.radius", "did you mean `radius_m`?"}},
     {particle("surface = true\n"), {"scene.toml:25: particle.0.contact.surface", "unknown key"}},
@@ -125,7 +135,8 @@ const std::vector<Mistake> contact_mistakes{
     {probe("body = \"ball\"\nnode = 1\n"), {"scene.toml:24: probe.0.node", "unknown key"}},
     {contact("[method]\nfriction = \"columb\"\n"),
      {"scene.toml:22: method.friction", "did you mean `coulomb`?"}},
-    {contact("[method]\nintegrator = \"bdf2\"\n"), {"integrator: got bdf2 with contact", "implicit_euler"}},
+    {contact("[method]\nintegrator = \"midpoint\"\n"),
+     {"integrator: got midpoint with contact", "implicit_euler"}},
 };
 
 }  // namespace

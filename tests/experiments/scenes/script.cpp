@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "program.h"
 #include "scenes/scene_file.h"
@@ -95,6 +96,66 @@ TEST_CASE("a moving body is where the integral of its velocities is, under every
           const Eigen::Quaterniond expected(Eigen::AngleAxisd(0.5 * length, Vec3(0.6, 0, 0.8)));
           CHECK(state.orientation[0].angularDistance(expected) < 1e-7);  // of acos near 1
         });
+  }
+}
+
+TEST_CASE("a body is led through its poses, on straight ways and the shorter turns, under every integrator") {
+  const Vec3 place[]{{1, 2, 3}, {2, 2, 3}, {2, -1, 3}};
+  const double time[]{0, 0.5, 1.7};
+  const Eigen::Quaterniond turn[]{Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Vec3::UnitZ())),
+                                  Eigen::Quaterniond(Eigen::AngleAxisd(1.2, Vec3::UnitX())),
+                                  Eigen::Quaterniond(Eigen::AngleAxisd(-2, Vec3::UnitY()))};
+  for (const std::string integrator :
+       {"implicit_euler", "newmark", "midpoint", "symplectic_euler", "bdf2", "generalised_alpha"}) {
+    INFO(integrator);
+    Vec3 last_place = place[0], last_velocity = Vec3::Zero();
+    Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  // of the body's frame in the shape's
+    bool first = true;
+    run("[[rigid_body]]\nname = \"a\"\nshape = \"box\"\nsize_m = [3, 1, 2]\nheld = \"moving\"\n"
+        "position_m = [1, 2, 3]\nrotation_rad = [0, 0, 0.2]\n"
+        "[[rigid_body.pose]]\ntime_s = 0.5\nposition_m = [2, 2, 3]\nrotation_rad = [1.2, 0, 0]\n"
+        "[[rigid_body.pose]]\ntime_s = 1.7\nposition_m = [2, -1, 3]\nrotation_rad = [0, -2, 0]\n"
+        "[[particle]]\nposition_m = [0, 0, 0]\nmass_kg = 1\n",
+        integrator, [&](const pbd::State& state) {
+          const double t = std::min(state.time, time[2]);
+          const int k = t < time[1] ? 1 : 2;
+          const double share = (t - time[k - 1]) / (time[k] - time[k - 1]);
+          CHECK((state.x.col(1) - (1 - share) * place[k - 1] - share * place[k]).norm() < 1e-12);
+          // From the last pose about one axis, by the share of the angle.
+          const Eigen::AngleAxisd whole(turn[k - 1].conjugate() * turn[k]);
+          const Eigen::Quaterniond expected =
+              turn[k - 1] * Eigen::Quaterniond(Eigen::AngleAxisd(share * whole.angle(), whole.axis()));
+          if (std::exchange(first, false)) axes = expected.conjugate() * state.orientation[0];
+          CHECK((expected * axes).angularDistance(state.orientation[0]) < 1e-7);  // of acos near 1
+          const Vec3 velocity = state.v.col(1);
+          CHECK((state.x.col(1) - last_place - course_h * velocity).norm() < 1e-12);
+          const bool within = t > course_h && t < time[2] && std::abs(t - time[1]) > 2 * course_h;
+          if (within) CHECK(velocity == last_velocity);  // to the bit: integrators go on
+          last_place = state.x.col(1);
+          last_velocity = velocity;
+        });
+    CHECK((axes.toRotationMatrix().cwiseAbs().rowwise().maxCoeff() - Vec3::Ones()).norm() < 1e-12);
+  }
+}
+
+// 1 - s^2 (3 - 2 s), s = t/T, of what parts of joints begin apart.
+TEST_CASE("joints whose parts begin apart close in their time, from rest to rest") {
+  const auto left = [](double t) {
+    const double s = std::min(t / 1.5, 1.0);
+    return 1 - s * s * (3 - 2 * s);
+  };
+  const std::string body =
+      "[[rigid_body]]\nname = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nposition_m = [3, 0.3, 0.4]\n"
+      "[[joint]]\nbodies = [\"world\", \"a\"]\nclose_s = 1.5\npoints_m = [[3, 0, 0], [3, 0.3, 0.4]]\n";
+  for (const std::string kind : {"ball\"\n", "weld\"\n", "hinge\"\naxis = [1, 0, 0]\n",
+                                 "universal\"\naxis = [1, 0, 0]\nsecond_axis = [0, 1, 0]\n",
+                                 "slider\"\naxis = [1, 0, 0]\n", "distance\"\nrest_length_m = 0.1\n"}) {
+    INFO(kind);
+    run(body + "kind = \"" + kind, "implicit_euler", [&](const pbd::State& state) {
+      const double length =
+          kind.starts_with("distance") ? 0.1 + 0.4 * left(state.time) : 0.5 * left(state.time);
+      CHECK((state.x.col(0) - Vec3(3, 0.6 * length, 0.8 * length)).norm() < 1e-9);
+    });
   }
 }
 

@@ -1,0 +1,138 @@
+// A true step with contact, made by hand, is not refuted; with one number of it changed it is, by the check
+// of that law.
+#include <catch2/catch.hpp>
+
+#include "claimed_contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+TEST_CASE("contacts: force, cone, slip, gap and depth") {
+  Step turned = box_on_ground(0.5, 1);
+  for (auto& contact : turned.contacts) contact.force.x() *= -1;
+  CHECK(refuted(turned) == Names{"angular momentum", "momentum", "sliding"});
+
+  Step beyond = box_on_ground(0.5, 1);
+  beyond.scene.effects.back() = [&] {
+    auto contact = std::get<Contact>(beyond.scene.effects.back());
+    contact.law[0].friction = 0.49;
+    return contact;
+  }();
+  CHECK(refuted(beyond) == Names{"friction", "sliding"});
+
+  Step idle = box_on_ground(0.5, 1);
+  idle.contacts[0].force.x() *= 0.9;  // another takes its share
+  idle.contacts[1].force.x() += 0.1 / 0.9 * idle.contacts[0].force.x();
+  CHECK(refuted(idle).count("sliding") == 1);
+
+  Step pulls = box_on_ground(0.5, 0);
+  for (const int sign : {-1, 1}) {  // two pull as others push more
+    pulls.contacts[sign < 0 ? 0 : 1].force.z() += 20 * sign;
+    pulls.contacts[sign < 0 ? 3 : 2].force.z() += 20 * sign;
+  }
+  CHECK(refuted(pulls).count("contact pulls") == 1);
+
+  Step open = balls();
+  open.contacts[0].gap = 1e-6;
+  CHECK(refuted(open) == Names{"open contact"});
+  open.contacts[0].gap = -1e-6;
+  CHECK(refuted(open) == Names{"gap told"});
+
+  Step deep = balls();  // as if they had not met
+  deep.contacts.clear();
+  deep.end.v = deep.scene.initial.v;
+  deep.move();
+  CHECK(refuted(deep) == Names{"depth"});
+}
+
+TEST_CASE("contacts: force, cone, slip and depth under integrators of second order") {
+  for (const std::string_view integrator : {"newmark", "bdf2", "generalised_alpha"}) {
+    INFO(integrator);
+    Step step = box_on_ground(0.5, 1);
+    step.integrator = integrator;
+    CHECK(refuted(step).empty());
+    for (auto& contact : step.contacts) contact.force.x() *= -1;
+    CHECK(refuted(step) == Names{"sliding"});
+    for (auto& contact : step.contacts) contact.force *= -1;
+    CHECK(refuted(step) == Names{"contact pulls", "friction", "sliding"});
+    Step deep = balls();
+    deep.integrator = integrator;
+    CHECK(refuted(deep).empty());
+    deep.end.x(0, 0) += 1e-3;
+    CHECK(refuted(deep) == Names{"depth"});
+  }
+}
+
+TEST_CASE("contacts: a belt drags by its slip, and brings energy") {
+  Step step = box_on_ground(0.5, 1);  // seen by who goes along with the box
+  step.scene.initial.v(0, 1) -= 1;
+  step.end.v(0, 1) -= 1;
+  step.move();
+  for (auto& contact : step.contacts) contact.point.x() -= Step::h;
+  const auto set_belt = [&](double speed) {
+    std::get<Contact>(step.scene.effects.back()).collider[0].surface_velocity.x() = speed;
+  };
+  set_belt(-1);
+  CHECK(refuted(step).empty());
+  for (const double other : {0.0, 1.0}) {
+    set_belt(other);
+    CHECK(refuted(step) == Names{"energy", "sliding"});
+  }
+}
+
+TEST_CASE("contacts: nodes that touch each other, but not those of one link") {
+  Step step = balls();
+  auto& contact = std::get<Contact>(step.scene.effects.back());
+  Scene nodes;
+  for (int i = 0; i < 2; ++i)
+    add_node(nodes, step.scene.initial.x.col(i), step.scene.mass[i], step.scene.initial.v.col(i));
+  contact.collider.clear();
+  contact.node = {0, 1};
+  contact.radius = {0.1, 0.1};
+  contact.node_material = {0, 0};
+  contact.nodes_touch = true;
+  nodes.effects = {contact};
+  Step met(nodes);
+  met.end.v = step.end.v;
+  met.move();
+  met.contacts = step.contacts;
+  CHECK(refuted(met).empty());
+  met.contacts.clear();
+  met.end.v = nodes.initial.v;
+  met.move();
+  CHECK(refuted(met) == Names{"depth"});
+  nodes.effects = {Distance{.node = {{0, 1}}, .rest_length = {0.202}, .compliance = {1e9}}, contact};
+  Step linked(nodes);
+  linked.move();
+  linked.forces[0] = {0.01 / 1e9};
+  CHECK(refuted(linked).count("depth") == 0);
+}
+
+TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carries") {
+  constexpr double thickness = 0.01, radius = 0.1, fall = 0.1;  // m, m/s
+  const auto falling = [&](double gap) {
+    Scene scene;
+    add_body(scene, Vec3(0.1, 0.1, radius + thickness / 2 + gap), 2, Vec3::Constant(0.01),
+             Eigen::Quaterniond::Identity(), Vec3(0, 0, -fall));
+    Contact contact;
+    contact.thickness = thickness;
+    contact.collider.push_back({Sphere{radius}, 0});
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) add_node(scene, x, infinity);
+    contact.triangle.push_back({1, 2, 3});
+    scene.effects.emplace_back(contact);
+    Step step(scene);
+    step.move();
+    return step;
+  };
+  CHECK(refuted(falling(Step::h * fall + 1e-9)).empty());
+  CHECK(refuted(falling(Step::h * fall - 2e-4 * radius)) == Names{"depth"});
+
+  Step stopped = falling(Step::h * fall / 2);  // the surface takes half of the speed
+  stopped.end.v.col(0) /= 2;
+  stopped.move();
+  const Vec3 force(0, 0, 2 * fall / 2 / Step::h);
+  stopped.contacts.push_back({{0, 2}, Vec3(0.1, 0.1, 0), Vec3::UnitZ(), force, 0});
+  CHECK(refuted(stopped).empty());
+  stopped.contacts[0].force *= 1.001;
+  CHECK(refuted(stopped) == Names{"momentum"});
+}

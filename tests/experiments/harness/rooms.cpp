@@ -13,8 +13,8 @@ using namespace pbdcheck::test;
 namespace {
 
 /// From what is on top to what all others may include.
-const std::vector<std::string> order{"main.cpp", "commands", "ledger", "studies",
-                                     "cones",    "harness",  "scenes", "rivals"};
+const std::vector<std::string> order{"main.cpp", "bench",   "commands", "ledger", "studies",
+                                     "cones",    "harness", "scenes",   "rivals"};
 
 std::ptrdiff_t rank(const std::string& room) {
   return std::find(order.begin(), order.end(), room) - order.begin();

@@ -141,3 +141,29 @@ TEST_CASE("balls and nodes that are thrown twenty of their sizes a step at each 
     CHECK(std::abs(state.v(0, 0) - (speed - gap / h) / 2) <= 1e-6 * speed);
   }
 }
+
+TEST_CASE("a missed step leads through nothing that it begins apart from, where ways are looked at") {
+  constexpr double h = 0.01, thickness = 0.02;
+  const double speed = GENERATE(40.0, 1000.0);  // two and fifty sizes a step
+  for (const bool continuous : {false, true}) {
+    INFO(speed << " m/s, continuous: " << continuous);
+    BodyScene build({.friction = 0.5}, 0);
+    build.fixed(Box{{thickness / 2, 1, 1}}, {.position = {0, 0, 0}});
+    const int ball = build.ball(0.1, 1, {.position = {-0.2, 0.03, 0.02}, .velocity = {speed, 1, 2}});
+    const int follower =
+        build.box({0.2, 0.2, 0.2}, 2, {.position = {-0.5, 0, 0}, .velocity = {2 * speed, 0, 0}});
+    Scene scene = build.finish();
+    std::get<Contact>(scene.effects.back()).continuous = continuous;
+    Method method;
+    method.outer = "proximal";
+    method.tolerance = 0;  // never met
+    method.max_outer = 1;
+    method.max_sweeps = 1;
+    State state = scene.initial;
+    Workspace workspace(scene, method);
+    CHECK(step(workspace, h, state).status == Status::not_converged);
+    for (int k = 0; k < 2; ++k) step(workspace, h, state);
+    const bool behind = state.x(0, ball) > 0 || state.x(0, follower) > state.x(0, ball);
+    CHECK(behind == !continuous);
+  }
+}

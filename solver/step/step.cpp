@@ -187,14 +187,13 @@ void StepRun::restrain() {
 /// back again, soon where it began.
 void StepRun::hold_back() {
   constexpr int patience = 20;
-  std::vector<double> share;
   for (int k = 0;; ++k) {
-    share.assign(static_cast<std::size_t>(w.system.problem.bodies.columns()), 1.0);
-    if (!w.history.hold_back(w.system, share)) return;
+    w.share.assign(static_cast<std::size_t>(w.system.problem.bodies.columns()), 1.0);
+    if (!w.history.hold_back(w.system, w.share)) return;
     if (k >= patience)
-      for (double& each : share)
+      for (double& each : w.share)
         if (each < 1) each = 0;
-    if (!w.restraint.shorten(w.system, share)) return;
+    if (!w.restraint.shorten(w.system, w.share)) return;
     forget(w.outer);
     measure_here();
   }

@@ -31,6 +31,8 @@ def growth(frame):
     """Of each scene and part, times for each unit of size and the number of iterations over the size, relative to the smallest scene."""
     scenes = list(dict.fromkeys(frame["scene"]))
     parts = [part for part in dict.fromkeys(frame["part"]) if part in ("falls", "strikes")]
+    if not parts:
+        return None
     fig, axes = panels(len(scenes) * len(parts), columns=len(scenes), height=2.0)
     slowest = []
     for ax, (part, scene) in zip(axes, [(part, scene) for part in parts for scene in scenes]):

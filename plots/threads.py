@@ -4,7 +4,7 @@ from common import figure, footnote, panels
 from finding import finding, guide
 from selecting import good
 from styles import BLUE, ORANGE, style
-from wording import number, span
+from wording import counted, number, span
 
 
 @figure("threads", "gain", table="sweeps")
@@ -22,7 +22,7 @@ def steps(frame):
 def gains(frame, bar, what):
     several = good(frame[frame["threads"] > 1], "speedup")
     scenes = list(frame["scene"].unique())
-    most = frame["threads"].max()
+    most = several["threads"].max() if len(several) else 1
     fig, axes = panels(len(scenes), columns=2, height=1.0 + 0.25 * frame[bar].nunique(), sharey=True)
     for ax, scene in zip(axes, scenes):
         here = several[(several["scene"] == scene) & (several["threads"] == most)]
@@ -35,7 +35,7 @@ def gains(frame, bar, what):
     axes[0].invert_yaxis()
     finding(fig, f"{number(most)} threads {what} {span(several['speedup'])} times as fast as one; "
             f"{(several['same_bits'] == 1).sum()} of {len(several)} runs end in the same bits" if len(several)
-            else "One processor: no run on several threads")
+            else f"None of {counted(len(frame), 'run')} is on several threads")
     return fig
 
 
@@ -44,17 +44,18 @@ def bandwidth(frame):
     """The bytes a second that sweeps move at least, beside what copying memory moves."""
     rows = good(frame, "share_of_copy")
     scenes = list(frame["scene"].unique())
+    most = rows["threads"].max() if len(rows) else 1
     fig, axes = panels(len(scenes), columns=2, height=2.6, sharey=True)
     for ax, scene in zip(axes, scenes):
         here = rows[rows["scene"] == scene]
         names = list(dict.fromkeys(here["relaxation"]))
-        for shift, threads, color in ((-0.18, 1, BLUE), (0.18, here["threads"].max(), ORANGE)):
+        for shift, threads, color in ((-0.18, 1, BLUE), (0.18, most, ORANGE)):
             own = here[here["threads"] == threads]
             places = [names.index(name) + shift for name in own["relaxation"]]
             ax.barh(places, own["share_of_copy"], height=0.32, color=color, label=f"{number(threads)} thread" + "s" * (threads > 1))
             for place, value in zip(places, own["share_of_copy"]):
                 ax.text(value, place, f" {number(value)}", va="center", fontsize=6.5)
-            if threads == here["threads"].max() == 1:
+            if most == 1:
                 break
         ax.set_yticks(range(len(names)), names)
         guide(ax, 1, "copying", horizontal=False)
@@ -63,7 +64,8 @@ def bandwidth(frame):
     axes[0].invert_yaxis()
     axes[0].legend(loc="lower right")
     one = rows[rows["threads"] == 1]["share_of_copy"]
-    finding(fig, f"On one thread a sweep moves its bytes at {span(one)} of the speed of copying memory")
+    finding(fig, f"On one thread a sweep moves its bytes at {span(one)} of the speed of copying memory" if len(one)
+            else f"None of {counted(len(frame), 'run')} has a number")
     footnote(fig, "Bytes: the rows once, their impulses twice, each velocity in and out. What is far below copying is bound by arithmetic "
              "and by waiting for the row before.")
     return fig

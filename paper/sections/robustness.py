@@ -165,7 +165,7 @@ def passages_text(pairs):
     return (f"Of {int(said['scenes'])} scenes {int(said['hits'])} would pass if nothing stopped them. With continuous detection "
             f"{int(said['passed_ok'])} of {counted(int(said['steps_ok']), 'solved step')} pass. Without it {int(alone['passed_ok'])} of "
             f"{int(alone['steps_ok'])} do, so that the judge sees what passes. But {counted(int(said['steps_missed']), 'step')} miss their tolerance, and "
-            f"{int(said['passed_missed'])} of these lead through: at such speeds detection tells that a step fails; it does not stop what is fast.")
+            f"{int(said['passed_missed'])} of these lead through: what would pass in a missed step is held back on its way, so that it meets later than it should.")
 
 
 def touch_text(pairs):

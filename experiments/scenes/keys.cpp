@@ -68,11 +68,11 @@ double Keys::checked_number(const toml::node& node, std::string_view key, Range 
   return value;
 }
 
-int Keys::checked_integer(const toml::node& node, std::string_view key, int smallest) const {
+int Keys::checked_integer(const toml::node& node, std::string_view key, int smallest, int largest) const {
   const auto value = node.is_integer() ? *node.value<std::int64_t>() : std::int64_t{-1};
-  if (!node.is_integer() || value < smallest || value > std::numeric_limits<int>::max())
+  if (!node.is_integer() || value < smallest || value > largest)
     throw pbd::SetupError(where_of(&node, key), shown(node),
-                          fmt::format("an integer from {} to {}", smallest, std::numeric_limits<int>::max()));
+                          fmt::format("an integer from {} to {}", smallest, largest));
   return static_cast<int>(value);
 }
 
@@ -84,8 +84,8 @@ double Keys::number_or(std::string_view key, double fallback, Range range) {
   return has(key) ? number(key, range) : fallback;
 }
 
-int Keys::integer_or(std::string_view key, int fallback, int smallest) {
-  return has(key) ? checked_integer(*find(key), key, smallest) : fallback;
+int Keys::integer_or(std::string_view key, int fallback, int smallest, int largest) {
+  return has(key) ? checked_integer(*find(key), key, smallest, largest) : fallback;
 }
 
 bool Keys::flag_or(std::string_view key, bool fallback) {

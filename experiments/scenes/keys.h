@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,7 +34,8 @@ class Keys {
 
   double number(std::string_view key, Range range);
   double number_or(std::string_view key, double fallback, Range range);
-  int integer_or(std::string_view key, int fallback, int smallest);
+  int integer_or(std::string_view key, int fallback, int smallest,
+                 int largest = std::numeric_limits<int>::max());
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::vector<std::string> texts(std::string_view key, std::size_t size);
@@ -83,7 +85,8 @@ class Keys {
   const toml::node* find(std::string_view key);
   const toml::node& need(std::string_view key, std::string_view allowed);
   double checked_number(const toml::node& node, std::string_view key, Range range) const;
-  int checked_integer(const toml::node& node, std::string_view key, int smallest) const;
+  int checked_integer(const toml::node& node, std::string_view key, int smallest,
+                      int largest = std::numeric_limits<int>::max()) const;
   pbd::Vec3 checked_vector(const toml::node& node, std::string_view key) const;
   const toml::array& need_array(std::string_view key, std::string_view allowed);
   std::string where_of(const toml::node* node, std::string_view key) const;

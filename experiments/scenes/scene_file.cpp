@@ -44,11 +44,8 @@ pbd::Method read_method(Keys& keys, pbd::Method method) {
   method.max_sweeps = keys.integer_or("max_sweeps", method.max_sweeps, 1);
   method.inner_tolerance = keys.number_or("inner_tolerance", method.inner_tolerance, Range::not_negative);
   method.warm_start = keys.flag_or("warm_start", method.warm_start);
-  method.threads = keys.integer_or("threads", method.threads, 1);
-  method.memory = keys.integer_or("memory", method.memory, 0);
-  constexpr int most_memory = 1000;
-  if (method.memory > most_memory)
-    keys.refuse("memory", std::to_string(method.memory), fmt::format("0 to {} iterates", most_memory));
+  method.threads = keys.integer_or("threads", method.threads, 1, 256);
+  method.memory = keys.integer_or("memory", method.memory, 0, 1000);
   method.alpha = keys.number_or("alpha", method.alpha, Range::positive);
   if (keys.has("beta")) method.beta = keys.number("beta", Range::positive);
   if (keys.has("gamma")) method.gamma = keys.number("gamma", Range::positive);

@@ -200,6 +200,9 @@ class ContactSearch {
   bool begins_cut(const Pair& pair) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
+  bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
+                    const Configuration& end) const;
+  bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
   double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,

@@ -95,6 +95,35 @@ void ContactSearch::part_by_planes(const Pair& pair, const Configuration& start,
   }
 }
 
+/// True if what touches round has turned about each other by more than a right angle at `end`, and was in
+/// each other on the way by as much as that takes: no rolling, but one that passed the other.
+bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
+                                 const Configuration& end) const {
+  if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) return false;
+  const auto [first, second] = pair.collider;
+  const auto touching_after = [&](double share) {
+    const Frame one = frame_between(first, start, end, share), two = frame_between(second, start, end, share);
+    return point.swapped ? touching(point, two, one) : touching(point, one, two);
+  };
+  if (!(touching_after(0).normal.dot(touching_after(1).normal) < 0)) return false;
+  constexpr int places = 256;  // two in what is cut so deep, of a way of a hundred sizes
+  const double turned = (1 - std::sqrt(0.5)) * (point.radius_a + point.radius_b);
+  for (int k = 1; k < places; ++k)
+    if (touching_after(k / double(places)).gap < -turned) return true;
+  return false;
+}
+
+/// Sets `overlapping_` to the planes between what of a pair touches round where the step begins, and has
+/// passed at `end`; true if there are any.
+bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
+                                double slack) {
+  generate_between(pair, start, end, 0, 2 * slack);
+  std::erase_if(found_, [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
+  part_by_planes(pair, start, end, 0);
+  keep_overlapping(pair, start, end, -slack, -infinity);
+  return !overlapping_.empty();
+}
+
 /// Walks the way of a pair that begins apart. True where it touches by features that overlap at `end` by more
 /// than `allowed`, or is in each other by more than that (negative, m); sets `overlapping_` to those
 /// features, if there are any. A gap falls by no more than both travel, so that no smaller share needs to be
@@ -140,6 +169,7 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double behind = std::min(pair.deepest, -slack) - rounded;
   const double allowed = std::min(pair.least_end - rounded, behind);
   if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;
+  if (effect_.continuous && !(pair.nearest > slack) && find_passed(pair, start, end, slack)) return true;
   if (pair.left) {
     const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
     if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed)) return true;
@@ -203,8 +233,11 @@ bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, 
   for (const NearPair& near : near_pairs_) {
     const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
     const Pair pair{.collider = near.collider, .nearest = near.nearest, .overlooked = slack};
-    if (!std::isfinite(slack) || !(pair.nearest > slack)) continue;
-    if (!meets(pair, start, end, -slack, slack)) continue;
+    if (!std::isfinite(slack)) continue;
+    apart_ = 0;
+    if (!(pair.nearest > slack ? meets(pair, start, end, -slack, slack)
+                               : find_passed(pair, start, end, slack)))
+      continue;
     any = true;
     const auto lower = [&](Eigen::Index column) { share[column] = std::min(share[column], apart_); };
     for (const int collider : near.collider) {

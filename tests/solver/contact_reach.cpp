@@ -167,3 +167,33 @@ TEST_CASE("a missed step leads through nothing that it begins apart from, where 
     CHECK(behind == !continuous);
   }
 }
+
+TEST_CASE("balls that touch as the step begins do not pass through each other where ways are looked at") {
+  // Equal masses without restitution go on together: half the speed each.
+  constexpr double radius = 0.05, h = 0.01;
+  const double speed = GENERATE(20.0, 100.0, 900.0);  // two to ninety sizes a step
+  INFO(speed << " m/s");
+  BodyScene build({.friction = 0}, 0);
+  build.ball(radius, 1, {.position = {0, 0, 0}});
+  build.ball(radius, 1, {.position = {-2 * radius, 0, 0}, .velocity = {speed, 0, 0}});
+  Scene scene = build.finish();
+  std::get<Contact>(scene.effects.back()).continuous = true;
+  State state = scene.initial;
+  Workspace workspace(scene, contact_method("direct"));
+  CHECK(step(workspace, h, state).status == Status::ok);
+  CHECK(std::abs(state.v(0, 0) - speed / 2) <= 1e-6 * speed);
+  CHECK(std::abs(state.v(0, 1) - speed / 2) <= 1e-6 * speed);
+}
+
+TEST_CASE("a ball that leaves another one along their plane is not held") {
+  constexpr double radius = 0.05, h = 0.01, speed = 300;
+  BodyScene build({.friction = 0}, 0);
+  build.ball(radius, 1, {.position = {0, 0, 0}});
+  build.ball(radius, 1, {.position = {-2 * radius, 0, 0}, .velocity = {0, speed, 0}});
+  Scene scene = build.finish();
+  std::get<Contact>(scene.effects.back()).continuous = true;
+  State state = scene.initial;
+  Workspace workspace(scene, contact_method("direct"));
+  CHECK(step(workspace, h, state).status == Status::ok);
+  CHECK(std::abs(state.v(1, 1) - speed) <= 1e-6 * speed);
+}

@@ -184,10 +184,10 @@ void StepRun::restrain() {
 }
 
 /// A missed step leads through nothing whose way is looked at. What meets on the way that is left is held
-/// back again, soon where it began.
+/// back again, soon where it began; what a script leads into it is not stopped.
 void StepRun::hold_back() {
-  constexpr int patience = 20;
-  for (int k = 0;; ++k) {
+  constexpr int patience = 5, most = 2 * patience;
+  for (int k = 0; k < most; ++k) {
     w.share.assign(static_cast<std::size_t>(w.system.problem.bodies.columns()), 1.0);
     if (!w.history.hold_back(w.system, w.share)) return;
     if (k >= patience)

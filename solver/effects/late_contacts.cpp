@@ -100,7 +100,7 @@ void ContactSearch::part_by_planes(const Pair& pair, const Configuration& start,
 bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
                                  const Configuration& end) const {
   if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) return false;
-  const auto [first, second] = pair.collider;
+  const int first = pair.collider[0], second = pair.collider[1];
   const auto touching_after = [&](double share) {
     const Frame one = frame_between(first, start, end, share), two = frame_between(second, start, end, share);
     return point.swapped ? touching(point, two, one) : touching(point, one, two);

@@ -78,8 +78,8 @@ void on_one_and_two(const std::string& name, Arguments... arguments) {
 
 void register_kernels() {
   on_one_and_two("copy", copy);
-  for (const auto& [name, scene] : {std::pair{"solid", solid}, {"sheet", sheet}}) {
-    const std::string of = std::string("/") + name;
+  using MakesScene = const Scene& (*)();
+  for (const auto& [of, scene] : {std::pair<std::string, MakesScene>{"/solid", solid}, {"/sheet", sheet}}) {
     on_one_and_two("linearise" + of, linearise, scene);
     on_one_and_two("gauss_seidel" + of, sweep<GaussSeidel>, scene);
     on_one_and_two("coloured_gauss_seidel" + of, sweep<ColouredGaussSeidel>, scene);

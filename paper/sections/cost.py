@@ -169,19 +169,38 @@ def threads(results):
             Figure("threads_steps", "How many times as fast whole steps are on all threads."),
             Figure("threads_bandwidth", "The bytes a second that a sweep moves at least, as a share of what copying memory moves on as many "
                    "threads.")])
-    sweeps, steps = results.table("threads", "sweeps"), results.table("threads", "steps")
-    if sweeps is not None:
-        section.tables.append(Table(
-            "Sweeps.", ["scene", "relaxation", "threads", "ms", "million constraints/s", "share of copying", "times as fast", "same bits"],
-            [[f"`{r['scene']}`", f"`{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_sweep"]),
-              number(1e-6 * r["constraints"] / r["wall_s_per_sweep"]), number(r["share_of_copy"]), number(r["speedup"]),
-              "yes" if r["same_bits"] == 1 else "no"] for _, r in sweeps.iterrows()], first=True))
-    if steps is not None:
-        section.tables.append(Table(
-            "Whole steps.", ["scene", "method", "threads", "ms a step", "times as fast", "same bits"],
-            [[f"`{r['scene']}`", f"`{r['outer']}`, `{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_step"]),
-              number(r["speedup"]), "yes" if r["same_bits"] == 1 else "no"] for _, r in steps.iterrows()], first=True))
-    return section
+    section.tell(results.table("threads", "sweeps"), sweeps_text, sweeps_table)
+    return section.tell(results.table("threads", "steps"), steps_table)
+
+
+def sweeps_text(sweeps):
+    """What several threads gain, which sweeps stay far below copying, and what the chunks cost one thread."""
+    several, one = (sweeps[rows] for rows in (sweeps["threads"] > 1, sweeps["threads"] == 1))
+    least = one.loc[one["share_of_copy"].idxmin()]
+    times = one.pivot_table("wall_s_per_sweep", "scene", "relaxation", sort=False)
+    chunks = (f" On one thread `coloured_gauss_seidel` takes {span(times['coloured_gauss_seidel'] / times['gauss_seidel'])} times as long as "
+              "`gauss_seidel`." if {"coloured_gauss_seidel", "gauss_seidel"} <= set(times) else "")
+    return ((f"Several threads sweep {span(several['speedup'])} times as fast as one. " if len(several) else "")
+            + f"One thread moves its bytes at {span(one['share_of_copy'])} of the speed of copying; the slowest is `{least['relaxation']}` in "
+            f"`{least['scene']}`.{chunks}")
+
+
+def sweeps_table(sweeps):
+    return Table(
+        "Sweeps.", ["scene", "relaxation", "threads", "ms", "million constraints/s", "share of copying", "times as fast", "same bits"],
+        [[f"`{r['scene']}`", f"`{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_sweep"]),
+          number(1e-6 * r["constraints"] / r["wall_s_per_sweep"]), number(r["share_of_copy"]), number(r["speedup"]),
+          yes(r["same_bits"])] for _, r in sweeps.iterrows()], first=True)
+
+
+def steps_table(steps):
+    return Table("Whole steps.", ["scene", "method", "threads", "ms a step", "times as fast", "same bits"],
+                 [[f"`{r['scene']}`", f"`{r['outer']}`, `{r['relaxation']}`", f"{r['threads']:.0f}", number(1e3 * r["wall_s_per_step"]),
+                   number(r["speedup"]), yes(r["same_bits"])] for _, r in steps.iterrows()], first=True)
+
+
+def yes(flag):
+    return "yes" if flag == 1 else "no"
 
 
 def frame_scaling(results):

@@ -124,10 +124,8 @@ Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   const bool to_all = rows.contacts && curvature > shared * square_;
   const double length = std::min(-slope / curvature, to_all ? infinity : length_to_bounds(rows));
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
-    Nothing nothing;
-    add_each(block, nothing, [&](std::size_t i, Nothing&) {
-      block.impulse[i] += length * entries(direction_, block, first_row, i);
-    });
+    each_own(block,
+             [&](std::size_t i) { block.impulse[i] += length * entries(direction_, block, first_row, i); });
   });
   each_columns(rows.threads, v.cols(), [&](Eigen::Index first, Eigen::Index count) {
     v.middleCols(first, count) += length * velocity_.middleCols(first, count);

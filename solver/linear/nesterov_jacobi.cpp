@@ -19,8 +19,7 @@ void NesterovJacobi::begin(Rows& rows, const Points& v, bool fresh) {
   // The velocities of the previous impulses along the new directions; a fresh start has no previous impulses.
   std::size_t first_row = 0;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    Nothing nothing;
-    add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+    each_scattered(block, [&](std::size_t i) {
       auto previous = entries(previous_, block, first_row, i);
       if (fresh)
         previous = block.impulse[i];

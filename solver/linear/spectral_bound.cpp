@@ -10,8 +10,7 @@ double SpectralBound::power_step(const Rows& rows) {
   velocity_.setZero();
   std::size_t first_row = 0;
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    Nothing nothing;
-    add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+    each_scattered(block, [&](std::size_t i) {
       block.apply(rows.inverse_mass, i, entries(vector_, block, first_row, i), velocity_);
     });
     first_row += block.size() * Block::rows;

@@ -32,10 +32,10 @@ struct Chunks {
   std::vector<int> colour_of;        // scratch: of each chunk
 };
 
-/// Constraints of a chunk, of so many of so many bytes: 64 kB of rows, which take some ten times as long as
-/// to begin a task, or 16 kB of contacts with friction, each of which takes several times as long; of many
-/// constraints so many that there are 128 chunks, since memory is read the faster the longer it goes on, and
-/// longer chunks have fewer neighbours.
+/// Constraints of a chunk, of so many of so many bytes: 64 kB of rows, which take longer than to begin a
+/// task, or 16 kB of contacts with friction, each of which takes longer than other rows. Of many constraints
+/// so many that there are 128 chunks: memory is read the faster the longer it goes on, and longer chunks have
+/// fewer neighbours.
 inline std::size_t chunk_length(std::size_t constraints, std::size_t bytes, bool friction) {
   constexpr std::size_t least_bytes = 65536, least_with_friction = 16384, most_chunks = 128;
   return std::max((friction ? least_with_friction : least_bytes) / bytes,
@@ -82,6 +82,20 @@ void add_each(Block& block, Sum& total, F&& f) {
     sum = own;
   };
   add_parts(block.chunks.threads, count, total, range);
+}
+
+/// add_scattered of f(i), which has no sum.
+template <class Block, class F>
+void each_scattered(Block& block, F&& f) {
+  Nothing nothing;
+  add_scattered(block, nothing, [&](std::size_t i, Nothing&) { f(i); });
+}
+
+/// add_each of f(i), which has no sum.
+template <class Block, class F>
+void each_own(Block& block, F&& f) {
+  Nothing nothing;
+  add_each(block, nothing, [&](std::size_t i, Nothing&) { f(i); });
 }
 
 }  // namespace pbd

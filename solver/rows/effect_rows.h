@@ -64,8 +64,7 @@ class EffectRows final : public Source {
                           std::vector<double>& added_mass) const override {
     for (const AnyBlock& any : blocks) {
       const auto& block = std::get<Block>(any);
-      Nothing nothing;
-      add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+      each_scattered(block, [&](std::size_t i) {
         const std::size_t entry = block.entry(i);
         const auto bound = C::geometric_bound(effect_, entry, local_at(effect_, entry, block.node[i], at),
                                               factor * block.impulse[i]);
@@ -77,8 +76,7 @@ class EffectRows final : public Source {
   void perturb(const RowError& error, BlockSpan blocks, Points& push) const override {
     for (AnyBlock& any : blocks) {
       auto& block = std::get<Block>(any);
-      Nothing nothing;
-      add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+      each_scattered(block, [&](std::size_t i) {
         Value value;
         Jacobian jacobian;
         evaluate(block, i, error.turned, value, jacobian);
@@ -143,8 +141,7 @@ class EffectRows final : public Source {
     if constexpr (requires { C::weighted_deformation(effect_, 0, {}); })
       for (const AnyBlock& any : blocks) {
         const auto& block = std::get<Block>(any);
-        Nothing nothing;
-        add_scattered(block, nothing, [&](std::size_t i, Nothing&) {
+        each_scattered(block, [&](std::size_t i) {
           const Eigen::Matrix3d own =
               C::weighted_deformation(effect_, block.entry(i), positions_of(block.node[i], x));
           for (const int node : block.node[i]) deformation[node] += own;
@@ -259,11 +256,10 @@ class EffectRows final : public Source {
     const auto share_of = [&](std::size_t entry) {  // (1 + T/d)^-1
       return inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
     };
-    const Square common = block.size() == 0 ? Square() : share_of(block.entry(0));
+    const Square common = C::one_material && block.size() > 0 ? share_of(block.entry(0)) : Square();
     block.offset.resize(block.size());
     block.begin_value.resize(block.size());
-    Nothing nothing;
-    add_each(block, nothing, [&](std::size_t i, Nothing&) {
+    each_own(block, [&](std::size_t i) {
       const std::size_t entry = block.entry(i);
       Value value, ahead, behind;
       Jacobian unused;

@@ -89,9 +89,7 @@ void scale_hard_biases(Rows& rows, double factor) {
 
 void apply_impulses(std::span<const AnyBlock> blocks, const std::vector<double>& inverse_mass, Points& v) {
   for_each_block(blocks, [&](const auto& block) {
-    Nothing nothing;
-    add_scattered(block, nothing,
-                  [&](std::size_t i, Nothing&) { block.apply(inverse_mass, i, block.impulse[i], v); });
+    each_scattered(block, [&](std::size_t i) { block.apply(inverse_mass, i, block.impulse[i], v); });
   });
 }
 

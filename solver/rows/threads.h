@@ -1,12 +1,13 @@
 // Work on several threads, divided so that no result depends on how many there are: into tasks whose number
 // follows from the work alone, and whose sums are added in their order. OpenMP runs them: it comes with the
-// compiler, needs no pool of ours, and its static loops are all that is asked for; what oneTBB adds, work
-// stealing among nested tasks, nothing here uses.
+// compiler, and loops over independent tasks are all that is asked for. What oneTBB adds, work stealing among
+// nested tasks, nothing here uses.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace pbd {
 
@@ -54,8 +55,8 @@ struct Sums : std::array<double, N> {
   }
 };
 
-inline constexpr std::size_t columns_together =
-    4096;  // 100 kB of velocities: far more work than a task's start
+/// Of a task: 100 kB of velocities take far longer than to begin one.
+inline constexpr std::size_t columns_together = 4096;
 
 /// f(first, count, sum) for ranges of columns.
 template <class Sum, class F>

@@ -116,7 +116,8 @@ SizedScene cow(int level, const std::filesystem::path& directory) {
   const std::filesystem::path file = directory / fmt::format("cow_{}.msh", mesh.tets.size());
   write_file(file, text_of(mesh));
   SizedScene scene{
-      read_scene_file(file_of("flexible_cow"), {fmt::format("solid.0.file=\"{}\"", file.string())})};
+      read_scene_file(file_of("flexible_cow"),
+                      {fmt::format("solid.0.file=\"{}\"", std::filesystem::absolute(file).string())})};
   scene.size = std::ssize(mesh.tets);
   return scene;
 }

@@ -18,8 +18,7 @@ using namespace pbd;
 
 /// About 3e5 tetrahedra, 384 MB of rows.
 const Scene& solid() {
-  static const Scene scene =
-      clamped_solid(kuhn_grid({37, 37, 37}, Vec3::Ones()), {1e6, 0.3}, Strain::corotational);
+  static const Scene scene = clamped_cube(300'000);
   return scene;
 }
 

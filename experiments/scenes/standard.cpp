@@ -51,6 +51,11 @@ Scene clamped_solid(const TetMesh& mesh, const Material& material, Strain strain
   return scene;
 }
 
+Scene clamped_cube(int tets) {
+  const int cells = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 6.0))));
+  return clamped_solid(kuhn_grid({cells, cells, cells}, Vec3::Ones()), {1e6, 0.3}, Strain::corotational);
+}
+
 Scene cantilever(int cells, const Material& material, Strain strain) {
   return clamped_solid(kuhn_grid({cells, cells / 4, cells / 4}, Vec3(1, 0.25, 0.25)), material, strain);
 }

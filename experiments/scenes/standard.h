@@ -25,6 +25,9 @@ pbd::Scene clamped_solid(const pbd::TetMesh& mesh, const pbd::Material& material
 /// Beam of 1 x 1/4 x 1/4 m in cells x cells/4 x cells/4 bricks of six tetrahedra, clamped at x = 0.
 pbd::Scene cantilever(int cells, const pbd::Material& material, pbd::Strain strain);
 
+/// Cube of 1 m in bricks of six corotational tetrahedra, about so many, of 1 MPa, clamped at x = 0.
+pbd::Scene clamped_cube(int tets);
+
 /// Nodal forces (N, 3 x N); nodes of none are left out.
 pbd::ExternalForce nodal_force(const pbd::Points& loads);
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "harness/measure.h"
@@ -14,31 +13,24 @@
 #include "linear/linear_solver.h"
 #include "rows/rows.h"
 #include "scenes/standard.h"
+#include "studies/cost/repeated_seconds.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
 
-/// Seconds a sweep of `relaxation` over the rows of a step: of each repeat the smallest of three.
+/// Seconds a sweep of `relaxation` over the rows of a step, of each repeat.
 std::vector<double> sweep_seconds(LinearStep step, std::string_view relaxation) {
-  constexpr std::size_t repeats = 5, tries = 3;
-  std::vector<double> best(repeats, infinity);
+  std::vector<double> seconds;
   LinearSolver any = make_linear_solver(relaxation);
   std::visit(
       [&](auto& kind) {
         kind.begin(step.rows, step.v_free, true);
-        kind.sweep(step.rows, step.v_free, nullptr);
-        for (std::size_t k = 0; k < repeats * tries; ++k) {
-          const auto start = std::chrono::steady_clock::now();
-          kind.sweep(step.rows, step.v_free, nullptr);
-          double& smallest = best[k / tries];
-          smallest = std::min(
-              smallest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        }
+        seconds = repeated_seconds([&] { kind.sweep(step.rows, step.v_free, nullptr); });
       },
       any);
-  return best;
+  return seconds;
 }
 
 /// Of each repeat, the fitted exponent of the sizes from `first` on; times are [size][repeat].
@@ -72,12 +64,6 @@ struct Family {
 
 Scene chain_of(int links) {
   return chain(links);
-}
-
-/// Cube of about `tets` tetrahedra.
-Scene cube_of(int tets) {
-  const int cells = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 6.0))));
-  return clamped_solid(kuhn_grid({cells, cells, cells}, Vec3::Ones()), {1e6, 0.3}, Strain::corotational);
 }
 
 void scale(Context& context, Table& table, const Family& family) {
@@ -118,7 +104,7 @@ void effects_scaling(Context& context) {
   Table table = context.table("scaling", {"scene", "relaxation", "rows", "elements", "bytes",
                                           "wall_s_per_sweep", "exponent", "status", "reason"});
   scale(context, table, {"chain", {1'000, 10'000, 100'000, 300'000, 1'000'000}, 1, chain_of});
-  scale(context, table, {"solid", {1'000, 10'000, 100'000, 300'000}, 6, cube_of});
+  scale(context, table, {"solid", {1'000, 10'000, 100'000, 300'000}, 6, clamped_cube});
   table.close();
 }
 

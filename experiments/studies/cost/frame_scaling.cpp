@@ -85,7 +85,8 @@ Measured exponent_of(const std::vector<double>& x, const std::vector<double>& y)
 
 /// An exponent that falls below 0 is within any bound; a verdict's size is not negative.
 Measured not_negative(const Measured& exponent) {
-  return Measured({std::max(0.0, exponent.low), std::max(0.0, exponent.value), std::max(0.0, exponent.high)});
+  const auto cut = [](double value) { return value < 0 ? 0 : value; };  // what is no number stays so
+  return Measured({cut(exponent.low), cut(exponent.value), cut(exponent.high)});
 }
 
 struct FrameQuantity {

@@ -16,6 +16,7 @@
 #include "scenes/scene_file.h"
 #include "scenes/standard.h"
 #include "step/step.h"
+#include "studies/cost/repeated_seconds.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
@@ -24,28 +25,14 @@ namespace {
 using namespace pbd;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t repeats = 5, tries = 3;
-
-/// Seconds that f() takes: of each repeat the smallest of three, after a discarded call.
-template <class F>
-std::vector<double> seconds_of(F&& f) {
-  f();
-  std::vector<double> best(repeats, infinity);
-  for (std::size_t k = 0; k < repeats * tries; ++k) {
-    const auto start = SteadyClock::now();
-    f();
-    double& smallest = best[k / tries];
-    smallest = std::min(smallest, std::chrono::duration<double>(SteadyClock::now() - start).count());
-  }
-  return best;
-}
+constexpr std::size_t repeats = 5;  // of whole steps
 
 /// Bytes a second that copying 256 MB moves, read and written.
 double copied_bytes_per_s(int threads) {
   const Eigen::Index columns = 5'592'405;  // of 24 bytes
   const Points from = Points::Ones(3, columns);
   Points to = Points::Zero(3, columns);
-  const auto seconds = seconds_of([&] {
+  const auto seconds = repeated_seconds([&] {
     each_columns(threads, columns, [&](Eigen::Index first, Eigen::Index count) {
       to.middleCols(first, count) = from.middleCols(first, count);
     });
@@ -67,7 +54,7 @@ Swept swept(const LinearStep& step, std::string_view relaxation, int threads) {
   std::visit(
       [&](auto& kind) {
         kind.begin(rows, result.v, true);
-        result.seconds = seconds_of([&] { kind.sweep(rows, result.v, nullptr); });
+        result.seconds = repeated_seconds([&] { kind.sweep(rows, result.v, nullptr); });
       },
       any);
   return result;
@@ -93,11 +80,6 @@ struct Gains {
 
 Scene links_of(int links) {
   return cloth(static_cast<int>(std::lround(std::sqrt(links / 3.0))), true);
-}
-
-Scene solid_of(int tets) {
-  const int cells = static_cast<int>(std::lround(std::cbrt(tets / 6.0)));
-  return clamped_solid(kuhn_grid({cells, cells, cells}, Vec3::Ones()), {1e6, 0.3}, Strain::corotational);
 }
 
 void sweep_scene(Context& context, Table& table, const std::string& name, Scene scene, int cores,
@@ -205,7 +187,7 @@ void threads(Context& context) {
                  "wall_s_low", "wall_s_high", "bytes_per_s", "copied_bytes_per_s", "share_of_copy", "speedup",
                  "same_bits", "status", "reason"});
   sweep_scene(context, sweeps, "cloth", links_of(links), cores, copied, gains);
-  sweep_scene(context, sweeps, "solid", solid_of(tets), cores, copied, gains);
+  sweep_scene(context, sweeps, "solid", clamped_cube(tets), cores, copied, gains);
   Table steps = context.table(
       "steps", {"scene", "integrator", "outer", "relaxation", "threads", "first_step", "steps",
                 "wall_s_per_step", "wall_s_low", "wall_s_high", "speedup", "same_bits", "status", "reason"});

@@ -91,12 +91,14 @@ void judge_worlds(Context& context, std::int64_t count) {
     worst.add(nearest / each.allowed(), fmt::format("world {}, step {}", worlds[i], each.step));
   }
   table.close();
-  context.verdict(Basis::goal, "worlds.judged",
-                  "a step that says ok is as near to a solution that the judge finds as linear rows would be "
-                  "by its tolerance",
-                  fmt::format("distance over what the tolerances leave, of {} steps of {} worlds ({})",
-                              judged, count, worst.owner()),
-                  worst.value(), 1);
+  context.verdict(
+      Basis::goal, "worlds.judged",
+      "a step that says ok is as near to a solution that the judge finds as linear rows would be "
+      "by its tolerance",
+      fmt::format(
+          "distance over what the tolerances leave, of {} steps that the judge solves of {} worlds ({})",
+          judged, count, worst.owner()),
+      worst.value(), 1);
 }
 
 }  // namespace pbdcheck

@@ -11,10 +11,15 @@
 namespace pbd {
 namespace {
 
-constexpr double share = 1e-4;  // sigma over N_ii
 constexpr int rounds = 8;
 constexpr double under_relaxation = 0.7;  // of changes of the slips, which may overshoot
 constexpr int most_steps = 30;            // of Newton's method, in a round
+
+/// sigma over N_ii: from a tenth by half decades, the last two 1e-4. Far from a solution a small one changes
+/// the impulses so much that Newton's method ends late or not at all.
+double share_of(int round) {
+  return std::max(1e-4, std::pow(10, -1 - 0.5 * round));
+}
 
 template <class Block>
 bool moves(const Block& block, std::size_t i) {
@@ -24,7 +29,7 @@ bool moves(const Block& block, std::size_t i) {
 /// sigma + Sigma; where there are bounds one number, so that projections remain Euclidean. (A soft contact's
 /// tangential impulses then take more rounds.)
 template <class Block>
-typename Block::Square softness(const Block& block, std::size_t i) {
+typename Block::Square softness(const Block& block, std::size_t i, double share) {
   const auto identity = Block::Square::Identity();
   const double sigma = share * Block::rows / block.inverse_diagonal[i].trace();
   if (block.bounded()) return (sigma + block.compliance[i].trace()) * identity;
@@ -55,7 +60,7 @@ double AugmentedLagrangian::evaluate(const Rows& rows, const Points& v) {
   each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
     using Value = typename Block::Value;
     if (!moves(block, i)) return;
-    const typename Block::Square soft = softness(block, i), stiff = inverse_of(soft);
+    const typename Block::Square soft = softness(block, i, share_), stiff = inverse_of(soft);
     const Value anchor = anchor_.segment<Block::rows>(row);
     const Value change = -stiff * (block.residual(v, i, anchor) + slip_.segment<Block::rows>(row));
     const Value p = anchor + allowed(block, Friction::cone, i, anchor, change);
@@ -123,12 +128,16 @@ int AugmentedLagrangian::improve(Rows& rows, Points& v) {
               (block.friction[i] * block.residual(v, i, block.impulse[i]).template tail<2>().norm() -
                slip_[row]);
     });
-    factorisations += minimise(rows, v);
+    share_ = share_of(round);
+    const int steps = minimise(rows, v);
+    factorisations += steps;
+    const bool stays = round > 0 && steps == most_steps;  // what it asks for on its way is no better
     v = free_;
     each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, Eigen::Index row) {
-      block.impulse[i] = asked_.segment<Block::rows>(row);
+      if (!stays) block.impulse[i] = asked_.segment<Block::rows>(row);
       block.apply(rows.inverse_mass, i, block.impulse[i], v);
     });
+    if (stays) break;
   }
   return factorisations;
 }

@@ -4,8 +4,9 @@
 //   p_i(v) = P_i(p_i - (sigma_i + Sigma_i)^-1 (J_i v + b_i + s_i e_n + Sigma_i p_i)),   v = argmin of a
 //   convex function whose gradient is M (v - v_free) - J^T p(v),   p <- p(v),   s from the new v
 // (rockafellar1976augmented; for contact alart1991mixed; s as a fixed point: acary2011formulation). The
-// function is minimised by Newton's method with line search, which converges from anywhere; sigma_i is 1e-4
-// of N_ii: the smaller, the fewer rounds, and the worse conditioned the function.
+// function is minimised by Newton's method with line search, which converges from anywhere; the smaller
+// sigma_i is beside N_ii, the fewer rounds it takes, and the more steps Newton's method from afar: it falls
+// from round to round.
 #pragma once
 
 #include "linear/sparse_factor.h"
@@ -46,6 +47,7 @@ class AugmentedLagrangian {
   VelocitySystem system_;
   SparseMatrix matrix_;
   SparseLdlt factor_;
+  double share_ = 1;  // sigma_i over N_ii
   bool analysed_ = false;
   std::int64_t further_sweeps_ = 0;
 };

@@ -35,10 +35,12 @@ TEST_CASE("a triangle that an edge goes through crosses, one that it passes by d
   const auto standing = [](double x, double low) {
     return std::array{Vec3(x, 0.2, low), Vec3(x, 0.2, low + 1), Vec3(x + 5, 5, low + 0.5)};
   };
-  CHECK(crossing(triangles({flat, standing(0.2, 0.5)})) == 2);   // by an edge of each
-  CHECK(crossing(triangles({flat, standing(0.2, 1.1)})) == 0);   // above
-  CHECK(crossing(triangles({flat, standing(0.9, 0.5)})) == 0);   // beside
-  CHECK(crossing(triangles({flat, standing(-0.1, 0.5)})) == 1);  // by two edges of the first
+  CHECK(crossing(triangles({flat, standing(0.2, 0.5)})) == 2);                 // by an edge of each
+  CHECK(crossing(triangles({flat, standing(0.2, 1.1)})) == 0);                 // above
+  CHECK(crossing(triangles({flat, standing(0.9, 0.5)})) == 0);                 // beside
+  CHECK(crossing(triangles({flat, standing(-0.1, 0.5)})) == 1);                // by two edges of the first
+  for (const auto& [a, b, c] : {flat, std::array{flat[0], flat[2], flat[1]}})  // from both sides
+    CHECK(crossing(triangles({{a, b, c}, {Vec3(0.3, 0.1, 0), Vec3(0.3, 0.1, 2), Vec3(9, -9, 1)}})) == 2);
 }
 
 TEST_CASE("neighbours do not cross, nor surfaces that are not to touch each other") {

@@ -11,6 +11,11 @@
 
 namespace pbdcheck {
 
+/// Two things: all of both, and what is drawn in (passage.h).
+struct Pair {
+  std::array<Core, 2> whole, core;
+};
+
 struct ContactCase {
   std::string name;
   pbd::Scene scene;
@@ -25,9 +30,9 @@ struct ContactCase {
       false;  // it does not stay: a centre moves by more than 0.1 m, a thousand times what stands may
   /// Relative error of a motion that is known, after steps of h seconds.
   std::function<double(const pbd::State& end, double h, std::int64_t steps)> missed = {};
-  double exact_to = 1e-6;                                // the bound of `missed`
-  std::string_view family = {};                          // whose verdicts it has a part in
-  std::vector<std::array<Core, 2>> apart_for_ever = {};  // that must not pass through each other
+  double exact_to = 1e-6;                 // the bound of `missed`
+  std::string_view family = {};           // whose verdicts it has a part in
+  std::vector<Pair> apart_for_ever = {};  // that must not pass through each other
 };
 
 // What the scenes share.

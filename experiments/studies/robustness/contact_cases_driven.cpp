@@ -71,7 +71,10 @@ ContactCase golf_ball(double h, double duration, double away, bool continuous, i
   const Contact& contact = *contact_of(scene);
   ContactCase made{fmt::format("golf ball at 67 m/s, h = {:.2g} s", h), scene, h, duration, 2 * radius};
   made.settles = false;
-  made.apart_for_ever = {{core_of(contact.triangle), core_of(contact.collider[0], core_share)}};
+  Core skin = core_of(contact.triangle);
+  skin.radius = half_thickness;
+  made.apart_for_ever = {{{skin, core_of(contact.collider[0], 1)},
+                          {core_of(contact.triangle), core_of(contact.collider[0], core_share)}}};
   return made;
 }
 

@@ -17,8 +17,11 @@ using namespace pbd;
 
 using std::numbers::pi;
 
-std::array<Core, 2> cores(const Contact& contact, std::size_t first, std::size_t second) {
-  return {core_of(contact.collider[first], core_share), core_of(contact.collider[second], core_share)};
+Pair pair_of(const Contact& contact, std::size_t first, std::size_t second) {
+  const auto both = [&](double share) {
+    return std::array{core_of(contact.collider[first], share), core_of(contact.collider[second], share)};
+  };
+  return {both(1), both(core_share)};
 }
 
 struct Falling {
@@ -51,7 +54,7 @@ ContactCase dropped(const Falling& falling, const Below& below) {
   ContactCase made{fmt::format("{} on {}", falling.name, below.name), build.finish(), video_frame, 2,
                    falling.depth};
   made.settles = false;
-  made.apart_for_ever = {cores(build.contact(), 0, 1)};
+  made.apart_for_ever = {pair_of(build.contact(), 0, 1)};
   return made;
 }
 
@@ -63,7 +66,7 @@ ContactCase hole_on_spike() {
   build.mesh(with_relief(false, -1), 1000, {Vec3(0, 0, 0.55), Eigen::Quaterniond(0, 1, 0, 0)});
   ContactCase made{"block with a hole on a spike", build.finish(), video_frame, 1, slim};
   made.settles = false;
-  made.apart_for_ever = {cores(build.contact(), 2, 1)};
+  made.apart_for_ever = {pair_of(build.contact(), 2, 1)};
   return made;
 }
 
@@ -135,7 +138,8 @@ ContactCase thin_walls(bool meshes) {
   made.missed = [](const State& end, double, std::int64_t) {
     return (end.x.col(3) - Vec3(1 - (wall + cube) / 2, 0, 0)).norm() / cube;
   };
-  for (const std::size_t each : {0U, 1U, 2U}) made.apart_for_ever.push_back(cores(build.contact(), 3, each));
+  for (const std::size_t each : {0U, 1U, 2U})
+    made.apart_for_ever.push_back(pair_of(build.contact(), 3, each));
   return made;
 }
 

@@ -51,12 +51,20 @@ double gravity_of(const Scene& scene) {
   return 0;
 }
 
-/// True if some that are apart before a step pass through each other in it.
-bool passes(const ContactCase& each, const State& from, const State& to) {
-  return std::any_of(each.apart_for_ever.begin(), each.apart_for_ever.end(), [&](const auto& pair) {
-    return apart(each.scene, pair[0], pair[1], from) > 0 &&
-           pass_through(each.scene, pair[0], pair[1], from, to);
-  });
+/// Whether some whose cores are apart before a step pass through each other in it, and whether they begin it
+/// apart as a whole.
+struct Passing {
+  bool any = false, from_apart = false;
+};
+Passing passing(const ContactCase& each, const State& from, const State& to) {
+  Passing found;
+  for (const auto& [whole, core] : each.apart_for_ever) {
+    if (!(apart(each.scene, core[0], core[1], from) > 0)) continue;
+    if (!pass_through(each.scene, core[0], core[1], from, to)) continue;
+    found.any = true;
+    found.from_apart |= apart(each.scene, whole[0], whole[1], from) > 0;
+  }
+  return found;
 }
 
 }  // namespace
@@ -123,11 +131,11 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
     unimproved += report.status != Status::ok && !(std::max(report.primal, report.dual) < first);
     excess.add(larger(0, total_energy(scene, state) - start));
     const double crossing_now = crossings.count(state);
-    const bool passing = passes(each, before, state);
-    const bool entered = passing || crossing_now > crossing_before;
+    const Passing passes = passing(each, before, state);
+    const bool entered = passes.from_apart || crossing_now > crossing_before;
     crossing_before = crossing_now;
     crossing.add(crossing_now);
-    passed += passing;
+    passed += passes.any;
     refuted += report.status == Status::ok && (entered || checks.refuted_steps() > refuted_before);
     overlap_at_end = reaction = 0;
     for (const ContactForce& contact : workspace.contacts()) {

@@ -48,7 +48,7 @@ TEST_CASE("each gate of contact sees its own fault, and what is not a number") {
   ContactCase each = box(0.5);
   each.scene.effects.emplace_back(pbd::PointJoint{});
   std::get<pbd::Contact>(each.scene.effects[2]).triangle = {{0, 0, 0}};  // something is soft
-  each.apart_for_ever = {{Core{}, Core{}}};
+  each.apart_for_ever = {Pair{}};
   each.falls = true;
   each.lift = 0.01;
   each.reaction = 10;
@@ -143,7 +143,10 @@ TEST_CASE("what passes through a thin wall that it does not touch is seen, and w
     ContactCase each{"wall", build.finish(), 0.02, 0.02, 0.1};
     each.settles = false;
     const auto& colliders = build.contact().collider;
-    each.apart_for_ever = {{core_of(colliders[0], core_share), core_of(colliders[1], core_share)}};
+    const auto both = [&](double share) {
+      return std::array{core_of(colliders[0], share), core_of(colliders[1], share)};
+    };
+    each.apart_for_ever = {{both(1), both(core_share)}};
     CHECK(failing_of(each) == (touches ? Names{} : Names{"passes", "claims"}));
   }
 }

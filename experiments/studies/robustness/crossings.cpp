@@ -1,6 +1,7 @@
 #include "studies/robustness/crossings.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "mesh.h"
 #include "scenes/body_shapes.h"
@@ -21,9 +22,13 @@ double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 /// True if the edge from p to q goes through the triangle a, b, c.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
-  const double first = volume(p, q, a, b), second = volume(p, q, b, c), third = volume(p, q, c, a);
-  return (first > 0 && second > 0 && third > 0) || (first < 0 && second < 0 && third < 0);
+  double size = 0;  // m, whose rounding all places have
+  for (const Vec3* place : {&p, &q, &a, &b, &c}) size = std::max(size, place->cwiseAbs().maxCoeff());
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * size * size * size;
+  const auto side = [&](double of) { return of > rounding ? 1 : of < -rounding ? -1 : 0; };
+  if (side(volume(a, b, c, p)) * side(volume(a, b, c, q)) >= 0) return false;
+  const int first = side(volume(p, q, a, b));
+  return first != 0 && side(volume(p, q, b, c)) == first && side(volume(p, q, c, a)) == first;
 }
 
 Eigen::AlignedBox3d box_of(const Points& x, const Triangle& triangle) {

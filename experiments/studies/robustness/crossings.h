@@ -9,9 +9,10 @@
 namespace pbdcheck {
 
 /// Triangles of a scene's contact that edges go through, theirs and those of the shapes of bodies, or that
-/// have an edge that goes through one of those shapes: they keep a distance to each other, so that none is
-/// due to rounding. Of round shapes polyhedra inside count, of half spaces nodes below. Edges and triangles
-/// with a common node do not cross, nor do, if surfaces do not touch each other, their own.
+/// have an edge that goes through one of those shapes: they keep a distance to each other, but where nodes
+/// are held in one plane, which rounding does not let cross. Of round shapes polyhedra inside count, of half
+/// spaces nodes below. Edges and triangles with a common node do not cross, nor do, if surfaces do not touch
+/// each other, their own.
 class Crossings {
  public:
   explicit Crossings(const pbd::Scene& scene);

@@ -53,6 +53,18 @@ TEST_CASE("neighbours do not cross, nor surfaces that are not to touch each othe
   CHECK(crossing(scene) == 0);
 }
 
+TEST_CASE("edges in one plane do not cross by rounding") {
+  pbd::Scene scene = triangles({flat, {Vec3(0.3, 0, 1), Vec3(0.6, 0, 1), Vec3(0.5, -0.3, 2)}});
+  scene.initial.x(1, 3) = scene.initial.x(1, 4) = 1e-17;
+  scene.initial.x(2, 4) = 1 - 1e-16;
+  scene.initial.x(2, 3) = 1 + 4e-16;
+  CHECK(crossing(scene) == 0);
+  scene.initial.x(1, 3) = scene.initial.x(1, 4) = 1e-3;
+  scene.initial.x(2, 3) = 1 + 1e-6;
+  scene.initial.x(2, 4) = 1 - 1e-6;
+  CHECK(crossing(scene) > 0);
+}
+
 TEST_CASE("what is rigid is crossed where it stands, and half spaces below") {
   BodyScene build({});
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.5, Vec3::UnitZ()));

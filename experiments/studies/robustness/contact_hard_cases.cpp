@@ -81,6 +81,7 @@ void contact_hard_cases(Context& context) {
   std::vector<Judged> judged;
   for (const ContactCase& each : cases) {
     for (const std::string& relaxation : relaxations) {
+      if (each.family == "soft" && relaxation != relaxations[0]) continue;  // for its time
       Method method;
       method.relaxation = relaxation;
       if (relaxation != relaxations[0]) method.max_outer = 10, method.max_sweeps = 100;

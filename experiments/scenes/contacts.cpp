@@ -56,16 +56,25 @@ int BodyScene::cylinder(double radius, double length, double mass, const Placing
   return add(Cylinder{radius, length}, mass, inertia, at, material);
 }
 
-int BodyScene::hull(const ConvexHull& hull, double density, const Placing& at, int material) {
-  const MassProperties own = surface_properties(hull.surface, density);
+int BodyScene::add_filled(const Shape& shape, const TriangleMesh& surface, double density, const Placing& at,
+                          int material) {
+  const MassProperties own = surface_properties(surface, density);
   const PrincipalInertia principal = principal_inertia(own.inertia);
   const Eigen::Matrix3d axes = principal.axes.toRotationMatrix();
   Placing centre = at;
   centre.position += at.orientation * own.centre;
   centre.orientation = at.orientation * principal.axes;
-  const int body = add(hull, own.mass, principal.moments, centre, material);
+  const int body = add(shape, own.mass, principal.moments, centre, material);
   contact_.collider.back().frame = {axes.transpose() * -own.centre, axes.transpose()};
   return body;
+}
+
+int BodyScene::hull(const ConvexHull& hull, double density, const Placing& at, int material) {
+  return add_filled(hull, hull.surface, density, at, material);
+}
+
+int BodyScene::mesh(const ClosedMesh& mesh, double density, const Placing& at, int material) {
+  return add_filled(mesh, mesh.surface, density, at, material);
 }
 
 int BodyScene::ground(double angle, int material) {

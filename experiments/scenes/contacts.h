@@ -27,6 +27,7 @@ class BodyScene {
   int ball(double radius, double mass, const Placing& at, int material = 0);
   int cylinder(double radius, double length, double mass, const Placing& at, int material = 0);
   int hull(const pbd::ConvexHull& hull, double density, const Placing& at, int material = 0);
+  int mesh(const pbd::ClosedMesh& mesh, double density, const Placing& at, int material = 0);
 
   /// What is below the plane through the origin that is tilted by `angle` (rad) about y: x points downhill.
   int ground(double angle = 0, int material = 0);
@@ -40,6 +41,8 @@ class BodyScene {
 
  private:
   int add(const pbd::Shape& shape, double mass, const pbd::Vec3& inertia, const Placing& at, int material);
+  int add_filled(const pbd::Shape& shape, const pbd::TriangleMesh& surface, double density, const Placing& at,
+                 int material);
 
   pbd::Scene scene_;
   pbd::Contact contact_;

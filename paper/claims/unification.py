@@ -39,7 +39,8 @@ def three_scenes(verdicts, scenes):
 
 
 def rigid(stack, hard, bench, answers, gates, accuracy):
-    held = {name: rows["verdict"] == "holds" for name, rows in (("stack", stack), ("contact_hard_cases", hard), ("simbenchmark", bench))}
+    rigid_alone = hard[~hard["id"].str.startswith("contact_hard.soft.")]
+    held = {name: rows["verdict"] == "holds" for name, rows in (("stack", stack), ("contact_hard_cases", rigid_alone), ("simbenchmark", bench))}
     count, total = sum(rows.sum() for rows in held.values()), sum(map(len, held.values()))
     outers, laws = (joined(f"`{name}`" for name in pd.unique(pd.concat([frame[column] for frame in (answers, gates, accuracy)])) if name)
                     for column in ("outer", "friction"))

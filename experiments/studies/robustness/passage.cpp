@@ -55,9 +55,9 @@ struct PiecesOf {
 };
 
 /// A core on the way between two states.
-class Moving {
+class MovingCore {
  public:
-  Moving(const Scene& scene, const Core& core, const State& from, const State& to)
+  MovingCore(const Scene& scene, const Core& core, const State& from, const State& to)
       : core_(core), from_(from), to_(to) {
     if (core.body < 0) return;
     const auto body = static_cast<std::size_t>(core.body);
@@ -111,7 +111,7 @@ double gap_along(const Points& a, const Points& b, const Vec3& n) {
   return (n.transpose() * a).minCoeff() - (n.transpose() * b).maxCoeff();
 }
 
-bool pieces_meet(const Moving& a, std::size_t i, const Moving& b, std::size_t j) {
+bool pieces_meet(const MovingCore& a, std::size_t i, const MovingCore& b, std::size_t j) {
   const double rounded = a.radius() + b.radius();
   const auto shift_along = [&](const Vec3& n) { return a.rate(i, -n) + b.rate(j, n); };
   Points xa = a.at(i, 0), xb = b.at(j, 0);
@@ -133,7 +133,7 @@ bool pieces_meet(const Moving& a, std::size_t i, const Moving& b, std::size_t j)
 
 /// m: of a's points over the half space b.
 double least_height(const Scene& scene, const Core& a, const Core& b, const State& at) {
-  const Moving moving(scene, a, at, at), plane(scene, b, at, at);
+  const MovingCore moving(scene, a, at, at), plane(scene, b, at, at);
   const Vec3 normal = at.orientation[static_cast<std::size_t>(b.body)] * b.normal;
   double least = infinity;
   for (std::size_t i = 0; i < a.pieces(); ++i)
@@ -167,7 +167,7 @@ Core core_of(const std::vector<std::array<int, 3>>& triangles) {
 
 double apart(const Scene& scene, const Core& a, const Core& b, const State& at) {
   if (b.plane) return std::max(0.0, least_height(scene, a, b, at));
-  const Moving one(scene, a, at, at), two(scene, b, at, at);
+  const MovingCore one(scene, a, at, at), two(scene, b, at, at);
   double least = infinity;
   for (std::size_t i = 0; i < a.pieces(); ++i)
     for (std::size_t j = 0; j < b.pieces(); ++j)
@@ -177,7 +177,7 @@ double apart(const Scene& scene, const Core& a, const Core& b, const State& at) 
 
 bool pass_through(const Scene& scene, const Core& a, const Core& b, const State& from, const State& to) {
   if (b.plane) return least_height(scene, a, b, to) < -solved * (to.x - from.x).colwise().norm().maxCoeff();
-  const Moving one(scene, a, from, to), two(scene, b, from, to);
+  const MovingCore one(scene, a, from, to), two(scene, b, from, to);
   for (std::size_t i = 0; i < a.pieces(); ++i)
     for (std::size_t j = 0; j < b.pieces(); ++j)
       if (pieces_meet(one, i, two, j)) return true;

@@ -47,6 +47,8 @@ TEST_CASE("a box at rest passes all gates it is asked for") {
 TEST_CASE("each gate of contact sees its own fault, and what is not a number") {
   ContactCase each = box(0.5);
   each.scene.effects.emplace_back(pbd::PointJoint{});
+  std::get<pbd::Contact>(each.scene.effects[2]).triangle = {{0, 0, 0}};  // something is soft
+  each.apart_for_ever = {Pair{}};
   each.falls = true;
   each.lift = 0.01;
   each.reaction = 10;
@@ -69,6 +71,8 @@ TEST_CASE("each gate of contact sees its own fault, and what is not a number") {
       {&Watched::joints, {"joints", 0.00021}},
       {&Watched::lift, {"lift", 0.011}},
       {&Watched::reaction, {"reaction", 10.0001}},
+      {&Watched::crossing, {"crosses", 1}},
+      {&Watched::passed, {"passes", 1}},
       {&Watched::not_finite, {"finite", 1}},
       {&Watched::refuted, {"claims", 1}},
       {&Watched::unimproved, {"residual", 1}}};
@@ -87,6 +91,15 @@ TEST_CASE("each gate of contact sees its own fault, and what is not a number") {
   each.falls = false;
   each.stays = true;
   CHECK(failing(gates_of(each, right, fallen, 1, 0.01, 20)) == Names{"stays"});
+}
+
+TEST_CASE("an answer is held to its own bound") {
+  ContactCase each = box(0.5);
+  each.missed = [](const pbd::State&, double, std::int64_t) { return 1e-3; };
+  each.exact_to = 2e-3;
+  CHECK(failing_of(each).empty());
+  each.exact_to = 0.5e-3;
+  CHECK(failing_of(each) == Names{"answer"});
 }
 
 TEST_CASE("no claim is judged where no step says ok") {
@@ -117,4 +130,67 @@ TEST_CASE("runs that go wrong fail the gates that watch them") {
   sunk.scene.initial.x(2, 1) -= 0.05;  // it is put out in one step, at 5 m/s
   const Names out = failing_of(sunk);
   CHECK(std::count(out.begin(), out.end(), "energy") == 1);
+}
+
+TEST_CASE("what passes through a thin wall that it does not touch is seen, and what is stopped is not") {
+  for (const bool touches : {false, true}) {
+    BodyScene build({}, 0);
+    build.contact().continuous = true;
+    if (!touches) build.contact().apart = {{0, 1}};
+    build.fixed(pbd::Box{pbd::Vec3(0.002, 1, 1)}, {pbd::Vec3(0.5, 0, 0)});
+    const Placing thrown{pbd::Vec3::Zero(), Eigen::Quaterniond::Identity(), pbd::Vec3(50, 0, 0)};
+    build.box(pbd::Vec3::Constant(0.1), 1, thrown);
+    ContactCase each{"wall", build.finish(), 0.02, 0.02, 0.1};
+    each.settles = false;
+    const auto& colliders = build.contact().collider;
+    const auto both = [&](double share) {
+      return std::array{core_of(colliders[0], share), core_of(colliders[1], share)};
+    };
+    each.apart_for_ever = {{both(1), both(core_share)}};
+    CHECK(failing_of(each) == (touches ? Names{} : Names{"passes", "claims"}));
+  }
+}
+
+TEST_CASE("scripted nodes and surfaces excuse a gain of energy, soft ones do not") {
+  ContactCase each = box(0.5);
+  const auto asked = [&] {
+    for (const Gate& gate : run_contact_case(each, {}, each.h).gates)
+      if (gate.name == "energy") return gate.skipped.empty();
+    return false;
+  };
+  CHECK(asked());
+  std::get<pbd::Contact>(each.scene.effects[2]).collider[0].surface_velocity = pbd::Vec3(0.1, 0, 0);
+  CHECK(!asked());
+  std::get<pbd::Contact>(each.scene.effects[2]).collider[0].surface_velocity = pbd::Vec3::Zero();
+  const int node = pbd::add_node(each.scene, pbd::Vec3(5, 5, 5), pbd::infinity);
+  CHECK(asked());
+  each.scene.initial.v(0, node) = 1;
+  CHECK(!asked());
+}
+
+TEST_CASE("what a spring gives is no gain of energy, and a stretched link is a joint's error") {
+  ContactCase each = box(0.5);
+  each.stays = each.settles = false;
+  const int node = pbd::add_node(each.scene, pbd::Vec3(5, 5, 5), pbd::infinity);
+  const int end = pbd::add_node(each.scene, pbd::Vec3(6, 5, 5), 1);
+  each.scene.effects.emplace_back(pbd::Distance{{{node, end}}, {0.5}, {1e-4}});  // 1250 J
+  CHECK(failing_of(each).empty());
+  ContactCase hard = box(0.5);
+  hard.stays = hard.settles = false;
+  hard.scene.initial.v(2, 1) = 0;
+  const int a = pbd::add_node(hard.scene, pbd::Vec3(5, 5, 5), pbd::infinity);
+  const int b = pbd::add_node(hard.scene, pbd::Vec3(6, 5, 5), pbd::infinity);
+  hard.scene.effects.emplace_back(pbd::Distance{{{a, b}}, {0.9}, {0}});  // that nothing can mend
+  const Names names = failing_of(hard);
+  CHECK(std::count(names.begin(), names.end(), "joints") == 1);
+}
+
+TEST_CASE("the same motion in other units ends at the same place") {
+  ContactCase each = box(0.5);
+  each.scene.initial.v(0, 1) = 1;
+  each.stays = each.settles = false;
+  CHECK(failing_of(in_other_units(each, 1e3, 1e-6)).empty());
+  ContactCase other = in_other_units(each, 1e3, 1e-6);
+  other.scene.initial.v(0, 1) *= 1.001;
+  CHECK(failing_of(other) == Names{"answer"});
 }

@@ -97,7 +97,7 @@ void contact_hard_cases(Context& context) {
           return of.family == each.family && of.gate == gate.name;
         });
         if (found == judged.end()) found = judged.insert(found, {each.family, gate.name, gate.bound});
-        found->worst.add(gate.measured);
+        found->worst.add(gate.measured, each.name);
       }
       if (relaxation != relaxations[0]) continue;
       const Frontier frontier = contact_frontier(each, method, all_hold(run.gates), context.full());
@@ -111,8 +111,8 @@ void contact_hard_cases(Context& context) {
   for (const auto& [family, gate, bound, worst] : judged) {
     const std::string name = family.empty() ? "contact_hard" : fmt::format("contact_hard.{}", family);
     context.verdict(basis_of(family, gate), fmt::format("{}.{}", name, gate),
-                    fmt::format("the gate {} holds in every case that asks for it", gate), "largest measured",
-                    worst.value(), bound);
+                    fmt::format("the gate {} holds in every case that asks for it", gate),
+                    fmt::format("largest measured ({})", worst.owner()), worst.value(), bound);
   }
 }
 

@@ -8,10 +8,10 @@
 namespace pbd {
 namespace {
 
-bool any_friction(const Rows& rows) {
-  return std::any_of(rows.blocks.begin(), rows.blocks.end(), [](const AnyBlock& any) {
-    return std::visit([](const auto& block) { return block.frictional() && block.size() > 0; }, any);
-  });
+std::size_t contacts_with_friction(const Rows& rows) {
+  std::size_t count = 0;
+  for_each_block(rows.blocks, [&](const auto& block) { count += block.frictional() ? block.size() : 0; });
+  return count;
 }
 
 }  // namespace
@@ -94,11 +94,13 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
     proximal_.iterate(system, progress);
   }
   const Method& method = system.problem.method;
-  const bool last = solver_ + 1 == solvers_.size();
-  if (last || method.relaxation != ConjugateGradients::name || !any_friction(system.rows)) return;
+  const bool last = std::holds_alternative<Direct>(system.solver) || solver_ + 1 == solvers_.size();
+  const std::size_t contacts = contacts_with_friction(system.rows);
+  if (last || method.relaxation != ConjugateGradients::name || contacts == 0) return;
   spent_ = progress.sweeps - before >= method.max_sweeps ? spent_ + 1 : 0;
-  if (spent_ < most_spent) return;
-  take_solver(system, solver_ + 1);
+  const bool few = solver_ == 0 && contacts <= few_contacts;
+  if (spent_ < (few ? 1 : most_spent)) return;
+  take_solver(system, solver_ + (solver_ == 0 && !few ? 2 : 1));
   progress.other_solver = true;
 }
 

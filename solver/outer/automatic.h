@@ -2,9 +2,10 @@
 // as predicted by the last step's end and a bound of this one's, and as far as the iterates so far show; else
 // proximal. A step that surprises both predictions shows it in two slow iterations, after which it goes on as
 // proximal. Where J is taken between the step's start and end (direction_blend below 1) nothing is predicted:
-// plain, until it is slow. Where conjugate gradients spend all sweeps of three iterations in a row on
-// contacts with friction, nesterov_jacobi takes over for the rest of the step, and gauss_seidel where that
-// does, too: near sliding they may hardly get on.
+// plain, until it is slow. Where conjugate gradients spend all sweeps of an iteration on few contacts with
+// friction, direct takes over for the rest of the step. On many, whose factorisations cost more than sweeps,
+// nesterov_jacobi does after three such iterations in a row, and gauss_seidel where that spends its sweeps,
+// too: near sliding they may hardly get on.
 // The other two take over from quasi_newton for the rest of the step where it arrives, but the rounding of
 // its elimination misses the tolerance; on sheets where it stalls, or without contacts is not there after 60
 // iterations, 30 where it is far, as where much is compressed; and where an iterate asks many contacts for
@@ -43,6 +44,7 @@ class Automatic {
 
  private:
   static constexpr int most_spent = 3;
+  static constexpr std::size_t few_contacts = 200;  // direct gains with 130, and loses with 580
   static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
   struct Gain {                // of quasi_newton
@@ -62,8 +64,8 @@ class Automatic {
   bool takes_over_ = false;                  // with the next iteration
   bool leaves_ = false;                      // they do where its settling is refused
   Gain gain_;
-  // The method's solver, and those that take over from it, each from the one before.
-  std::array<LinearSolver, 3> solvers_{LinearSolver{}, NesterovJacobi{}, GaussSeidel{}};
+  // The method's solver, and those that take over from it: direct, or the others, one from the other.
+  std::array<LinearSolver, 4> solvers_{LinearSolver{}, Direct{}, NesterovJacobi{}, GaussSeidel{}};
   std::size_t solver_ = 0;  // that the step's system has; its place here is empty
   int spent_ = 0;           // iterations in a row whose sweeps were not enough
   Proximal proximal_;

@@ -74,7 +74,7 @@ double AugmentedLagrangian::evaluate(const Rows& rows, const Points& v) {
   return value;
 }
 
-int AugmentedLagrangian::minimise(const Rows& rows, Points& v) {
+AugmentedLagrangian::Minimised AugmentedLagrangian::minimise(const Rows& rows, Points& v) {
   constexpr double enough = 1e-4, settled = 1e-16, rounding = 1e-14;
   constexpr int halvings = 20;
   double value = evaluate(rows, v), first = 0;
@@ -82,11 +82,11 @@ int AugmentedLagrangian::minimise(const Rows& rows, Points& v) {
     pbd::assemble(system_.size, system_.entries, matrix_);
     if (!analysed_) factor_.analyse(matrix_);
     analysed_ = true;
-    if (!factor_.factorise(matrix_)) return count;
+    if (!factor_.factorise(matrix_)) return {count, true};
     step_ = factor_.solve(-gradient_);
     const double slope = gradient_.dot(step_);
     first = std::max(first, -slope);
-    if (!(-slope > settled * first)) return count;
+    if (!(-slope > settled * first)) return {count, true};
     const bool last = -slope <= rounding * std::abs(value);  // the value tells nothing of the next
     double next = 0, length = 1;
     bool found = false;
@@ -100,13 +100,13 @@ int AugmentedLagrangian::minimise(const Rows& rows, Points& v) {
     }
     if (!found) {
       evaluate(rows, v);  // what v asks for
-      return count;
+      return {count, true};
     }
     v = tried_;
     value = next;
-    if (last) return count;
+    if (last) return {count, true};
   }
-  return most_steps;
+  return {most_steps, false};
 }
 
 int AugmentedLagrangian::improve(Rows& rows, Points& v) {
@@ -129,9 +129,10 @@ int AugmentedLagrangian::improve(Rows& rows, Points& v) {
                slip_[row]);
     });
     share_ = share_of(round);
-    const int steps = minimise(rows, v);
-    factorisations += steps;
-    const bool stays = round > 0 && steps == most_steps;  // what it asks for on its way is no better
+    const Minimised minimised = minimise(rows, v);
+    factorisations += minimised.factorisations;
+    // What a function asks for that is not minimised is no better, but for the softest one's.
+    const bool stays = round > 0 && !minimised.ended;
     v = free_;
     each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, Eigen::Index row) {
       if (!stays) block.impulse[i] = asked_.segment<Block::rows>(row);

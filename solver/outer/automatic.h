@@ -45,7 +45,7 @@ class Automatic {
  private:
   static constexpr int most_spent = 3;
   static constexpr std::size_t few_contacts = 200;  // direct gains with 130, and loses with 580
-  static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
+  static constexpr double near = 1e-6;              // of the scale: quasi_newton has arrived
 
   struct Gain {                // of quasi_newton
     double lowest = infinity;  // residual when it last halved, sqrt(J),

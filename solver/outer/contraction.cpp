@@ -21,6 +21,14 @@ double extent(const Problem& problem) {
                   problem.bodies.largest_radius());
 }
 
+/// Of redundant contacts the errors contradict each other: a solver that factorises would
+/// try all it can, and a few sweeps tell as much.
+bool factorises_contacts(const StepSystem& system) {
+  return system.rows.contacts && (std::holds_alternative<Direct>(system.solver) ||
+                                  std::holds_alternative<SemismoothNewton>(system.solver) ||
+                                  std::holds_alternative<AugmentedLagrangian>(system.solver));
+}
+
 }  // namespace
 
 /// What one plain iteration makes of a small error at v, with the rows linearised at v: the impulses push
@@ -39,11 +47,9 @@ std::int64_t ContractionEstimate::apply_plain(StepSystem& system, Points& error)
   for (Slot& slot : system.slots) slot.source->perturb(rows_error, slot.blocks(system.rows), push_);
   add_gyroscopic(system, push_);
   error = (push_ - system.at.rebuilt) / scale;
-  // Errors of more contacts than a body needs contradict each other, and none of the solvers ends: a few
-  // sweeps tell as much as many.
-  const bool contacts = system.rows.contacts;
-  const InnerBudget rough{.max_sweeps = contacts ? 20 : 200, .relative = 1e-2};
-  LinearSolver& solver = contacts ? contacts_solver_ : system.solver;
+  const bool sweeps_instead = factorises_contacts(system);
+  const InnerBudget rough{.max_sweeps = sweeps_instead ? 20 : 200, .relative = 1e-2};
+  LinearSolver& solver = sweeps_instead ? contacts_solver_ : system.solver;
   const std::int64_t sweeps = relax(solver, system.rows, error, true, rough, nullptr);
   restore_impulses_and_biases(kept_, system.rows);
   return sweeps;

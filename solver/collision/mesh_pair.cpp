@@ -127,13 +127,14 @@ void MeshPair::crossing(int i, int j) const {
   const Nearest at = nearest({from_a, along_a, length_a}, {from_b, along_b, length_b});
   const double distance = at.apart.norm();
   const bool is_flush = distance <= flush, at_node = at.t <= 0 || at.t >= length_b;
-  if (at.s <= 0 || at.s >= length_a || (at_node && !is_flush)) return;
+  const bool at_node_of_a = at.s <= 0 || at.s >= length_a;
+  if ((at_node_of_a || at_node) && !is_flush) return;
   const Vec3 y_a = from_a + at.s * along_a, y_b = from_b + at.t * along_b;
   const auto normal_a = [&](int f) -> const Vec3& { return a.face_normal(f); };
   const auto normal_b = [&](int f) -> const Vec3& { return b.solid.faces[f].normal; };
   const Vec3 outward = normal_b(of_b.face[0]) + normal_b(of_b.face[1]);
   const bool crossed = along_a.cross(along_b).norm() >= crossing_sine;
-  if (!crossed && (distance <= tiny || at_node)) return;
+  if (!crossed && (distance <= tiny || at_node || at_node_of_a)) return;
   Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
   const bool inside = normal.dot(at.apart) < 0;
@@ -142,6 +143,7 @@ void MeshPair::crossing(int i, int j) const {
   const double slope = is_flush ? std::max(turn, flush_part) : inside ? 0 : turn;
   if (!minimum(of_b, along_b, normal, slope, normal_b)) return;
   if (!minimum(of_a, along_a, -normal, slope, normal_a)) return;
+  if (at_node_of_a && !lies_above(of_a.node[at.s <= 0 ? 0 : 1], normal)) return;
   if (at_node && !lowest_about(b, of_b.node[at.t <= 0 ? 0 : 1], -normal, slope)) return;
   if (inside && !is_flush) {
     const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {

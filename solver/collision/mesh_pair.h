@@ -39,9 +39,9 @@ struct MeshPair {
   bool lies_above(int node, const Vec3& normal) const;
   /// Writes a node that is on the mesh, on the face that a lies above; false if there is none.
   bool write_flush(int node) const;
-  /// Edges i and j where their distance has a minimum; where it is at a node of the mesh, only if edge i
-  /// touches that and the surface falls from it; `beside` and `nodes` tell of nodes that are apart. Inside,
-  /// the edges' own faces must be the nearest ones to where they cross.
+  /// Edges i and j where their distance has a minimum; at a node of either where they touch there and both
+  /// surfaces part from it: nodes that are apart `beside` and `nodes` tell of. Inside, the edges' own faces
+  /// must be the nearest ones to where they cross.
   void crossing(int i, int j) const;
   void over_faces(const Vec3& y, int node, const ContactWriter& exchanged) const;
   /// The node against a's edge e.

@@ -16,17 +16,21 @@ TEST_CASE("an edge that touches a mesh's edge is felt where that edge has a node
   };
   const TriangleMesh cube = box_surface({2, 2, 2});
   const Shape ridge = ClosedMesh(on_edge(refined(cube), 0));
-  const bool hull = GENERATE(true, false);
-  const Shape wedge = hull ? Shape(ConvexHull(on_edge(cube, 1))) : Shape(ClosedMesh(on_edge(cube, 1)));
+  const auto kind = GENERATE(as<std::string>(), "hull", "mesh", "refined mesh");
+  const TriangleMesh on_edges = on_edge(kind == "refined mesh" ? refined(cube) : cube, 1);
+  const Shape wedge = kind == "hull" ? Shape(ConvexHull(on_edges)) : Shape(ClosedMesh(on_edges));
+  const double across = GENERATE(0.0, 0.25);     // m, from the middle of the wedge
   const double along = GENERATE(0.0, 0.5, 0.3);  // m, from the middle of the ridge
   const double gap = GENERATE(0.0, 1e-17, -1e-15, 1e-12, -1e-12, 1e-7, -1e-7, 1e-4);
   const double yaw = GENERATE(0.0, 0.3);
-  const Frame at{Vec3(0.25, along, 2 + gap), Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix()};
-  const auto found = contacts(wedge, at, ridge, {}, 1e-3);
-  CHECK(!found.empty());
-  for (const auto& contact : found) {
-    const Touching t = touch(contact, at, {});
-    CHECK(std::abs(t.normal.z()) > 1 - 1e-12);
-    CHECK(t.gap == Approx(gap).margin(1e-14));
+  const Frame at{Vec3(across, along, 2 + gap), Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix()};
+  for (const bool first : {true, false}) {
+    const auto found = first ? contacts(wedge, at, ridge, {}, 1e-3) : contacts(ridge, {}, wedge, at, 1e-3);
+    CHECK(!found.empty());
+    for (const auto& contact : found) {
+      const Touching t = first ? touch(contact, at, {}) : touch(contact, {}, at);
+      CHECK(std::abs(t.normal.z()) > 1 - 1e-12);
+      CHECK(t.gap == Approx(gap).margin(1e-14));
+    }
   }
 }

@@ -6,7 +6,7 @@
 using namespace pbd;
 using namespace pbdcheck;
 
-TEST_CASE("a sweep of the augmented Lagrangian brings a pile that strikes nearer, from no impulses at all") {
+TEST_CASE("a sweep of the augmented Lagrangian brings a pile that strikes nearer from no impulses") {
   const SceneFile file = read_scene_file(scenes_folder() / "boxes_on_ground.toml");
   const auto method_of = [&](const char* settings) { return parse_method(settings, file.method, ""); };
   Workspace rough(file.scene, method_of("outer=plain max_outer=5 max_sweeps=100"));

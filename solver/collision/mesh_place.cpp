@@ -92,7 +92,8 @@ bool nearest_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshPl
 }
 
 void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshMinima& minima) {
-  auto& [found, near, seen] = minima;
+  std::vector<MeshPlace>&found = minima.found, &near = minima.near;
+  std::vector<int>& seen = minima.seen;
   const std::size_t edges = mesh.solid.edges.size();
   found.clear();
   near.clear();

@@ -56,7 +56,8 @@ def frontier(frame):
     finding(fig, f"Half of the cases pass at steps of {joined(step_text(step) + ' (' + kind + ')' for kind, step in steps.dropna().items())}"
             if steps.notna().any() else f"None of {counted(len(frame), 'case')} passes at any step",
             f"{share(len(never), len(frame))} pass at none: {some(row_names(frame)[never.index])}" if len(never) else "")
-    footnote(fig, "All cases are in the table. " + ("Without sweeps: every row is compliant. " if (swept["kind"] == UNSWEPT).any() else ""))
+    untold = drawable(swept, ["largest_step_s"]) & ~drawable(swept, ["fewest_sweeps"])
+    footnote(fig, "All cases are in the table. " + (f"Of {share(untold.sum(), len(frame))} no budget of sweeps is told. " if untold.any() else "") + ("Without sweeps: every row is compliant. " if (swept["kind"] == UNSWEPT).any() else ""))
     return fig
 
 

@@ -42,7 +42,7 @@ class AugmentedLagrangian {
 
   struct Minimised {
     int factorisations;
-    bool ended;
+    bool ended;  // as near as its rounding allows; else its steps are spent
   };
   Minimised minimise(const Rows& rows, Points& v);
 

@@ -43,9 +43,7 @@ class Automatic {
   bool takes_over() const { return takes_over_; }
 
  private:
-  static constexpr int most_spent = 3;
-  static constexpr std::size_t few_contacts = 200;  // direct gains with 130, and loses with 580
-  static constexpr double near = 1e-6;              // of the scale: quasi_newton has arrived
+  static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
   struct Gain {                // of quasi_newton
     double lowest = infinity;  // residual when it last halved, sqrt(J),
@@ -57,6 +55,7 @@ class Automatic {
   bool crowded(StepSystem& system, const Progress& progress);
   bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
+  std::size_t successor(std::size_t contacts) const;
   void take_solver(StepSystem& system, std::size_t next);
 
   std::optional<QuasiNewton> quasi_newton_;  // where it suits
@@ -64,10 +63,11 @@ class Automatic {
   bool takes_over_ = false;                  // with the next iteration
   bool leaves_ = false;                      // they do where its settling is refused
   Gain gain_;
-  // The method's solver, and those that take over from it: direct, or the others, one from the other.
+  // The method's own solver, and those that take over from it.
+  enum : std::size_t { own, direct, nesterov_jacobi, gauss_seidel };
   std::array<LinearSolver, 4> solvers_{LinearSolver{}, Direct{}, NesterovJacobi{}, GaussSeidel{}};
-  std::size_t solver_ = 0;  // that the step's system has; its place here is empty
-  int spent_ = 0;           // iterations in a row whose sweeps were not enough
+  std::size_t solver_ = own;  // that the step's system has; its place here is empty
+  int spent_ = 0;             // iterations in a row whose sweeps were not enough
   Proximal proximal_;
   GeometricMass mass_;
   int slow_changes_ = 0;  // of v in this step, in a row

@@ -21,8 +21,8 @@ double extent(const Problem& problem) {
                   problem.bodies.largest_radius());
 }
 
-/// Of redundant contacts the errors contradict each other: a solver that factorises would
-/// try all it can, and a few sweeps tell as much.
+/// True for rows with contacts, whose errors contradict each other where contacts are redundant, and a solver
+/// that would try all it can to meet them.
 bool factorises_contacts(const StepSystem& system) {
   return system.rows.contacts && (std::holds_alternative<Direct>(system.solver) ||
                                   std::holds_alternative<SemismoothNewton>(system.solver) ||
@@ -47,10 +47,12 @@ std::int64_t ContractionEstimate::apply_plain(StepSystem& system, Points& error)
   for (Slot& slot : system.slots) slot.source->perturb(rows_error, slot.blocks(system.rows), push_);
   add_gyroscopic(system, push_);
   error = (push_ - system.at.rebuilt) / scale;
+  InnerBudget rough{.max_sweeps = 200, .relative = 1e-2};
+  LinearSolver sweeping = GaussSeidel{};
   const bool sweeps_instead = factorises_contacts(system);
-  const InnerBudget rough{.max_sweeps = sweeps_instead ? 20 : 200, .relative = 1e-2};
-  LinearSolver& solver = sweeps_instead ? contacts_solver_ : system.solver;
-  const std::int64_t sweeps = relax(solver, system.rows, error, true, rough, nullptr);
+  if (sweeps_instead) rough.max_sweeps = 20;  // which cost less than one factorisation
+  const std::int64_t sweeps =
+      relax(sweeps_instead ? sweeping : system.solver, system.rows, error, true, rough, nullptr);
   restore_impulses_and_biases(kept_, system.rows);
   return sweeps;
 }

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "linear/linear_solver.h"
 #include "outer/geometric_mass.h"
 
 namespace pbd {
@@ -41,7 +40,6 @@ class ContractionEstimate {
 
   double value_ = std::nan("");
   GeometricMass mass_;
-  LinearSolver contacts_solver_ = GaussSeidel{};
   std::vector<Points> krylov_;  // orthonormal in M; the first one is what plain reduces least, if known
   bool mode_known_ = false;
   Points turned_x_, push_;

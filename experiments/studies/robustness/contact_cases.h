@@ -51,8 +51,8 @@ std::vector<ContactCase> surface_cases(bool full);
 std::vector<ContactCase> soft_cases(bool full);
 std::vector<ContactCase> driven_soft_cases(bool full);
 
-/// The same motion told in other units: lengths times `length`, masses times `mass`. It ends where the other
-/// one does, to the tolerance of each step times their number.
+/// The same motion told in other units: lengths times `length`, masses times `mass`. It ends where `each`
+/// ends by the default method with `direct`, to the tolerance of each step times their number.
 ContactCase in_other_units(const ContactCase& each, double length, double mass);
 
 /// All of them; the quick tier has fewer and smaller ones of the same kinds.

@@ -70,7 +70,9 @@ ContactCase golf_ball(double h, double duration, double away, bool continuous, i
   add_touching_solid(scene, soft_ball(cells, radius, Vec3::Zero()), 1150, {1e7, 0.45}, Strain::corotational);
   for (int node = 1; node < scene.nodes(); ++node) scene.initial.v.col(node) = Vec3(67, 0, 0);
   const Contact& contact = *contact_of(scene);
-  ContactCase made{fmt::format("golf ball at 67 m/s, h = {:.2g} s", h), scene, h, duration, 2 * radius};
+  ContactCase made{
+      fmt::format("golf ball at 67 m/s, h = {:.2g} s{}", h, continuous ? ", not against itself" : ""), scene,
+      h, duration, 2 * radius};
   made.settles = false;
   Core skin = core_of(contact.triangle);
   skin.radius = half_thickness;

@@ -24,9 +24,10 @@ struct Watched {
 
 /// The gates of a case; one that the case does not ask for is skipped. `mass` in kg, of all that moves:
 ///    finite              coordinates at the end that are not finite, and diverged steps
-///    energy              largest excess of kinetic, elastic and potential energy over the start's, as part
+///    energy              largest excess of kinetic, elastic and gravity's energy over the start's, as part
 ///    of
-///                        the start's without potential + m g L; skipped where scripted parts do work
+///                        the start's kinetic and elastic energy + m g L; skipped where scripted parts do
+///                        work
 ///    penetration         largest overlap, as part of the smallest body's size, 1e-2 while bodies strike
 ///    penetration_at_end  the same where the run ends, 1e-3
 ///    crosses             triangles of soft surfaces that cross others, or what is rigid (crossings.h)

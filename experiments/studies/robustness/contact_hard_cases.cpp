@@ -93,11 +93,12 @@ void contact_hard_cases(Context& context) {
                    run.ok, run.sweeps, std::string(gate.name), gate.measured, gate.bound,
                    std::int64_t{gate.holds()}, status, run.reason});
         if (relaxation != relaxations[0]) continue;
-        auto found = std::find_if(judged.begin(), judged.end(), [&](const Judged& of) {
+        const auto found = std::find_if(judged.begin(), judged.end(), [&](const Judged& of) {
           return of.family == each.family && of.gate == gate.name;
         });
-        if (found == judged.end()) found = judged.insert(found, {each.family, gate.name, gate.bound});
-        found->worst.add(gate.measured, each.name);
+        Judged& own =
+            found != judged.end() ? *found : judged.emplace_back(Judged{each.family, gate.name, gate.bound});
+        own.worst.add(gate.measured, each.name);
       }
       if (relaxation != relaxations[0]) continue;
       const Frontier frontier = contact_frontier(each, method, all_hold(run.gates), context.full());

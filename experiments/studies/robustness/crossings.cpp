@@ -22,9 +22,14 @@ double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 /// True if the edge from p to q goes through the triangle a, b, c.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
-  double size = 0;  // m, whose rounding all places have
-  for (const Vec3* place : {&p, &q, &a, &b, &c}) size = std::max(size, place->cwiseAbs().maxCoeff());
-  const double rounding = 64 * std::numeric_limits<double>::epsilon() * size * size * size;
+  // A volume of edges as long as `size` errs by size^2 times what places err by, which is rounding of the
+  // largest coordinate.
+  double size = 0, largest = 0;  // m
+  for (const Vec3* place : {&p, &q, &a, &b, &c}) {
+    size = std::max(size, (*place - a).norm());
+    largest = std::max(largest, place->cwiseAbs().maxCoeff());
+  }
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * largest * size * size;
   const auto side = [&](double of) { return of > rounding ? 1 : of < -rounding ? -1 : 0; };
   if (side(volume(a, b, c, p)) * side(volume(a, b, c, q)) >= 0) return false;
   const int first = side(volume(p, q, a, b));

@@ -105,7 +105,8 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
 /// Which solver goes on after the sweeps that were spent in a row on so many contacts; the same one if none.
 std::size_t Automatic::successor(std::size_t contacts) const {
   constexpr int most_spent = 3;
-  // On 27 boxes of the scene boxes_on_ground (130 contacts) direct is the quicker one, on all 125 (580) sweeps.
+  // On 27 boxes of the scene boxes_on_ground (130 contacts) direct is the quicker one, on all 125 (580)
+  // sweeps.
   constexpr std::size_t few = 200;
   if (contacts == 0 || spent_ == 0) return solver_;
   if (solver_ == own && contacts <= few) return direct;

@@ -1,6 +1,5 @@
 #include "harness/rows_of_step.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -44,11 +43,9 @@ Eigen::MatrixXd dual_matrix(const Rows& rows, const DenseRows& all) {
 }
 
 /// Symmetric; of a semidefinite matrix.
-template <class Square>
-Square square_root(const Square& a) {
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(a);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-         eigen.eigenvectors().transpose();
+Eigen::MatrixXd square_root(const Eigen::MatrixXd& a) {
+  const auto [values, vectors] = reference::symmetric_eigen(a);
+  return reference::product_transposed(vectors * values.cwiseMax(0).cwiseSqrt().asDiagonal(), vectors);
 }
 
 }  // namespace

@@ -89,9 +89,9 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   if (!begin.warm_start) seeds_.clear();
   waiting_.clear();
   const std::array<Configuration, 2> places{begin.at, {free_.x, free_.pose, begin.at.time}};
-  const bool others = fill(begin, places, blocks);
+  const bool others = fill(begin, places, begin.at, blocks);
   if (!bounces_ || !search_.find_met(begin.at, places[1], contacts_)) return others;
-  return fill(begin, places, blocks) || others;
+  return fill(begin, places, begin.at, blocks) || others;
 }
 
 Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) {
@@ -113,9 +113,10 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
     waiting_.renew(found_, contacts_);
   }
   const bool more = may_wait() ? waiting_.call(reached) : farther;
-  if (!more && !search_.look_again(begin.at, reached, free, begin.tolerance, contacts_)) return Widened::no;
+  const bool others = search_.look_again(begin.at, reached, free, begin.tolerance, contacts_);
+  if (!more && !others) return Widened::no;
   keep_impulses(blocks);
-  return fill(begin, std::array{begin.at, free, reached}, blocks) ? Widened::others : Widened::alike;
+  return fill(begin, std::array{begin.at, free, reached}, reached, blocks) ? Widened::others : Widened::alike;
 }
 
 bool ContactRows::hold_back(const StepBegin& begin, const Configuration& reached,

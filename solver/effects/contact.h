@@ -78,12 +78,13 @@ class ContactRows final : public Source {
   /// By the convex law what slides acts from afar.
   bool may_wait() const { return law_ != Friction::cone; }
   void keep_impulses(ConstBlockSpan blocks);
-  bool fill(const StepBegin& begin, std::span<const Configuration> places, BlockSpan blocks);
+  bool fill(const StepBegin& begin, std::span<const Configuration> places, const Configuration& last,
+            BlockSpan blocks);
   template <class Block>
   double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from, const Block& block,
                    std::size_t i) const;
   template <class Block>
-  void take_seed(const ActiveContact& contact, Block& block, std::size_t i) const;
+  void take_seed(const Configuration& at, const ActiveContact& contact, Block& block, std::size_t i) const;
   template <class Block>
   void begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact, Block& block,
                      std::size_t i);

@@ -44,9 +44,11 @@ double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, doub
   return std::min(target, (1 - recovered) * gap + forced);
 }
 
-/// The impulse that a contact had in the last step, as its law lets it be.
+/// The impulse that a contact had at `at`, where the last step or the rows before ended, as its law lets it
+/// be.
 template <class Block>
-void ContactRows::take_seed(const ActiveContact& contact, Block& block, std::size_t i) const {
+void ContactRows::take_seed(const Configuration& at, const ActiveContact& contact, Block& block,
+                            std::size_t i) const {
   const auto& [a, b] = contact.collider;
   const Vec3* seed = seeds_.find({a, b}, contact.features.key);
   double sign = 1;
@@ -55,7 +57,9 @@ void ContactRows::take_seed(const ActiveContact& contact, Block& block, std::siz
     if (seed == nullptr) seed = seeds_.find({b, a}, contact.heir_of), sign = -1;
   }
   if (seed == nullptr) return;
-  block.impulse[i] = sign * (directions_in<Block>(contact, block.jacobian[i]) * *seed);
+  typename Block::Jacobian jacobian;
+  evaluate<Block>(contact, at, jacobian);
+  block.impulse[i] = sign * (directions_in<Block>(contact, jacobian) * *seed);
   block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
 }
 
@@ -93,12 +97,12 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.compliance = elastic * contact.law.compliance;
   // The damper is met with the shape; what is seen late was apart.
   contact.offset = contact.late ? 0 : (1 - elastic) * (std::min(from, 0.0) - contact.target);
-  take_seed(contact, block, i);
 }
 
 /// Rows of what touches, or is near to it, at one of the places. True if they connect other columns than
-/// before.
-bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> places, BlockSpan blocks) {
+/// before. The impulses to begin with were found at `last`.
+bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> places,
+                       const Configuration& last, BlockSpan blocks) {
   search_.find(begin.at, contacts_);
   if (may_wait()) waiting_.take(places, contacts_);
   const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x,
@@ -112,6 +116,7 @@ bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> pl
       block.node[i] = columns_of_contact<Block>(contacts[i], begin.bodies);
       if (block.frictional()) block.friction[i] = contacts[i].law.friction;
       begin_contact(begin, shifts, contacts[i], block, i);
+      take_seed(last, contacts[i], block, i);
       apart = apart && contacts[i].target == 0;
     }
     block.divide(begin.inverse_mass, block.chunks.threads, true);

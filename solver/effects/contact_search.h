@@ -205,6 +205,7 @@ class ContactSearch {
   bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
+  double last_apart(const Pair& pair, const Configuration& start, const Configuration& end, double behind);
   double entering(const Pair& pair, const Configuration& start, const Configuration& end, double behind,
                   double apart, double& overlapping);
   bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
@@ -242,7 +243,8 @@ class ContactSearch {
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
-  Points between_x_;               // m, on the way of a contact's carriers; the others' are of no use
+  std::vector<std::array<int, 2>> dropped_;  // pairs that contacts have just left
+  Points between_x_;  // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;
   std::vector<ContactPoint> found_;
   std::vector<ActiveContact> overlapping_;

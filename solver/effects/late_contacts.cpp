@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "effects/contact_search.h"
 
@@ -77,6 +78,16 @@ double ContactSearch::entering(const Pair& pair, const Configuration& start, con
     (generate_between(pair, start, end, middle, pair.overlooked) < behind ? overlapping : apart) = middle;
   }
   return apart;
+}
+
+/// A share of the way, as near to its end as is looked for, at which a pair is in each other by no more than
+/// `behind`: what grazed earlier is not how it came to be where it ends.
+double ContactSearch::last_apart(const Pair& pair, const Configuration& start, const Configuration& end,
+                                 double behind) {
+  constexpr double nearest = 1.0 / 64;
+  for (double left = nearest; left < 1; left *= 2)
+    if (!(generate_between(pair, start, end, 1 - left, pair.overlooked) < behind)) return 1 - left;
+  return 0;
 }
 
 /// States what touches round of `found_` at a share of the way, and has passed at `end`, as the plane
@@ -172,15 +183,22 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   if (effect_.continuous && !(pair.nearest > slack) && find_passed(pair, start, end, slack)) return true;
   if (pair.left) {
     const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
-    if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed)) return true;
+    // What clips a corner on its straight way, and ends where it may be, has passed nothing.
+    if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed) &&
+        !overlapping_.empty())
+      return true;
   }
   if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
   double overlapping = 1;
-  const double apart = entering(pair, start, end, behind, 0, overlapping);
+  const double apart = entering(pair, start, end, behind, last_apart(pair, start, end, behind), overlapping);
   const double left = (overlapping - apart) * travel;
-  for (const double at : {apart, 1.0}) {
+  // What touches as they come to overlap is how they met, wherever its planes and lines lie at the start, but
+  // for the planes that stand for rims.
+  const bool rims = is_cylinder(pair.collider[0]) || is_cylinder(pair.collider[1]);
+  for (const auto& [at, least] :
+       {std::pair{apart, behind}, {1.0, behind}, {apart, rims ? behind : -infinity}}) {
     generate_between(pair, start, end, at, slack + left);
-    keep_overlapping(pair, start, end, allowed, behind);
+    keep_overlapping(pair, start, end, allowed, least);
     if (!overlapping_.empty()) return true;
   }
   if (!begins_cut(pair)) return true;
@@ -211,6 +229,8 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
     }
   bool seen = false;
   for (const Pair& pair : far_) {
+    // What a contact that has just been dropped did is not where the pair will be.
+    if (std::binary_search(dropped_.begin(), dropped_.end(), pair.collider)) continue;
     if (!find_overlapping(pair, start, end)) continue;
     seen = true;
     for (const ActiveContact& found : overlapping_) {
@@ -224,7 +244,8 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
                                const Configuration& free, double tolerance, const ContactLists& contacts) {
   besides_ = std::max(tolerance, least_beside);
-  return drop_left(start, end, free, contacts) || see_overlaps(start, end, contacts);
+  const bool dropped = drop_left(start, end, free, contacts), seen = see_overlaps(start, end, contacts);
+  return dropped || seen;
 }
 
 bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, const Configuration& end,

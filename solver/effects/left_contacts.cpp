@@ -178,7 +178,7 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
 /// keeps them.
 bool ContactSearch::drop_left(const Configuration& start, const Configuration& end, const Configuration& free,
                               const ContactLists& contacts) {
-  const std::size_t before = left_.size();
+  dropped_.clear();
   std::vector<std::vector<ActiveContact>> left;  // of each pair
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
@@ -189,6 +189,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
         continue;
       if (const auto edges = as_edges(contact, start, end)) {
         left_.insert(features);
+        dropped_.push_back(features.collider);
         add_late(*edges, contact.target);
         continue;
       }
@@ -201,11 +202,13 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
     for (const ActiveContact& contact : of_pair) {
       const PairFeatures features{contact.pair(), contact.features.key};
       left_.insert(features);
+      dropped_.push_back(features.collider);
       if (const auto late = late_contact(features); late != late_.end()) late_.erase(late);
     }
     if (!of_pair.empty()) add_touching(of_pair, start, end, free);
   }
-  return left_.size() > before;
+  std::sort(dropped_.begin(), dropped_.end());
+  return !dropped_.empty();
 }
 
 }  // namespace pbd

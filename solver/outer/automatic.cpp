@@ -29,9 +29,11 @@ void Automatic::take_solver(StepSystem& system, std::size_t next) {
 
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
+  contacts_stiffen_.reset();
   taken_over_ = takes_over_ = false;
-  gain_ = {};
+  gain_ = of_aitken_ = {};
   take_solver(system, own);
+  aitken_.begin(system);
   proximal_.begin(system);
   if (on_potential()) quasi_newton_->begin(system);
 }
@@ -53,6 +55,34 @@ bool Automatic::plain_is_slow(const Progress& progress) {
 bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
   return system.problem.direction_blend != 1 || progress.contraction <= slow_contraction ||
          mass_.update(system, 1) <= slow_contraction;
+}
+
+/// True while aitken's residual halves soon enough and does not grow far; if not, proximal goes on with the
+/// step.
+bool Automatic::gains(const Progress& progress) {
+  constexpr int patience = 20;
+  constexpr double too_much = 100;
+  if (progress.residual() < of_aitken_.lowest / 2)
+    of_aitken_ = {.lowest = progress.residual()};
+  else
+    ++of_aitken_.iterations_since;
+  contacts_stiffen_ =
+      of_aitken_.iterations_since < patience && progress.residual() <= too_much * of_aitken_.lowest;
+  return *contacts_stiffen_;
+}
+
+/// As far as the iterate tells that a step first asks at.
+bool Automatic::contacts_stiffen_most(StepSystem& system) {
+  if (!contacts_stiffen_) {
+    mass_.update(system, 1);
+    double contacts = 0, others = 0;
+    for (const Slot& slot : system.slots) {
+      double& largest = slot.source->kind().contacts ? contacts : others;
+      largest = std::max(largest, slot.count > 0 ? slot.cost.contraction : 0);
+    }
+    contacts_stiffen_ = contacts > others;
+  }
+  return *contacts_stiffen_;
 }
 
 void Automatic::take_over(StepSystem& system) {
@@ -90,6 +120,8 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
   } else if (!plain_is_slow(progress) && plain_contracts(system, progress)) {
     system.at.v = system.at.rebuilt;
     relax(system, progress);
+  } else if (contacts_stiffen_most(system) && gains(progress)) {
+    aitken_.iterate(system, progress);
   } else {
     proximal_.iterate(system, progress);
   }
@@ -117,7 +149,8 @@ std::size_t Automatic::successor(std::size_t contacts) const {
 
 void Automatic::forget() {
   slow_changes_ = 0;
-  gain_ = {};
+  gain_ = of_aitken_ = {};
+  aitken_.forget();
   proximal_.forget();
   if (quasi_newton_) quasi_newton_->forget();
 }

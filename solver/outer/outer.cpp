@@ -46,9 +46,9 @@ constexpr Outer named(std::string_view name) {
   return {name, Kind::solves_step, make<Kind>};
 }
 
-constexpr auto outers = std::to_array<Outer>({named<Automatic>("auto"), named<Plain>("plain"),
-                                              named<Proximal>("proximal"), named<QuasiNewton>("quasi_newton"),
-                                              named<Incremental>("incremental"), named<Frozen>("frozen")});
+constexpr auto outers = std::to_array<Outer>(
+    {named<Automatic>("auto"), named<Plain>("plain"), named<Aitken>("aitken"), named<Proximal>("proximal"),
+     named<QuasiNewton>("quasi_newton"), named<Incremental>("incremental"), named<Frozen>("frozen")});
 static_assert(outers.size() == std::variant_size_v<OuterIteration>, "an outer iteration without its name");
 
 }  // namespace

@@ -4,7 +4,7 @@
 //   plain        v <- v_free + W J_k^T p, then relax
 //   incremental  relax from v as it is; only the first iterate is v_free + W J^T p
 //   frozen       as plain, but always linearised at x0
-//   proximal, quasi_newton, auto   in files of their own
+//   aitken, proximal, quasi_newton, auto   in files of their own
 //
 // In plain the whole multiplier acts along the current directions (francu2017position); its fixed points are
 // the solutions of the step. It leaves out the geometric stiffness K = -d sum_i p_i d2c_i: its error is
@@ -37,7 +37,7 @@ struct Frozen {
 
   void iterate(StepSystem& system, Progress& progress);
 };
-using OuterIteration = std::variant<Plain, Incremental, Frozen, Proximal, QuasiNewton, Automatic>;
+using OuterIteration = std::variant<Plain, Aitken, Incremental, Frozen, Proximal, QuasiNewton, Automatic>;
 
 /// A fresh one by name (SetupError if unknown).
 OuterIteration make_outer(std::string_view name, StepSystem& system);

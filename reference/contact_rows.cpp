@@ -178,4 +178,20 @@ double ContactStep::law_residual(FrictionLaw law, const Vector& velocity) const 
   return worst;
 }
 
+double ContactStep::bounds_residual(const RigidSystem& system, const Vector& gamma) const {
+  const Vector open = system.gap(gamma) / step.h;
+  const Vector per_length = step.model.radius.cwiseInverse();
+  const Vector squares = squared_rows(scaled(system.jacobian, per_length), Vector::Ones(step.model.unknowns));
+  const Vector inverse_mass = squared_rows(system.jacobian, step.model.inertia.cwiseInverse());
+  double worst = 0;
+  for (const auto& [row, bounds] : bounded) {
+    const double mass = inverse_mass[row] > 0 ? 1 / inverse_mass[row] : 1;
+    const double length = squares[row] > 0 ? std::sqrt(squares[row]) : 1;
+    const double impulse = step.h * gamma[row];
+    const double kept = std::clamp(impulse - mass * open[row], step.h * bounds[0], step.h * bounds[1]);
+    worst = larger(worst, std::abs(impulse - kept) / mass / length);
+  }
+  return worst;
+}
+
 }  // namespace pbd::reference

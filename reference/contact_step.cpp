@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "damping.h"
-#include "error.h"
-#include "step_equations.h"
 #include "step_rows.h"
 
 namespace pbd::reference {
@@ -20,17 +18,17 @@ Contact contact_of(const Scene& scene) {
 }  // namespace
 
 ContactStep::ContactStep(const Scene& scene, const State& state, double h)
-    : step{make_step_model(scene).rigid, state, h}, contact(contact_of(scene)), search(scene, contact) {
+    : ContactStep(make_step_model(scene), scene, state, h) {}
+
+ContactStep::ContactStep(StepModel stated, const Scene& scene, const State& state, double h)
+    : step{std::move(stated.rigid), state, h}, contact(contact_of(scene)), search(scene, contact) {
   start_ = placement_of(state);
-  for (const Effect& effect : scene.effects)
-    std::visit(
-        []<class E>(const E& own) {
-          if constexpr (requires { own.bounds; })
-            if (!own.bounds.empty())
-              throw SetupError(own.name, "limits or motors of limited force",
-                               "equations: the judge of contact knows no other bounds of forces");
-        },
-        effect);
+  for (int row = 0; row < step.model.rows(); ++row) {
+    const auto& bounds = stated.bounds[static_cast<std::size_t>(row)];
+    if (bounds == std::array{-infinity, infinity}) continue;
+    bounded.push_back({row, bounds});
+    step.model.hard[static_cast<std::size_t>(row)] = false;
+  }
   step.damping = damping_of(scene, step.model, start_, h);
   free_ = state;
   const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));

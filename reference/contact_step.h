@@ -3,6 +3,8 @@
 //   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0
 //   K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
 //
+// Limits of joints and motors of limited force are bounded rows of the same problem: the impulse is h gamma,
+// and what the row sees (c + A gamma)/h.
 // C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
 // contact is, in m/s,
 //   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
@@ -18,6 +20,7 @@
 #include "feature_search.h"
 #include "rigid_step.h"
 #include "step_claim.h"
+#include "step_equations.h"
 
 namespace pbd::reference {
 
@@ -40,6 +43,13 @@ struct ContactRow {
   Vec3 seen = Vec3::Zero();  // what the law sees, without the compliance's part, m/s
 };
 
+/// A limit of a joint or a motor of limited force (solver/model/body_effects.h): c + A gamma >= 0 where gamma
+/// is at the lower bound, <= 0 at the upper one, else 0.
+struct BoundedRow {
+  int row = 0;                     // of the model's rows, of which it is no equation
+  std::array<double, 2> bounds{};  // of gamma, N or N m
+};
+
 /// Where a step ends by some velocities, and what all of its contacts' rows need of that.
 struct ContactPose {
   State end;
@@ -52,6 +62,7 @@ struct ContactStep {
   Contact contact;
   FeatureSearch search;
   std::vector<JudgedContact> contacts;
+  std::vector<BoundedRow> bounded;
 
   /// Throws SetupError for what the judge does not know.
   ContactStep(const Scene& scene, const State& state, double h);
@@ -86,7 +97,13 @@ struct ContactStep {
   /// The largest |r - P_K(r - m u~)|/m of a contact, m/s, m the mass that its sides' centres have together.
   double law_residual(FrictionLaw law, const Vector& velocity) const;
 
+  /// The largest |p - clamp(p - m (c + A gamma)/h)|/m of a bounded row, p = h gamma, m the row's effective
+  /// mass, over the length of its gradient: m/s.
+  double bounds_residual(const RigidSystem& system, const Vector& gamma) const;
+
  private:
+  ContactStep(StepModel stated, const Scene& scene, const State& state, double h);
+
   JudgedContact begun(const FeaturePair& pair) const;
 
   bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;

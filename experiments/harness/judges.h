@@ -16,7 +16,8 @@ std::vector<std::string> reference_names();
 
 bool knows_contact(const std::string& reference);
 
-/// The first of them that knows the scene's effects: with contact or damping a judge of contact.
+/// The first of them that knows the scene's effects: with contact, damping or bounds of forces a judge of
+/// contact.
 std::string default_reference(const pbd::Scene& scene);
 
 /// What a reference says about one step.

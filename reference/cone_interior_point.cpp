@@ -55,7 +55,7 @@ class InteriorPoint {
       const double merit =
           std::max((x_.dot(z_) + room_.dot(far_)) / (1 + std::abs(c_.dot(x_))), residual.norm() / size);
       if (merit < best) best = merit, best_x = x_, since = 0;
-      if (best < 1e-15 || (work != nullptr && !work->spend(static_cast<int>(x_.size())))) break;
+      if (best < 1e-15 || (work != nullptr && !work->spend(static_cast<double>(n_.nonZeros())))) break;
       if (!advance(residual)) break;
     }
     x_ = best_x;

@@ -4,6 +4,7 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <chrono>
+#include <cmath>
 
 #include "cone_fixed_point.h"
 #include "ipopt_settings.h"
@@ -198,7 +199,7 @@ ConeSolution minimum(const ConeProblem& problem, double tolerance, ConeWork* wor
         if (smallest <= tolerance || (work != nullptr && work->spent())) break;
         const int before = best.iterations;
         const VectorXd found = form(scaled.problem, barrier, best.iterations);
-        if (work != nullptr) work->spend(problem.rows(), best.iterations - before);
+        if (work != nullptr) work->spend(std::pow(problem.rows(), 2), best.iterations - before);
         if (found.size() == 0 || !found.allFinite()) continue;
         const VectorXd impulse = size * scaled.scale.cwiseProduct(found);
         const double residual = measure_cone(problem, FrictionLaw::cone, impulse).residual();

@@ -103,7 +103,7 @@ int cone_newton(const ConeProblem& original, FrictionLaw law, double target, Vec
   double best_residual = residual(at), regularisation = 1e-10;
   int steps = 0;
   while (steps < most_steps && best_residual > std::max(target, rounding)) {
-    if (work != nullptr && !work->spend(original.rows())) break;
+    if (work != nullptr && !work->spend(static_cast<double>(original.delassus.nonZeros()))) break;
     const VectorXd map = natural_map(scaled.problem, law, at);
     const Derivative d = derivative(scaled.problem, law, at);
     VectorXd step;

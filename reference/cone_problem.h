@@ -77,20 +77,21 @@ struct EquilibratedCone {
 EquilibratedCone equilibrate(const ConeProblem& problem);
 
 /// How much more may be spent on cone problems. One unit is an iteration, a factorisation in the main, of a
-/// problem of `unit_rows` rows or fewer; of more it is their cube. `poll` is called before each one; what it
-/// throws ends the work.
+/// dense problem of 100 rows or a smaller one; others are of as many as the power 3/2 of the entries of W
+/// says, so that dense ones go by the cube of their rows. `poll` is called before each one; what it throws
+/// ends the work.
 struct ConeWork {
-  static constexpr double unit_rows = 100;
+  static constexpr double unit_entries = 1e4;
 
   double left = infinity;
   std::function<void()> poll{};
 
   bool spent() const { return left <= 0; }
   /// Takes so many iterations; false if there was nothing left.
-  bool spend(int rows, double iterations = 1) {
+  bool spend(double entries, double iterations = 1) {
     if (poll) poll();
     if (spent()) return false;
-    left -= iterations * std::pow(std::max(1.0, rows / unit_rows), 3);
+    left -= iterations * std::pow(std::max(1.0, entries / unit_entries), 1.5);
     return true;
   }
 };

@@ -57,9 +57,9 @@ void Linearised::add_bounded(const RigidSystem& system, const Vector& gamma) {
 }
 
 Vec3 Linearised::seen_by(std::size_t contact, const Vector& increment) const {
-  const double h = step_->step.h;
+  const double d = step_->step.d();
   Vec3 seen = rows_[contact].seen;
-  for (const auto& [unknown, c] : rows_[contact].parts) seen += c * increment.segment<3>(unknown) / h;
+  for (const auto& [unknown, c] : rows_[contact].parts) seen += c * increment.segment<3>(unknown) / d;
   return seen;
 }
 
@@ -88,14 +88,14 @@ void Linearised::take_part(std::size_t contact) {
     std::vector<std::pair<int, double>> direction;
     for (const auto& [unknown, c] : rows_[contact].parts)
       for (int axis = 0; axis < 3; ++axis) direction.emplace_back(unknown + axis, c(k, axis));
-    add_pushed(std::move(direction), k == 0 ? step_->contacts[contact].compliance : 0);
+    add_pushed(std::move(direction), k == 0 ? step_->compliance_of(step_->contacts[contact]) : 0);
   }
 }
 
 /// W's rows and columns of what has come to be pushed.
 void Linearised::grow(Eigen::MatrixXd& w) const {
   const Eigen::Index known = w.rows(), count = std::ssize(pushed_);
-  const double h2 = step_->step.h * step_->step.h;
+  const double scale = step_->step.d() * step_->step.s();
   w.conservativeResize(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index k = i < known ? known : 0; k < count; ++k) {
@@ -103,15 +103,15 @@ void Linearised::grow(Eigen::MatrixXd& w) const {
       double sum = 0;
       for (const auto& [unknown, c] : pushed_[static_cast<std::size_t>(i)].direction)
         sum += c * increment[unknown];
-      w(i, k) = sum / h2;
+      w(i, k) = sum / scale;
     }
   for (Eigen::Index i = known; i < count; ++i)
-    w(i, i) += pushed_[static_cast<std::size_t>(i)].compliance / h2;
+    w(i, i) += pushed_[static_cast<std::size_t>(i)].compliance / scale;
 }
 
 ConeProblem Linearised::problem(const Eigen::MatrixXd& w) const {
   const Eigen::Index bounded = bounded_value_.size(), size = w.rows(), of_contacts = size - bounded;
-  const double h = step_->step.h;
+  const double d = step_->step.d(), s = step_->step.s();
   const auto place = [&](Eigen::Index i) { return i < bounded ? of_contacts + i : i - bounded; };
   ConeProblem problem;
   Triplets entries;
@@ -132,10 +132,10 @@ ConeProblem Linearised::problem(const Eigen::MatrixXd& w) const {
     double seen = bounded_value_[i];
     for (const auto& [unknown, c] : pushed_[static_cast<std::size_t>(i)].direction)
       seen += c * free_[unknown];
-    problem.free_velocity[of_contacts + i] = seen / h;
+    problem.free_velocity[of_contacts + i] = seen / d;
     const auto& [lower, upper] = step_->bounded[static_cast<std::size_t>(i)].bounds;
-    problem.lower[i] = h * lower;
-    problem.upper[i] = h * upper;
+    problem.lower[i] = s * lower;
+    problem.upper[i] = s * upper;
   }
   return problem;
 }
@@ -146,12 +146,12 @@ Vector Linearised::last_impulses(const ContactStep& own) const {
   for (std::size_t i = 0; i < taking_part_.size(); ++i)
     impulse.segment<3>(static_cast<Eigen::Index>(3 * i)) = own.contacts[taking_part_[i]].force;
   impulse.tail(bounded_last_.size()) = bounded_last_;
-  return own.step.h * impulse;
+  return own.step.s() * impulse;
 }
 
 void Linearised::take_impulses(const Vector& impulse, ContactStep& own, Vector& increment, Vector& gamma) {
   const Eigen::Index bounded = bounded_value_.size(), of_contacts = impulse.size() - bounded;
-  const Vector force = impulse / own.step.h;
+  const Vector force = impulse / own.step.s();
   for (std::size_t i = 0; i < taking_part_.size(); ++i)
     own.contacts[taking_part_[i]].force = force.segment<3>(static_cast<Eigen::Index>(3 * i));
   increment = free_;
@@ -185,7 +185,7 @@ bool Linearised::solve(Cones& cones, ContactStep& own, Vector& increment, Vector
     const Vector impulse = cones.solve(problem(w), last_impulses(own));
     if (!impulse.allFinite()) return false;
     take_impulses(impulse, own, increment, gamma);
-    bounded_last_ = impulse.tail(bounded_last_.size()) / own.step.h;
+    bounded_last_ = impulse.tail(bounded_last_.size()) / own.step.s();
   }
   return increment.allFinite();
 }

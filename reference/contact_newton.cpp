@@ -96,7 +96,10 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
                                 ConeSolver solver, const ContactStart& start) {
   const FrictionLaw law = law_of(friction);
   Clock clock;
-  StepSearch search{{scene, state, h}, {law, solver, {start.work, start.poll}}, {}, {}};
+  StepSearch search{{scene, state, h, start.map ? std::optional(*start.map) : std::nullopt},
+                    {law, solver, {start.work, start.poll}},
+                    {},
+                    {}};
   ContactStep& own = search.step;
   search.velocity = own.step.start_velocity();
   search.gamma.setZero(own.step.model.rows());

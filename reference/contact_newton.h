@@ -13,7 +13,8 @@
 // its own pose alone.
 //
 // Limits: no damped point joints or attachments, cylinders but beside points, spheres and half spaces, nor
-// the laws box and disc. After the work of ContactStart it gives up. Overlaps that a missed step has left
+// the laws box and disc. After the work of ContactStart it gives up. With a map of ContactStart it is that
+// integrator's step, without damping. Overlaps that a missed step has left
 // part as `recovery` says, not by a tenth. Coulomb's law may have several solutions, and where it leaves
 // velocities open other solvers find others.
 #pragma once

@@ -1,7 +1,7 @@
 // The implicit Euler step of a scene with contact (rigid_step.h), with impulses r = h lambda of its contacts:
 //
-//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0
-//   K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
+//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0      (by other integrators' IntegratorMap: h/s C^T
+//   lambda) K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
 //
 // Limits of joints and motors of limited force are bounded rows of the same problem: the impulse is h gamma,
 // and what the row sees (c + A gamma)/h.
@@ -11,6 +11,7 @@
 //         and n . (u + e u_l), u their velocities against each other; in u_l a body's spin is what it is
 //         where the step begins, in the body's own axes
 //   u_t = t . (u + s), s the velocity at which surfaces that move along themselves go against each other
+// with d of an integrator's map in the place of h, and A r_n/(h d).
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
 // what is parting too slowly for its e, collides.
@@ -33,7 +34,7 @@ struct JudgedContact {
   double closing = 0;              // m/s, where the step begins
   bool collides = false;
   double compliance = 0;      // m/N
-  Vec3 force = Vec3::Zero();  // lambda, N: along the normal and both tangents
+  Vec3 force = Vec3::Zero();  // lambda h/s, N: along the normal and both tangents
 };
 
 /// A contact's directions and how its law sees it at one pose.
@@ -65,7 +66,10 @@ struct ContactStep {
   std::vector<BoundedRow> bounded;
 
   /// Throws SetupError for what the judge does not know.
-  ContactStep(const Scene& scene, const State& state, double h);
+  ContactStep(const Scene& scene, const State& state, double h, const std::optional<IntegratorMap>& map = {});
+
+  /// A contact's compliance for what `force` is: it acts over s, not h.
+  double compliance_of(const JudgedContact& own) const { return own.compliance * step.s() / step.h; }
 
   /// Takes the features that are valid at `velocity`, and `also_start` where the step begins; known contacts
   /// keep their forces.
@@ -102,14 +106,16 @@ struct ContactStep {
   double bounds_residual(const RigidSystem& system, const Vector& gamma) const;
 
  private:
-  ContactStep(StepModel stated, const Scene& scene, const State& state, double h);
+  ContactStep(StepModel stated, const Scene& scene, const State& state, double h,
+              const std::optional<IntegratorMap>& map);
 
   JudgedContact begun(const FeaturePair& pair) const;
 
   bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;
 
   Placement start_, free_end_;
-  State free_;  // where the step begins, with the velocities of its free motion's end
+  State free_;     // where the step begins, with the velocities that lead to its free motion's end
+  State shifted_;  // likewise to where the step's map begins
 };
 
 }  // namespace pbd::reference

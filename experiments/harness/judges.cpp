@@ -84,19 +84,24 @@ std::string default_reference(const pbd::Scene& scene) {
 }
 
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
-                  pbd::Friction friction) {
+                  pbd::Friction friction, const pbd::reference::IntegratorMap* map) {
   for (const auto& judge : pbd::reference::judges())
     if (judge.name == name) return judged_of(scene, state, h, judge.judge(scene, state, h));
   if (const auto judge = contact_judge(name))
-    return judged_of(scene, state, h, judge(scene, state, h, friction, {.poll = watched(name, state)}));
+    return judged_of(scene, state, h,
+                     judge(scene, state, h, friction, {.poll = watched(name, state), .map = map}));
   throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
 }
 
-Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept) {
+Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept,
+                  const pbd::reference::IntegratorMap* map) {
   if (const auto judge = contact_judge(name))
     return judged_of(claim.scene, claim.start, claim.h,
                      judge(claim.scene, claim.start, claim.h, claim.friction,
-                           {&claim, features_kept, watched(name, claim.start)}));
+                           {.near = &claim,
+                            .features_kept = features_kept,
+                            .poll = watched(name, claim.start),
+                            .map = map}));
   throw pbd::SetupError("--reference", "`" + name + "`", "a judge of contact");
 }
 

@@ -1,5 +1,7 @@
-// Steps of closed meshes whose triangles share planes: their diagonals are no edges.
+// Steps of what lies on each other: closed meshes whose triangles share planes, so that their diagonals are
+// no edges, and light boxes that carry a million times their mass.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "cone_interior_point.h"
 #include "contact_newton.h"
@@ -49,6 +51,26 @@ TEST_CASE("a corner on the diagonal of a mesh's face is over one triangle of it"
   // Four corners of the lower one on the ground; one of each over the other, and two pairs of edges that
   // cross.
   CHECK(j.all.size() == 8);
+}
+
+TEST_CASE("boxes that carry a million times their mass are judged to rest with the ground's force") {
+  const double heavy = 1e6;
+  BodyScene build({.friction = 0.5}, mesh_gravity);
+  build.ground();
+  for (int i = 0; i < 3; ++i)
+    build.box(Vec3::Constant(0.2), i == 2 ? heavy : 1, {.position = {0, 0, 0.1 + 0.2 * i}});
+  for (const Friction law : {Friction::coulomb, Friction::cone}) {
+    const Scene scene = build.finish();
+    const auto j = contact_newton(scene, scene.initial, mesh_step_s, law, cone_interior_point);
+    INFO(j.reason);
+    CHECK(j.outcome == Outcome::ok);
+    // The forces on each are known to rounding: 1e-16 of 1e7 N on 1 kg within 1e-2 s.
+    CHECK(j.v.cwiseAbs().maxCoeff() <= 1e-8);
+    double carried = 0;
+    for (const JudgedContact& each : j.all)
+      if (each.pair.surface[0] == 0 || each.pair.surface[1] == 0) carried += each.force[0];
+    CHECK(std::abs(carried / ((heavy + 2) * mesh_gravity) - 1) <= 1e-9);
+  }
 }
 
 TEST_CASE("a judge whose work is spent says so") {

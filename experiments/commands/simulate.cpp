@@ -21,6 +21,7 @@
 #include "harness/step_checks.h"
 #include "harness/step_judge.h"
 #include "harness/stepper.h"
+#include "scenes/contacts.h"
 
 namespace pbdcheck {
 namespace {
@@ -144,13 +145,18 @@ std::string reference_of(const SceneFile& file) {
 
 /// Refuses what the judge does not solve before anything is computed.
 void require_judgeable(const SceneFile& file, std::int64_t every) {
-  const bool euler = file.method.integrator == "implicit_euler";
-  if (!euler && file.method.integrator != "bdf2")
+  const std::string& integrator = file.method.integrator;
+  const bool euler = integrator == "implicit_euler";
+  if (!euler && integrator != "bdf2" && integrator != "generalised_alpha")
     throw pbd::SetupError("--judge", "`" + file.method.integrator + "`",
-                          "method.integrator implicit_euler, bdf2");
+                          "method.integrator implicit_euler, bdf2, generalised_alpha");
   if (!euler && std::any_of(file.scene.effects.begin(), file.scene.effects.end(),
                             [](const pbd::Effect& effect) { return pbd::damped(effect); }))
-    throw pbd::SetupError("--judge", "damping with `bdf2`", "damping with method.integrator implicit_euler");
+    throw pbd::SetupError("--judge", "damping with `" + integrator + "`",
+                          "damping with method.integrator implicit_euler");
+  if (integrator == "generalised_alpha" && contact_of(file.scene) == nullptr)
+    throw pbd::SetupError("--judge", "`generalised_alpha` without contact",
+                          "a scene with contact, where its first step is implicit Euler's");
   if (file.method.direction_blend != 1)
     throw pbd::SetupError("--judge", fmt::format("method.direction_blend {}", file.method.direction_blend),
                           "1");
@@ -221,7 +227,7 @@ int simulate(const SimulateOptions& options) {
   Judges judges;
   auto& [checks, judge] = judges;
   if (options.check) checks.emplace();
-  if (every > 0) judge.emplace(options.directory, reference_of(file), every);
+  if (every > 0) judge.emplace(options.directory, reference_of(file), every, file.method.rho);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {

@@ -52,9 +52,11 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
   return judged;
 }
 
-StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every)
+StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every,
+                     double rho)
     : reference_(std::move(reference)),
       every_(every),
+      memory_(rho),
       table_(directory / "judged.csv",
              {"step", "time_s", "step_s", "solver_status", "tolerance", "error", "error_m", "error_of_scale",
               "nearest_start", "nearest_error_m", "nearest_error_of_scale", "reference", "status", "reason",

@@ -191,7 +191,7 @@ TEST_CASE("what the command line does not allow is refused with option, value an
        "--judge: got every=1000000; allowed: 1 to 500 steps"},
       {{"simulate", chain, "--judge", "every=2x"}, "--judge: got `every=2x`; allowed: every=N"},
       {{"simulate", chain, "--judge", "every=2", "--set", "method.integrator=midpoint"},
-       "--judge: got `midpoint`; allowed: method.integrator implicit_euler, bdf2"},
+       "--judge: got `midpoint`; allowed: method.integrator implicit_euler, bdf2, generalised_alpha"},
       {{"simulate", scenes / "incline.toml", "--judge", "every=2", "--set", "method.friction=box"},
        "method.friction: got `box`; allowed: coulomb, cone"},
       {{"compare", scenes / "incline.toml", "--method", "rival=newton", "--reference", "ipopt"},

@@ -6,15 +6,15 @@ namespace pbd::reference {
 
 using Eigen::VectorXd;
 
-ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance,
-                                    const ConvexSolver& solver) {
+ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance, const ConvexSolver& solver,
+                                    const ConeWork* work) {
   constexpr int most = 50, patience = 10;
   const auto begin = std::chrono::steady_clock::now();
   const auto residual = [&](const VectorXd& r) {
     return measure_cone(problem, FrictionLaw::coulomb, r).residual();
   };
   ConeProblem shifted = problem;
-  VectorXd shift = VectorXd::Zero(3 * problem.contacts());
+  VectorXd shift = VectorXd::Zero(problem.rows());
   ConeSolution best;
   best.impulse = shift;
   constexpr double rounding = 1e-14;
@@ -22,6 +22,7 @@ ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance
   if (best_residual > rounding) best_residual = infinity;  // r = 0 is no solution
   int iterations = 0;
   for (int k = 0, improved = 0; k < most && k - improved < patience && best_residual > tolerance; ++k) {
+    if (work != nullptr && work->spent()) break;
     shifted.free_velocity = problem.free_velocity + shift;
     ConeSolution found = solver.solve(shifted);
     iterations += found.iterations;

@@ -18,6 +18,7 @@ struct ConvexSolver {
 };
 
 /// Certified by the natural residual of the law `coulomb`.
-ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance, const ConvexSolver& solver);
+ConeSolution coulomb_by_fixed_point(const ConeProblem& problem, double tolerance, const ConvexSolver& solver,
+                                    const ConeWork* work = nullptr);
 
 }  // namespace pbd::reference

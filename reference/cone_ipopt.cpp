@@ -4,6 +4,7 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <chrono>
+#include <cmath>
 
 #include "cone_fixed_point.h"
 #include "ipopt_settings.h"
@@ -19,7 +20,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 // A form gives, for one contact with unknowns y: r(y), dr/dy, sum_k u_k d2r_k/dy2, and a constraint g(y) >= 0
-// with its derivatives. mu = 0 fixes the last two unknowns at 0.
+// with its derivatives. mu = 0 fixes the last two unknowns at 0. A bounded row is its own unknown.
 
 struct PolarTangent {
   static Vector3d impulse(const Vector3d& y, double mu) { return {y(0), mu * y(0) * y(1), mu * y(0) * y(2)}; }
@@ -65,10 +66,14 @@ template <class Form>
 class ConeProgram : public Ipopt::TNLP {
  public:
   explicit ConeProgram(const ConeProblem& problem)
-      : mu_(problem.friction), w_(problem.delassus), q_(problem.free_velocity) {}
+      : mu_(problem.friction),
+        lower_(problem.lower),
+        upper_(problem.upper),
+        w_(problem.delassus),
+        q_(problem.free_velocity) {}
 
   VectorXd impulse(const double* y) const {
-    VectorXd r(q_.size());
+    VectorXd r = Map<const VectorXd>(y, q_.size());
     for (int i = 0; i < mu_.size(); ++i) r.segment<3>(3 * i) = Form::impulse(contact(y, i), mu_(i));
     return r;
   }
@@ -77,23 +82,28 @@ class ConeProgram : public Ipopt::TNLP {
   bool get_nlp_info(int& n, int& m, int& jacobian, int& hessian, IndexStyleEnum& style) override {
     n = static_cast<int>(q_.size());
     m = static_cast<int>(mu_.size());
-    jacobian = n;
+    jacobian = 3 * m;
     hessian = n * (n + 1) / 2;
     style = C_STYLE;
     return true;
   }
   bool get_bounds_info(int n, double* lower, double* upper, int m, double* row_lower,
                        double* row_upper) override {
-    for (int k = 0; k < n; ++k) {
+    constexpr double none = 1e20;  // Ipopt's infinity
+    for (int k = 0; k < 3 * m; ++k) {
       const bool fixed = k % 3 > 0 && mu_(k / 3) == 0;
-      lower[k] = k % 3 == 0 || fixed ? 0 : -1e20;
-      upper[k] = fixed ? 0 : 1e20;
+      lower[k] = k % 3 == 0 || fixed ? 0 : -none;
+      upper[k] = fixed ? 0 : none;
     }
-    std::fill_n(row_lower, m, 0), std::fill_n(row_upper, m, 1e20);
+    for (int k = 3 * m; k < n; ++k) {
+      lower[k] = std::max(lower_(k - 3 * m), -none);
+      upper[k] = std::min(upper_(k - 3 * m), none);
+    }
+    std::fill_n(row_lower, m, 0), std::fill_n(row_upper, m, none);
     return true;
   }
   bool get_starting_point(int n, bool, double* y, bool, double*, double*, int, bool, double*) override {
-    for (int k = 0; k < n; ++k) y[k] = k % 3 == 0 ? 1 : 0;
+    for (int k = 0; k < n; ++k) y[k] = k < 3 * mu_.size() && k % 3 == 0 ? 1 : 0;
     return true;
   }
   bool eval_f(int, const double* y, bool, double& value) override {
@@ -103,7 +113,8 @@ class ConeProgram : public Ipopt::TNLP {
   }
   bool eval_grad_f(int n, const double* y, bool, double* gradient) override {
     const VectorXd u = w_ * impulse(y) + q_;
-    for (int i = 0; i < n / 3; ++i)
+    Map<VectorXd>(gradient, n) = u;
+    for (int i = 0; i < mu_.size(); ++i)
       Map<Vector3d>(gradient + 3 * i) =
           Form::derivative(contact(y, i), mu_(i)).transpose() * u.segment<3>(3 * i);
     return true;
@@ -112,8 +123,8 @@ class ConeProgram : public Ipopt::TNLP {
     for (int i = 0; i < m; ++i) g[i] = Form::constraint(contact(y, i), mu_(i));
     return Map<VectorXd>(g, m).allFinite();
   }
-  bool eval_jac_g(int n, const double* y, bool, int, int, int* row, int* column, double* values) override {
-    for (int k = 0; k < n; ++k)
+  bool eval_jac_g(int, const double* y, bool, int m, int, int* row, int* column, double* values) override {
+    for (int k = 0; k < 3 * m; ++k)
       if (values)
         values[k] = Form::gradient(contact(y, k / 3), mu_(k / 3))(k % 3);
       else
@@ -152,7 +163,7 @@ class ConeProgram : public Ipopt::TNLP {
  private:
   static Vector3d contact(const double* y, int i) { return Map<const Vector3d>(y + 3 * i); }
 
-  VectorXd mu_;
+  VectorXd mu_, lower_, upper_;
   MatrixXd w_;
   VectorXd q_;
 };
@@ -173,18 +184,22 @@ VectorXd run(const ConeProblem& scaled, const char* barrier, int& iterations) {
 }
 
 /// The law `cone`. Where one form or barrier stops short of the tolerance the next is tried.
-ConeSolution minimum(const ConeProblem& problem, double tolerance) {
+ConeSolution minimum(const ConeProblem& problem, double tolerance, ConeWork* work) {
   EquilibratedCone scaled = equilibrate(problem);
   const double size = scaled.problem.free_velocity.cwiseAbs().maxCoeff();
   ConeSolution best;
-  best.impulse.setZero(3 * problem.contacts());
+  best.impulse.setZero(problem.rows());
   if (size > 0) {
     scaled.problem.free_velocity /= size;
+    scaled.problem.lower /= size;
+    scaled.problem.upper /= size;
     double smallest = infinity;
     for (const char* barrier : {"monotone", "adaptive"})
       for (const auto form : {run<PolarTangent>, run<Ratio>}) {
-        if (smallest <= tolerance) break;
+        if (smallest <= tolerance || (work != nullptr && work->spent())) break;
+        const int before = best.iterations;
         const VectorXd found = form(scaled.problem, barrier, best.iterations);
+        if (work != nullptr) work->spend(std::pow(problem.rows(), 2), best.iterations - before);
         if (found.size() == 0 || !found.allFinite()) continue;
         const VectorXd impulse = size * scaled.scale.cwiseProduct(found);
         const double residual = measure_cone(problem, FrictionLaw::cone, impulse).residual();
@@ -197,18 +212,19 @@ ConeSolution minimum(const ConeProblem& problem, double tolerance) {
 
 }  // namespace
 
-ConeSolution cone_ipopt(const ConeProblem& problem, FrictionLaw law, double tolerance) {
+ConeSolution cone_ipopt(const ConeProblem& problem, FrictionLaw law, double tolerance, ConeWork* work) {
   const auto begin = std::chrono::steady_clock::now();
   ConeSolution solution;
   if (problem.contacts() > most_ipopt_contacts) {
-    solution.impulse.setZero(3 * problem.contacts());
+    solution.impulse.setZero(problem.rows());
     solution.reason = "more than " + std::to_string(most_ipopt_contacts) + " contacts";
     certify(problem, law, tolerance, solution);
   } else if (law == FrictionLaw::cone) {
-    solution = minimum(problem, tolerance);
+    solution = minimum(problem, tolerance, work);
   } else {
     solution = coulomb_by_fixed_point(
-        problem, tolerance, {[&](const ConeProblem& convex) { return minimum(convex, tolerance); }, {}});
+        problem, tolerance, {[&](const ConeProblem& convex) { return minimum(convex, tolerance, work); }, {}},
+        work);
   }
   solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return solution;

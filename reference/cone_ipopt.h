@@ -14,7 +14,9 @@ namespace pbd::reference {
 
 inline constexpr int most_ipopt_contacts = 300;  // its Hessian is dense
 
-/// Certified by the natural residual. Not converged, with a reason, for more contacts than that.
-ConeSolution cone_ipopt(const ConeProblem& problem, FrictionLaw law, double tolerance);
+/// Certified by the natural residual. Not converged, with a reason, for more contacts than that. Work is
+/// taken after each run of Ipopt.
+ConeSolution cone_ipopt(const ConeProblem& problem, FrictionLaw law, double tolerance,
+                        ConeWork* work = nullptr);
 
 }  // namespace pbd::reference

@@ -15,30 +15,45 @@ struct Derivative {
   SparseMatrix projection, matrix;
 };
 
-SparseMatrix block_diagonal(int contacts, const std::function<Matrix3d(int)>& block) {
+/// Of a block a contact and an entry a bounded row.
+SparseMatrix block_diagonal(const ConeProblem& p, const std::function<Matrix3d(int)>& block,
+                            const std::function<double(int)>& entry) {
   Triplets entries;
-  for (int i = 0; i < contacts; ++i) {
+  for (int i = 0; i < p.contacts(); ++i) {
     const Matrix3d b = block(i);
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         if (b(row, column) != 0) entries.emplace_back(3 * i + row, 3 * i + column, b(row, column));
   }
-  return from_triplets(3 * contacts, 3 * contacts, entries);
+  for (int k = 0; k < p.bounded(); ++k)
+    if (const int row = 3 * p.contacts() + k; entry(k) != 0) entries.emplace_back(row, row, entry(k));
+  return from_triplets(p.rows(), p.rows(), entries);
 }
 
 Derivative derivative(const ConeProblem& p, FrictionLaw law, const VectorXd& impulse) {
   const VectorXd u = p.velocity(impulse), shifted = shifted_velocity(p, law, u);
   Derivative d;
-  d.projection = block_diagonal(p.contacts(), [&](int i) {
-    return cone_projection_derivative(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), p.friction(i));
-  });
-  const SparseMatrix shift = block_diagonal(p.contacts(), [&](int i) {
-    Matrix3d g = Matrix3d::Identity();
-    const Vector2d slip = u.segment<2>(3 * i + 1);
-    if (law == FrictionLaw::coulomb && slip.norm() > 0)
-      g.block<1, 2>(0, 1) = p.friction(i) * slip.normalized().transpose();
-    return g;
-  });
+  d.projection = block_diagonal(
+      p,
+      [&](int i) {
+        return cone_projection_derivative(impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i),
+                                          p.friction(i));
+      },
+      [&](int k) {
+        const int row = 3 * p.contacts() + k;
+        const double point = impulse(row) - shifted(row);
+        return p.lower(k) < point && point < p.upper(k) ? 1.0 : 0.0;
+      });
+  const SparseMatrix shift = block_diagonal(
+      p,
+      [&](int i) {
+        Matrix3d g = Matrix3d::Identity();
+        const Vector2d slip = u.segment<2>(3 * i + 1);
+        if (law == FrictionLaw::coulomb && slip.norm() > 0)
+          g.block<1, 2>(0, 1) = p.friction(i) * slip.normalized().transpose();
+        return g;
+      },
+      [](int) { return 1.0; });
   SparseMatrix identity(d.projection.rows(), d.projection.cols());
   identity.setIdentity();
   const SparseMatrix outer = d.projection * shift;
@@ -67,7 +82,8 @@ bool newton_step(const Derivative& at, double regularisation, const VectorXd& b,
 
 }  // namespace
 
-int cone_newton(const ConeProblem& original, FrictionLaw law, double target, VectorXd& impulse) {
+int cone_newton(const ConeProblem& original, FrictionLaw law, double target, VectorXd& impulse,
+                ConeWork* work) {
   constexpr int most_steps = 200;
   constexpr double smallest = 1e-13, largest = 1;  // of e, where W's blocks have a mean diagonal of 1
   EquilibratedCone scaled = equilibrate(original);
@@ -77,13 +93,17 @@ int cone_newton(const ConeProblem& original, FrictionLaw law, double target, Vec
     scaled.problem.delassus *= weight;
     scaled.problem.free_velocity *= weight;
   }
+  double rounding = 0;  // of the last residual
   const auto residual = [&](const VectorXd& r) {
-    return measure_cone(original, law, scaled.scale.cwiseProduct(r)).residual();
+    const ConeMeasures measures = measure_cone(original, law, scaled.scale.cwiseProduct(r));
+    rounding = measures.rounding;
+    return measures.residual();
   };
   VectorXd at = start, best = at;
   double best_residual = residual(at), regularisation = 1e-10;
   int steps = 0;
-  while (steps < most_steps && best_residual > target) {
+  while (steps < most_steps && best_residual > std::max(target, rounding)) {
+    if (work != nullptr && !work->spend(static_cast<double>(original.delassus.nonZeros()))) break;
     const VectorXd map = natural_map(scaled.problem, law, at);
     const Derivative d = derivative(scaled.problem, law, at);
     VectorXd step;

@@ -12,8 +12,9 @@
 
 namespace pbd::reference {
 
-/// Improves `impulse` until |F| / |q| <= target or no step helps; returns the number of steps. What comes out
-/// is never worse than what went in.
-int cone_newton(const ConeProblem& problem, FrictionLaw law, double target, Eigen::VectorXd& impulse);
+/// Improves `impulse` until |F| / |q| is at most `target` or what rounding makes of it, no step helps or the
+/// work is spent; returns the number of steps. What comes out is never worse than what went in.
+int cone_newton(const ConeProblem& problem, FrictionLaw law, double target, Eigen::VectorXd& impulse,
+                ConeWork* work = nullptr);
 
 }  // namespace pbd::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace pbd::reference {
 
@@ -65,30 +66,49 @@ Vector3d project_contact(FrictionLaw law, const Vector3d& point, double mu) {
   return law == FrictionLaw::box ? project_on_pyramid(point, mu) : project_on_cone(point, mu);
 }
 
-/// r - P_K(r - u~)
-VectorXd map_of(FrictionLaw law, const VectorXd& friction, const VectorXd& impulse, const VectorXd& shifted) {
-  VectorXd map = impulse;
-  for (Eigen::Index i = 0; i < friction.size(); ++i)
-    map.segment<3>(3 * i) -=
-        project_contact(law, impulse.segment<3>(3 * i) - shifted.segment<3>(3 * i), friction(i));
-  return map;
+/// P_K of the problem whose impulses are divided by `scale`.
+VectorXd project(const ConeProblem& problem, FrictionLaw law, const VectorXd& point, const VectorXd& scale) {
+  VectorXd nearest(point.size());
+  for (int i = 0; i < problem.contacts(); ++i)
+    nearest.segment<3>(3 * i) = project_contact(law, point.segment<3>(3 * i), problem.friction(i));
+  for (int k = 0; k < problem.bounded(); ++k) {
+    const int row = 3 * problem.contacts() + k;
+    nearest(row) = std::clamp(point(row), problem.lower(k) / scale(row), problem.upper(k) / scale(row));
+  }
+  return nearest;
+}
+
+/// The part of a bounded row's velocity that no impulse within the bounds can answer.
+double unanswered(const ConeProblem& problem, int bounded, double velocity) {
+  if (velocity < 0 && problem.upper(bounded) == infinity) return velocity;
+  if (velocity > 0 && problem.lower(bounded) == -infinity) return velocity;
+  return 0;
+}
+
+/// |(p - l) u| where u opens the lower bound's side, |(h - p) u| where it opens the upper one's.
+double bounded_gap(const ConeProblem& problem, int bounded, double impulse, double velocity) {
+  if (velocity == 0) return 0;
+  return std::abs(velocity * (impulse - (velocity > 0 ? problem.lower(bounded) : problem.upper(bounded))));
 }
 
 /// s of the equilibrated problem, one per row.
 VectorXd equilibrating(const ConeProblem& problem) {
-  VectorXd scale = VectorXd::Ones(3 * problem.contacts());
+  VectorXd scale = VectorXd::Ones(problem.rows());
   const VectorXd diagonal = problem.delassus.diagonal();
   for (int i = 0; i < problem.contacts(); ++i) {
     const double mean = diagonal.segment<3>(3 * i).mean();
     if (mean > 0) scale.segment<3>(3 * i).setConstant(1 / std::sqrt(mean));
   }
+  for (int row = 3 * problem.contacts(); row < problem.rows(); ++row)
+    if (diagonal(row) > 0) scale(row) = 1 / std::sqrt(diagonal(row));
   return scale;
 }
 
 }  // namespace
 
 VectorXd natural_map(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
-  return map_of(law, problem.friction, impulse, shifted_velocity(problem, law, problem.velocity(impulse)));
+  const VectorXd shifted = shifted_velocity(problem, law, problem.velocity(impulse));
+  return impulse - project(problem, law, impulse - shifted, VectorXd::Ones(problem.rows()));
 }
 
 ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const VectorXd& impulse) {
@@ -96,23 +116,36 @@ ConeMeasures measure_cone(const ConeProblem& problem, FrictionLaw law, const Vec
   const VectorXd velocity = problem.velocity(impulse);
   const VectorXd shifted = shifted_velocity(problem, law, velocity);
   const double size = problem.free_velocity.stableNorm();
-  double from_cone = 0, from_dual = 0;
+  const VectorXd one = VectorXd::Ones(problem.rows()), scale = equilibrating(problem);
+  double from_dual = 0, gap = 0;
   for (int i = 0; i < problem.contacts(); ++i) {
-    const Vector3d r = impulse.segment<3>(3 * i), u = shifted.segment<3>(3 * i);
-    from_cone += (r - project_contact(law, r, problem.friction(i))).squaredNorm();
+    const Vector3d u = shifted.segment<3>(3 * i);
     from_dual +=
         project_contact(law, -u, problem.friction(i)).squaredNorm();  // Moreau: u - P_K*(u) = -P_K(-u)
+    gap += impulse.segment<3>(3 * i).dot(u);
+  }
+  for (int k = 0; k < problem.bounded(); ++k) {
+    const int row = 3 * problem.contacts() + k;
+    const double missed = unanswered(problem, k, shifted(row));
+    from_dual += missed * missed;
+    if (missed == 0) gap += bounded_gap(problem, k, impulse(row), shifted(row));
   }
   const double quadratic = impulse.dot(problem.delassus * impulse);
   const double linear = impulse.dot(problem.free_velocity);
   ConeMeasures m;
-  m.natural_residual = over(map_of(law, problem.friction, impulse, shifted).stableNorm(), size);
-  const VectorXd scale = equilibrating(problem);
-  m.scaled_residual = over(
-      map_of(law, problem.friction, impulse.cwiseQuotient(scale), scale.cwiseProduct(shifted)).stableNorm(),
-      scale.cwiseProduct(problem.free_velocity).stableNorm());
-  m.gap = over(std::abs(impulse.dot(shifted)), std::abs(quadratic) + std::abs(linear));
-  m.impulse_distance = over(std::sqrt(from_cone), impulse.norm());
+  m.natural_residual = over((impulse - project(problem, law, impulse - shifted, one)).stableNorm(), size);
+  const VectorXd scaled_impulse = impulse.cwiseQuotient(scale);
+  m.scaled_residual =
+      over((scaled_impulse - project(problem, law, scaled_impulse - scale.cwiseProduct(shifted), scale))
+               .stableNorm(),
+           scale.cwiseProduct(problem.free_velocity).stableNorm());
+  const VectorXd summed = problem.delassus.cwiseAbs() * impulse.cwiseAbs() + problem.free_velocity.cwiseAbs();
+  constexpr double epsilon = 2 * std::numeric_limits<double>::epsilon();  // one of each sum, one of the map
+  m.rounding = epsilon * std::max(over((summed + impulse.cwiseAbs()).stableNorm(), size),
+                                  over((scale.cwiseProduct(summed) + scaled_impulse.cwiseAbs()).stableNorm(),
+                                       scale.cwiseProduct(problem.free_velocity).stableNorm()));
+  m.gap = over(std::abs(gap), std::abs(quadratic) + std::abs(linear));
+  m.impulse_distance = over((impulse - project(problem, law, impulse, one)).norm(), impulse.norm());
   m.velocity_distance = over(std::sqrt(from_dual), size);
   m.objective = quadratic / 2 + linear;
   return m;
@@ -122,6 +155,9 @@ EquilibratedCone equilibrate(const ConeProblem& problem) {
   EquilibratedCone scaled{problem, equilibrating(problem)};
   scaled.problem.delassus = reference::scaled(scaled.scale, problem.delassus, scaled.scale);
   scaled.problem.free_velocity = scaled.scale.cwiseProduct(problem.free_velocity);
+  const VectorXd bounded = scaled.scale.tail(problem.bounded());
+  scaled.problem.lower = problem.lower.cwiseQuotient(bounded);
+  scaled.problem.upper = problem.upper.cwiseQuotient(bounded);
   return scaled;
 }
 

@@ -21,6 +21,21 @@ FrictionLaw law_of(Friction friction) {
                    "coulomb, cone: the laws that the judges of contact know");
 }
 
+constexpr double allowed = 1e-9;  // of the displacement, or of the largest balanced force
+
+/// What corrections and gaps are measured by, m: the displacement, or if that is more what is `allowed` of it
+/// to know the rounding of positions, and of what forces that balance each other make of them.
+double scale_of(const ContactStep& own, const Vector& velocity, const Vector& gamma) {
+  Vector magnitude = system_at(own.step, velocity, gamma).magnitude;
+  own.push(velocity, magnitude);
+  const RigidModel& model = own.step.model;
+  const double h = own.step.h;
+  const double by_forces =
+      h * h * magnitude.cwiseProduct(model.radius).cwiseQuotient(model.inertia).maxCoeff();
+  const double places = own.step.end(velocity).x.cwiseAbs().maxCoeff();
+  return std::max(displacement_of(own.step, velocity), step_rounding * std::max(places, by_forces) / allowed);
+}
+
 struct StepSearch {
   ContactStep step;
   Cones cones;
@@ -32,7 +47,7 @@ struct StepSearch {
   /// Newton until its corrections are at rounding.
   bool run() {
     constexpr int most = 60;
-    constexpr double near = 1e-3, converged = 1e-9, rounding = 1e-14;
+    constexpr double near = 1e-3, converged = allowed, rounding = 1e-14;
     double previous = infinity;
     bool came_near = false;  // from then on features are those of the iterates alone
     for (; iterations < most; ++iterations) {
@@ -41,10 +56,11 @@ struct StepSearch {
       Linearised linear;
       Vector increment, next;
       if (!linear.compute(step, velocity, gamma) || !linear.solve(cones, step, increment, next)) return false;
+      if (cones.spent()) return false;
       velocity += velocity_change(step.step, velocity, increment);
       gamma = next;
       correction = increment.cwiseProduct(step.step.model.radius).cwiseAbs().maxCoeff() /
-                   displacement_of(step.step, velocity);
+                   scale_of(step, velocity, gamma);
       if (!std::isfinite(correction)) return false;
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
         // What is near at the start alone lets nothing collide.
@@ -80,7 +96,10 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
                                 ConeSolver solver, const ContactStart& start) {
   const FrictionLaw law = law_of(friction);
   Clock clock;
-  StepSearch search{{scene, state, h}, {law, solver, start.poll}, {}, {}};
+  StepSearch search{{scene, state, h, start.map ? std::optional(*start.map) : std::nullopt},
+                    {law, solver, {start.work, start.poll}},
+                    {},
+                    {}};
   ContactStep& own = search.step;
   search.velocity = own.step.start_velocity();
   search.gamma.setZero(own.step.model.rows());
@@ -102,16 +121,13 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   const Vector per_length = own.step.model.radius.cwiseInverse();
   j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
-  constexpr double allowed = 1e-9;
   j.contacts = static_cast<int>(std::count_if(own.contacts.begin(), own.contacts.end(),
                                               [](const JudgedContact& each) { return each.force[0] > 0; }));
   j.all = own.contacts;
-  j.law = own.law_residual(law, search.velocity);
+  j.law = larger(own.law_residual(law, search.velocity), own.bounds_residual(system, search.gamma));
+  const double scale = scale_of(own, search.velocity, search.gamma);
   own.find_contacts(search.velocity, start.features_kept);  // others may be in each other by now
-  // Gaps are known to the rounding of positions.
-  const double known = step_rounding * j.x.cwiseAbs().maxCoeff();
-  j.law = larger(j.law, own.law_residual(law, search.velocity)) * h /
-          std::max(displacement_of(own.step, search.velocity), known / allowed);
+  j.law = larger(j.law, own.law_residual(law, search.velocity)) * h / scale;
   j.correction = search.correction;
   j.iterations = search.iterations;
   j.rank = -1;
@@ -120,7 +136,10 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
     if (!reason.str().empty()) reason << ", ";
     return reason;
   };
-  if (!converged)
+  if (search.cones.spent())
+    say() << "gave up after " << search.iterations << " iterations: " << start.work
+          << " factorisations of the contacts' problem are spent";
+  else if (!converged)
     say() << "stopped after " << search.iterations << " iterations, the last correction " << j.correction;
   for (const auto& [name, off] :
        {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})

@@ -96,7 +96,7 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const ContactPose& pose
   row.seen = directions * against(own.pair, found, at, pose.end);
   row.normal_velocity = row.seen[0];
   row.seen.tail<2>() += directions.bottomRows<2>() * conveyed(contact, own.pair, at);
-  row.seen[0] = (found.gap - (own.collides ? own.rebound : own.target)) / step.h;
+  row.seen[0] = (found.gap - (own.collides ? own.rebound : own.target)) / step.d();
   if (own.collides)
     row.seen[0] = std::min(
         row.seen[0], row.normal_velocity +
@@ -169,11 +169,27 @@ double ContactStep::law_residual(FrictionLaw law, const Vector& velocity) const 
     }
     const double mass = inverse > 0 ? 1 / inverse : 1;
     Vec3 seen = row.seen;
-    seen[0] += own.compliance * own.force[0] / step.h;
+    seen[0] += compliance_of(own) * own.force[0] / step.d();
     if (law == FrictionLaw::coulomb) seen[0] += own.law.friction * seen.tail<2>().norm();
-    const Vec3 impulse = step.h * own.force;
+    const Vec3 impulse = step.s() * own.force;
     const Vec3 missed = impulse - project_on_cone(impulse - mass * seen, own.law.friction);
     worst = larger(worst, missed.norm() / mass);
+  }
+  return worst;
+}
+
+double ContactStep::bounds_residual(const RigidSystem& system, const Vector& gamma) const {
+  const Vector open = system.gap(gamma) / step.d();
+  const Vector per_length = step.model.radius.cwiseInverse();
+  const Vector squares = squared_rows(scaled(system.jacobian, per_length), Vector::Ones(step.model.unknowns));
+  const Vector inverse_mass = squared_rows(system.jacobian, step.model.inertia.cwiseInverse());
+  double worst = 0;
+  for (const auto& [row, bounds] : bounded) {
+    const double mass = inverse_mass[row] > 0 ? 1 / inverse_mass[row] : 1;
+    const double length = squares[row] > 0 ? std::sqrt(squares[row]) : 1;
+    const double impulse = step.s() * gamma[row];
+    const double kept = std::clamp(impulse - mass * open[row], step.s() * bounds[0], step.s() * bounds[1]);
+    worst = larger(worst, std::abs(impulse - kept) / mass / length);
   }
   return worst;
 }

@@ -5,7 +5,6 @@
 
 #include "damping.h"
 #include "error.h"
-#include "step_equations.h"
 #include "step_rows.h"
 
 namespace pbd::reference {
@@ -17,28 +16,43 @@ Contact contact_of(const Scene& scene) {
   return {};
 }
 
+/// The start with velocities that lead along `way` (m or rad, per unknown) within h; `held` those of nodes
+/// that no force moves, m/s.
+State led(const RigidStep& step, const Vector& way, const Points& held) {
+  State state = step.start;
+  const Vector velocity = way / step.h;
+  state.v = scatter(step.model.nodes, held, velocity.head(step.model.nodes.unknowns));
+  for (std::size_t b = 0; b < step.model.rotors.size(); ++b)
+    if (const int i = step.model.rotors[b].unknown; i >= 0)
+      state.spin.col(static_cast<Eigen::Index>(b)) = velocity.segment<3>(i);
+  return state;
+}
+
 }  // namespace
 
-ContactStep::ContactStep(const Scene& scene, const State& state, double h)
-    : step{make_step_model(scene).rigid, state, h}, contact(contact_of(scene)), search(scene, contact) {
+ContactStep::ContactStep(const Scene& scene, const State& state, double h,
+                         const std::optional<IntegratorMap>& map)
+    : ContactStep(make_step_model(scene), scene, state, h, map) {}
+
+ContactStep::ContactStep(StepModel stated, const Scene& scene, const State& state, double h,
+                         const std::optional<IntegratorMap>& map)
+    : step{std::move(stated.rigid), state, h, {}, map}, contact(contact_of(scene)), search(scene, contact) {
   start_ = placement_of(state);
-  for (const Effect& effect : scene.effects)
-    std::visit(
-        []<class E>(const E& own) {
-          if constexpr (requires { own.bounds; })
-            if (!own.bounds.empty())
-              throw SetupError(own.name, "limits or motors of limited force",
-                               "equations: the judge of contact knows no other bounds of forces");
-        },
-        effect);
+  for (int row = 0; row < step.model.rows(); ++row) {
+    const auto& bounds = stated.bounds[static_cast<std::size_t>(row)];
+    if (bounds == std::array{-infinity, infinity}) continue;
+    bounded.push_back({row, bounds});
+    step.model.hard[static_cast<std::size_t>(row)] = false;
+  }
   step.damping = damping_of(scene, step.model, start_, h);
-  free_ = state;
+  if (map && !step.damping.empty())
+    throw SetupError("damping", "with another integrator than implicit_euler", "none in what is judged so");
   const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
-  const Vector free = step.start_velocity() - h * system.load.cwiseQuotient(step.model.inertia);
-  const State end = step.end(free);
-  free_end_ = placement_of(end);
-  free_.v = end.v;
-  free_.spin = end.spin;
+  const Points start_velocities = state.v;
+  const Vector free = step.start_velocity() - step.s() * system.load.cwiseQuotient(step.model.inertia);
+  free_end_ = step.placement(free);
+  free_ = led(step, step.shift() + step.d() * free, start_velocities);
+  shifted_ = led(step, step.shift(), (1 - step.d() / h) * start_velocities);
 }
 
 /// Whether a pair touches by its features where its gap vanishes on the way of the free motion.
@@ -62,16 +76,17 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   const auto along = [&](const State& state) {
     return found.normal.dot(against(pair, found, start_, state));
   };
-  const double h = step.h;
-  made.target = std::min(0.0, found.gap + contact.recovery * h);
+  const double h = step.h, d = step.d();
+  const double from = step.map ? found.gap + h * along(shifted_) : found.gap;
+  made.target = std::min(0.0, std::max(found.gap, from + contact.recovery * d));
   made.closing = -along(step.start);
   const double ahead = found.gap + h * along(free_);
   made.collides =
       made.law.restitution > 0 && made.closing > 0 && ahead < 0 && meets_freely(pair, found.gap, ahead);
-  made.rebound = made.closing > 0 ? std::min(made.target, found.gap + h * made.law.restitution * made.closing)
-                                  : made.target;
-  const double elastic = 1 / (1 + made.law.damping / h);  // the spring's share
-  const double offset = (1 - elastic) * (std::min(found.gap, 0.0) - made.target);
+  made.rebound =
+      made.closing > 0 ? std::min(made.target, from + d * made.law.restitution * made.closing) : made.target;
+  const double elastic = 1 / (1 + made.law.damping / d);  // the spring's share
+  const double offset = (1 - elastic) * (std::min(from, 0.0) - made.target);
   made.target += offset;
   made.rebound += offset;
   made.compliance = elastic * made.law.compliance;
@@ -119,7 +134,7 @@ void ContactStep::take_forces(const std::vector<ClaimedContact>& claimed, const 
     }
     if (taker == nullptr) continue;
     const double sign = taken.normal.dot(claim.normal) < 0 ? -1 : 1;
-    taker->force += sign * (directions_of(taken.normal, taker->reference) * claim.force);
+    taker->force += sign * step.h / step.s() * (directions_of(taken.normal, taker->reference) * claim.force);
   }
 }
 
@@ -131,7 +146,7 @@ bool ContactStep::collide(const Vector& velocity) {
     if (own.collides || !(own.law.restitution > 0) || !(own.closing > 0)) continue;
     const ContactRow row = row_of(own, pose);
     const double slack = touching * own.closing;
-    if (row.seen[0] + own.compliance * own.force[0] / step.h > slack) continue;
+    if (row.seen[0] + compliance_of(own) * own.force[0] / step.d() > slack) continue;
     if (row.normal_velocity < own.law.restitution * own.closing - slack) own.collides = any = true;
   }
   return any;

@@ -1,14 +1,17 @@
 // The implicit Euler step of a scene with contact (rigid_step.h), with impulses r = h lambda of its contacts:
 //
-//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0
-//   K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
+//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0      (by other integrators' IntegratorMap: h/s C^T
+//   lambda) K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
 //
+// Limits of joints and motors of limited force are bounded rows of the same problem: the impulse is h gamma,
+// and what the row sees (c + A gamma)/h.
 // C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
 // contact is, in m/s,
 //   u_n = (gap - target)/h + A r_n/h^2,  where the surfaces collide the smaller of that, with another target,
 //         and n . (u + e u_l), u their velocities against each other; in u_l a body's spin is what it is
 //         where the step begins, in the body's own axes
 //   u_t = t . (u + s), s the velocity at which surfaces that move along themselves go against each other
+// with d of an integrator's map in the place of h, and A r_n/(h d).
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
 // what is parting too slowly for its e, collides.
@@ -18,6 +21,7 @@
 #include "feature_search.h"
 #include "rigid_step.h"
 #include "step_claim.h"
+#include "step_equations.h"
 
 namespace pbd::reference {
 
@@ -30,7 +34,7 @@ struct JudgedContact {
   double closing = 0;              // m/s, where the step begins
   bool collides = false;
   double compliance = 0;      // m/N
-  Vec3 force = Vec3::Zero();  // lambda, N: along the normal and both tangents
+  Vec3 force = Vec3::Zero();  // lambda h/s, N: along the normal and both tangents
 };
 
 /// A contact's directions and how its law sees it at one pose.
@@ -38,6 +42,13 @@ struct ContactRow {
   std::vector<std::pair<int, Eigen::Matrix3d>> parts;  // C by each three unknowns, (dx, d)
   double normal_velocity = 0;                          // n . u, m/s
   Vec3 seen = Vec3::Zero();  // what the law sees, without the compliance's part, m/s
+};
+
+/// A limit of a joint or a motor of limited force (solver/model/body_effects.h): c + A gamma >= 0 where gamma
+/// is at the lower bound, <= 0 at the upper one, else 0.
+struct BoundedRow {
+  int row = 0;                     // of the model's rows, of which it is no equation
+  std::array<double, 2> bounds{};  // of gamma, N or N m
 };
 
 /// Where a step ends by some velocities, and what all of its contacts' rows need of that.
@@ -52,9 +63,13 @@ struct ContactStep {
   Contact contact;
   FeatureSearch search;
   std::vector<JudgedContact> contacts;
+  std::vector<BoundedRow> bounded;
 
   /// Throws SetupError for what the judge does not know.
-  ContactStep(const Scene& scene, const State& state, double h);
+  ContactStep(const Scene& scene, const State& state, double h, const std::optional<IntegratorMap>& map = {});
+
+  /// A contact's compliance for what `force` is: it acts over s, not h.
+  double compliance_of(const JudgedContact& own) const { return own.compliance * step.s() / step.h; }
 
   /// Takes the features that are valid at `velocity`, and `also_start` where the step begins; known contacts
   /// keep their forces.
@@ -86,13 +101,21 @@ struct ContactStep {
   /// The largest |r - P_K(r - m u~)|/m of a contact, m/s, m the mass that its sides' centres have together.
   double law_residual(FrictionLaw law, const Vector& velocity) const;
 
+  /// The largest |p - clamp(p - m (c + A gamma)/h)|/m of a bounded row, p = h gamma, m the row's effective
+  /// mass, over the length of its gradient: m/s.
+  double bounds_residual(const RigidSystem& system, const Vector& gamma) const;
+
  private:
+  ContactStep(StepModel stated, const Scene& scene, const State& state, double h,
+              const std::optional<IntegratorMap>& map);
+
   JudgedContact begun(const FeaturePair& pair) const;
 
   bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;
 
   Placement start_, free_end_;
-  State free_;  // where the step begins, with the velocities of its free motion's end
+  State free_;     // where the step begins, with the velocities that lead to its free motion's end
+  State shifted_;  // likewise to where the step's map begins
 };
 
 }  // namespace pbd::reference

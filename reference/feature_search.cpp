@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cylinder_features.h"
 #include "placed_surface.h"
 #include "touching_sides.h"
 
@@ -81,9 +82,22 @@ struct Between {
 
   void corners_over_faces(const PlacedSurface& a, const PlacedSurface& b, double reach, double depth) {
     if (a.surface.plane) return;  // it has none
+    struct Over {
+      std::size_t corner;
+      Vec3 normal;
+      double height;
+    };
+    std::vector<Over> over;  // rigid faces
     each_near(a, 0, b, 2, reach, [&](std::size_t i, std::size_t k) {
       const Vec3 n = b.face_normal(k);
       if (!b.surface.plane && !b.within_face(k, a.x[i], n)) return;
+      // On the side that two triangles in one plane share it is over one of them.
+      const double height = n.dot(a.x[i] - b.x[static_cast<std::size_t>(b.surface.face[k][0])]);
+      const auto same = [&](const Over& one) {
+        return one.corner == i && (one.normal - n).norm() < in_one_plane &&
+               std::abs(one.height - height) < in_one_plane * b.size();
+      };
+      if (std::any_of(over.begin(), over.end(), same)) return;
       FeaturePair pair = pair_of(a, 0, i, b, 2, k);
       if (b.surface.deformable) {
         if (a.surface.deformable && share_corner(pair)) return;
@@ -91,6 +105,7 @@ struct Between {
       }
       if (!b.surface.plane && !a.lies_along(pair.side * n, a.x[i], 0, i, leaning)) return;
       if (came_from_beside(pair, b.surface, k)) return;
+      if (!b.surface.deformable) over.push_back({i, n, height});
       add_if(pair, reach, b.surface.plane ? infinity : depth);
     });
   }
@@ -144,6 +159,8 @@ struct Between {
     moved = a.moved + b.moved;
     const double reach = moved + depth + radii;
     if (!a.surface.plane && !b.surface.plane && !a.all.near(b.all, reach)) return;
+    if (a.surface.cylinder > 0) return find_beside_cylinder({start, at, b, a, moved, depth}, found);
+    if (b.surface.cylinder > 0) return find_beside_cylinder({start, at, a, b, moved, depth}, found);
     const bool same = &a == &b;
     corners_over_faces(a, b, reach, depth);
     if (!same) corners_over_faces(b, a, reach, depth);
@@ -199,6 +216,7 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
         surfaces_.push_back(surface_of(free, b.radius, b.side));
       }
     }
+  for (const auto& [i, k] : pairs_) require_beside_cylinder(surfaces_[i], surfaces_[k]);
 }
 
 void FeatureSearch::find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const {
@@ -226,6 +244,7 @@ bool FeatureSearch::on_both(const FeaturePair& pair, const Placement& at) const 
   const auto surface = std::find_if(surfaces_.begin(), surfaces_.end(),
                                     [&](const Surface& own) { return own.side == pair.name[3]; });
   if (surface->plane) return true;
+  if (surface->cylinder > 0) return over_cap(*surface, at, placed(pair.a.corner[0], at));
   const PlacedSurface face(*surface, at, at);
   const auto number = static_cast<std::size_t>(pair.name[5]);
   return face.within_face(number, placed(pair.a.corner[0], at), face.face_normal(number));

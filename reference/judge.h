@@ -54,15 +54,24 @@ struct NamedJudge {
 /// Of scenes without contact: primal_newton and ipopt.
 std::span<const NamedJudge> judges();
 
+/// What a judge of contact spends on a step before it gives up: factorisations of 100 rows, of 0.2 ms each.
+inline constexpr double default_contact_work = 2e4;
+
 /// Where a judge of contact starts, since there may be several solutions: from the velocities where the step
 /// begins, or from the end and the forces that somebody claims for it. What touches is decided by the poses
 /// where the step ends; with `features_kept` it is the features that are near where it begins, too, which go
 /// on as planes and lines that have no end.
+/// `map` is that of another integrator than implicit Euler (rigid_step.h).
 struct StepClaim;
+struct IntegratorMap;
 struct ContactStart {
   const StepClaim* near = nullptr;
   bool features_kept = false;
   std::function<void()> poll{};  // called now and then; what it throws ends the judge's work
+  /// What the contacts' problems may cost before the judge gives up, in factorisations of 100 rows; larger
+  /// ones count for more (ConeWork in cone_problem.h).
+  double work = default_contact_work;
+  const IntegratorMap* map = nullptr;
 };
 
 /// Of scenes with contact and damping, too, named by what solves the contacts' law: cone_interior_point and

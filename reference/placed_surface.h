@@ -48,6 +48,8 @@ struct PlacedSurface {
       moved = std::max(moved, (x.back() - placed(corner, start)).norm());
       bounds[0].emplace_back().add(x.back());
     }
+    for (std::size_t k = 0; k < 2 && own.cylinder > 0; ++k)  // all of the rims
+      for (const double sign : {-1.0, 1.0}) all.add(x[k] + Vec3::Constant(sign * own.cylinder));
     for (const auto& edge : own.edge) {
       Bounds& box = bounds[1].emplace_back();
       for (const int k : edge) box.add(x[static_cast<std::size_t>(k)]);

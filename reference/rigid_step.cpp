@@ -35,13 +35,15 @@ std::vector<std::pair<int, int>> unknowns_of(const RigidModel& model, const Bloc
 
 /// Inertia and loads of the rotations.
 void add_rotations(const RigidStep& s, const Vector& velocity, RigidSystem& system, Triplets& tangent) {
+  const Vector from = s.base();
   for (std::size_t b = 0; b < s.model.rotors.size(); ++b) {
     const Rotor& rotor = s.model.rotors[b];
     if (rotor.unknown < 0) continue;
-    const Vec3 w = velocity.segment<3>(rotor.unknown), before = s.start.spin.col(b);
+    const Vec3 w = velocity.segment<3>(rotor.unknown), before = s.start.spin.col(b),
+               base = from.segment<3>(rotor.unknown);
     const Vec3 torque = s.start.orientation[b].conjugate() * rotor.torque;
     const Vec3 momentum = rotor.inertia.cwiseProduct(w);
-    Eigen::Matrix3d by_w = Eigen::Matrix3d(rotor.inertia.asDiagonal()) / s.h;
+    Eigen::Matrix3d by_w = Eigen::Matrix3d(rotor.inertia.asDiagonal()) / s.s();
     Vec3 gyroscopic = Vec3::Zero();
     if (s.model.gyroscopic == GyroscopicTorque::at_end) {
       gyroscopic = w.cross(momentum);
@@ -49,12 +51,13 @@ void add_rotations(const RigidStep& s, const Vector& velocity, RigidSystem& syst
     } else if (s.model.gyroscopic == GyroscopicTorque::at_start) {
       gyroscopic = before.cross(rotor.inertia.cwiseProduct(before));
     }
-    const Vec3 inertial = rotor.inertia.cwiseProduct(w - before) / s.h;
+    const Vec3 inertial = rotor.inertia.cwiseProduct(w - base) / s.s();
     system.load.segment<3>(rotor.unknown) = inertial + gyroscopic - torque;
     system.magnitude.segment<3>(rotor.unknown) =
-        rotor.inertia.cwiseProduct(w.cwiseAbs() + before.cwiseAbs()) / s.h + gyroscopic.cwiseAbs() +
+        rotor.inertia.cwiseProduct(w.cwiseAbs() + base.cwiseAbs()) / s.s() + gyroscopic.cwiseAbs() +
         torque.cwiseAbs();
-    add_square(tangent, rotor.unknown, rotor.unknown, by_w * inverse_right_jacobian(s.h * w) / s.h);
+    add_square(tangent, rotor.unknown, rotor.unknown,
+               by_w * inverse_right_jacobian(s.arc(velocity, rotor.unknown)) / s.d());
   }
 }
 
@@ -73,10 +76,18 @@ State RigidStep::end(const Vector& velocity) const {
   state.time += h;
   state.v = scatter(model.nodes, start.v, velocity.head(model.nodes.unknowns));
   state.x += h * state.v;
+  if (map)
+    for (std::size_t i = 0; i < model.nodes.first.size(); ++i)
+      if (const int u = model.nodes.first[i]; u >= 0) {
+        const auto node = static_cast<Eigen::Index>(i);
+        state.x.col(node) = start.x.col(node) + map->shift.segment<3>(u) + map->d * state.v.col(node);
+      }
   for (std::size_t b = 0; b < model.rotors.size(); ++b) {
     const auto column = static_cast<int>(b);
     if (const int i = model.rotors[b].unknown; i >= 0) state.spin.col(column) = velocity.segment<3>(i);
-    state.orientation[b] = turned_by(start.orientation[b], h * state.spin.col(column));
+    const int unknown = model.rotors[b].unknown;
+    const Vec3 turned = unknown >= 0 ? arc(velocity, unknown) : Vec3(h * state.spin.col(column));
+    state.orientation[b] = turned_by(start.orientation[b], turned);
   }
   return state;
 }
@@ -100,13 +111,13 @@ RigidSystem system_at(const RigidStep& s, const Vector& velocity, const Vector& 
   system.load.resize(model.unknowns);
   system.magnitude.resize(model.unknowns);
   system.value.resize(model.rows());
-  const Vector before = gather(model.nodes, s.start.v);
-  system.load.head(n) = model.nodes.mass.cwiseProduct(velocity.head(n) - before) / s.h - model.nodes.force;
+  const Vector before = s.base().head(n);
+  system.load.head(n) = model.nodes.mass.cwiseProduct(velocity.head(n) - before) / s.s() - model.nodes.force;
   system.magnitude.head(n) =
-      model.nodes.mass.cwiseProduct(velocity.head(n).cwiseAbs() + before.cwiseAbs()) / s.h +
+      model.nodes.mass.cwiseProduct(velocity.head(n).cwiseAbs() + before.cwiseAbs()) / s.s() +
       model.nodes.force.cwiseAbs();
   Triplets tangent, jacobian, compliance;
-  for (int i = 0; i < n; ++i) tangent.emplace_back(i, i, model.nodes.mass(i) / (s.h * s.h));
+  for (int i = 0; i < n; ++i) tangent.emplace_back(i, i, model.nodes.mass(i) / (s.s() * s.d()));
   add_rotations(s, velocity, system, tangent);
   for (Block& block : blocks_at(model, s.placement(velocity), Coordinates::turns)) {
     const int rows = block.rows();
@@ -139,11 +150,10 @@ RigidSystem system_at(const RigidStep& s, const Vector& velocity, const Vector& 
 }
 
 Vector velocity_change(const RigidStep& s, const Vector& velocity, const Vector& increment) {
-  Vector change = increment / s.h;
+  Vector change = increment / s.d();
   for (const Rotor& rotor : s.model.rotors)
     if (const int i = rotor.unknown; i >= 0)
-      change.segment<3>(i) =
-          inverse_right_jacobian(s.h * velocity.segment<3>(i)) * increment.segment<3>(i) / s.h;
+      change.segment<3>(i) = inverse_right_jacobian(s.arc(velocity, i)) * increment.segment<3>(i) / s.d();
   return change;
 }
 

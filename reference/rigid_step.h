@@ -11,6 +11,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "judge.h"
 #include "rigid_rows.h"
@@ -24,11 +25,31 @@ struct Damping {
   RowVector offset;
 };
 
+/// What an integrator makes of a step in the place of implicit Euler (integrator_map.h): velocities v end at
+///   x = x_l + shift + d v  (of rotations the arc shift + d w),   M (v - base)/s = f + J^T gamma
+struct IntegratorMap {
+  double d = 0, s = 0;  // s
+  Vector shift;         // per unknown, m or rad
+  Vector base;          // per unknown, m/s or rad/s
+};
+
 struct RigidStep {
   RigidModel model;
   State start;
   double h;
-  std::map<int, Damping> damping{};  // by a constraint's first row
+  std::map<int, Damping> damping{};    // by a constraint's first row
+  std::optional<IntegratorMap> map{};  // none: implicit Euler
+
+  double d() const { return map ? map->d : h; }
+  double s() const { return map ? map->s : h; }
+  /// Where the unknowns go by themselves, and the velocities that forces change.
+  Vector shift() const { return map ? map->shift : Vector::Zero(model.unknowns); }
+  Vector base() const { return map ? map->base : start_velocity(); }
+  /// The way of a body's rotation, rad in its own axes.
+  Vec3 arc(const Vector& velocity, int unknown) const {
+    const Vec3 turned = d() * velocity.segment<3>(unknown);
+    return map ? Vec3(map->shift.segment<3>(unknown) + turned) : turned;
+  }
 
   /// Velocities of the unknowns.
   Vector start_velocity() const;

@@ -35,6 +35,13 @@ Places places_of(const ContactFeature& feature, const Placement& at) {
   return x;
 }
 
+/// Moves a rim's middle to its point that is farthest along `way`.
+void reach_out(const ContactFeature& feature, const Vec3& way, const Placement& at, Vec3& middle) {
+  const Vec3 axis = at.orientation[static_cast<std::size_t>(feature.corner[0].body)] * feature.axis;
+  const Vec3 across = way - axis.dot(way) * axis;
+  if (const double length = across.norm(); length > 0) middle += feature.rim / length * across;
+}
+
 Vec3 weighted(const Places& x, const std::array<double, 3>& weight, int count) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) sum += weight[k] * x[k];
@@ -66,12 +73,14 @@ Vec3 placed(const Corner& corner, const Placement& at) {
 }
 
 Nearest nearest(const FeaturePair& pair, const Placement& at) {
-  const Places a = places_of(pair.a, at), b = places_of(pair.b, at);
+  Places a = places_of(pair.a, at), b = places_of(pair.b, at);
   Nearest found;
   found.weight[0] = found.weight[1] = {1, 0, 0};
+  if (pair.b.rim > 0) reach_out(pair.b, a[0] - b[0], at, b[0]);
   if (pair.b.count == 3) {
-    weigh_plane(b, a[0], found.weight[1]);
     found.normal = pair.side * (b[1] - b[0]).cross(b[2] - b[0]).normalized();
+    if (pair.a.rim > 0) reach_out(pair.a, -found.normal, at, a[0]);
+    weigh_plane(b, a[0], found.weight[1]);
   } else if (pair.a.count == 2) {
     weigh_lines(a, b, found.weight);
     found.normal = pair.side * (a[1] - a[0]).cross(b[1] - b[0]).normalized();

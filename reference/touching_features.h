@@ -1,5 +1,6 @@
 // Two features that touch or are about to: of each a point, the line through two, or the plane through three,
-// rounded by a radius.
+// rounded by a radius; or the rim of a cylinder, of which the point that is deepest in a plane, or nearest to
+// a point, touches.
 //
 //   a, b  the points of both that are nearest to each other (of lines and planes that go on for ever)
 //   n     the unit vector from b to a; across a plane or two lines it is known where a = b, too, and it keeps
@@ -15,7 +16,9 @@ namespace pbd::reference {
 struct ContactFeature {
   std::array<Corner, 3> corner;
   int count = 1;
-  double radius = 0;        // m
+  double radius = 0;  // m
+  double rim = 0;     // m; if not 0 a circle about the one corner, and that to `axis` of its body
+  Vec3 axis = Vec3::UnitZ();
   bool deformable = false;  // of a surface's triangle
 
   bool of_body() const { return corner[0].body >= 0; }

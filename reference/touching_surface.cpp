@@ -1,13 +1,27 @@
 #include "touching_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
-
-#include "error.h"
 
 namespace pbd::reference {
 namespace {
+
+/// Takes out the edges where nothing sticks out. They lie along every plane through them, so that they would
+/// stop what goes on beside them; corners have had them as their neighbours by now.
+void drop_flat(Surface& surface, const std::vector<bool>& flat) {
+  if (flat.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    if (flat[i]) continue;
+    surface.edge[kept] = surface.edge[i];
+    surface.beside_edge[kept++].swap(surface.beside_edge[i]);
+  }
+  surface.edge.resize(kept);
+  surface.beside_edge.resize(kept);
+}
 
 /// The corners beside each corner and edge, by edges and the faces next to them.
 void find_neighbours(Surface& surface) {
@@ -34,6 +48,7 @@ struct SurfaceMaker {
   const Collider& collider;
   int node;
   Surface& surface;
+  std::vector<bool> flat{};  // of each edge: between triangles in one plane, where nothing sticks out
 
   int add(const Vec3& place) {
     surface.corner.push_back({collider.body, node, collider.frame.place(place)});
@@ -41,7 +56,12 @@ struct SurfaceMaker {
   }
   void add(const Polyhedron& solid) {
     for (const auto& x : solid.x.colwise()) add(Vec3(x));
-    for (const auto& edge : solid.edges) surface.edge.push_back(edge.node);
+    for (const auto& edge : solid.edges) {
+      surface.edge.push_back(edge.node);
+      const Vec3 &one = solid.faces[static_cast<std::size_t>(edge.face[0])].normal,
+                 &other = solid.faces[static_cast<std::size_t>(edge.face[1])].normal;
+      flat.push_back((one - other).norm() < in_one_plane);
+    }
     for (const auto& face : solid.faces)
       if (!face.normal.isZero(0))
         surface.face.emplace_back(
@@ -66,9 +86,17 @@ struct SurfaceMaker {
     surface.face.push_back({add(Vec3::Zero()), add(Vec3::UnitX()), add(Vec3::UnitY())});
     surface.plane = true;
   }
-  void operator()(const Cylinder&) {
-    throw SetupError("contact collider", "a cylinder",
-                     "shapes with corners, or rounded: this judge has no rims");
+  void operator()(const Cylinder& shape) {
+    surface.cylinder = shape.radius;
+    const double half = shape.length / 2;
+    surface.edge.push_back({add(-half * Vec3::UnitZ()), add(half * Vec3::UnitZ())});
+    for (const double end : {-half, half}) {
+      std::vector<int>& cap = surface.face.emplace_back();
+      for (int k = 0; k < rim_corners; ++k) {
+        const double angle = (end < 0 ? -2 : 2) * std::numbers::pi * k / rim_corners;
+        cap.push_back(add({shape.radius * std::cos(angle), shape.radius * std::sin(angle), end}));
+      }
+    }
   }
 };
 
@@ -102,9 +130,10 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact) {
   for (const Collider& collider : contact.collider) {
     Surface surface;
     surface.side = next();
-    std::visit(SurfaceMaker{collider, scene.bodies[static_cast<std::size_t>(collider.body)].node, surface},
-               collider.shape);
+    SurfaceMaker maker{collider, scene.bodies[static_cast<std::size_t>(collider.body)].node, surface};
+    std::visit(maker, collider.shape);
     find_neighbours(surface);
+    drop_flat(surface, maker.flat);
     surfaces.push_back(std::move(surface));
   }
   for (std::size_t i = 0; i < contact.node.size(); ++i) {

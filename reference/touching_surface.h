@@ -1,5 +1,5 @@
 // What can touch of a scene as a judge states it: points, segments, polyhedra and meshes, rounded by a
-// radius, made of corners, edges and faces.
+// radius, made of corners, edges and faces; and cylinders (cylinder_features.h).
 #pragma once
 
 #include <vector>
@@ -21,12 +21,17 @@ struct Surface {
   std::vector<std::vector<int>> face;                        // of corners, anticlockwise seen from outside
   std::vector<std::vector<int>> beside_corner, beside_edge;  // corners that share an edge or a face with it
   double radius = 0;                                         // m
+  /// Of a cylinder, else 0, m: its corners are the middles of both caps and then `rim_corners` of each rim,
+  /// its edge is the axis, its faces are the caps.
+  double cylinder = 0;
   bool plane = false;       // a half space: three points of its only face, which goes on for ever; no corners
   bool deformable = false;  // of triangles, from both sides
 };
 
-/// Colliders and nodes in the order of a claim, then the deformable surface if there is one. Throws
-/// SetupError for cylinders.
+inline constexpr double in_one_plane = 1e-9;  // rad, as of the planes of hulls
+inline constexpr int rim_corners = 8;         // they are what a cylinder stands on
+
+/// Colliders and nodes in the order of a claim, then the deformable surface if there is one.
 std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact);
 
 /// Of a scene's deformable triangles.

@@ -134,9 +134,10 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
     pbd::reference::require_judged(file.scene, file.scene.initial, file.step_s,
                                    pbd::friction_by_name(file.method.friction));
   for (const auto& joint : file.joints)
-    if (joint.bounded)
-      throw pbd::SetupError(joint.where, "a limit or a limited force",
-                            "neither in what is compared: the references know no bounds of forces");
+    if (joint.bounded && !knows_contact(reference))
+      throw pbd::SetupError(
+          joint.where, "a limit or a limited force",
+          "neither by " + reference + ": cone_interior_point, cone_ipopt know bounds of forces");
   if (options.at_step >= file.steps)
     throw pbd::SetupError("--at-step", std::to_string(options.at_step),
                           fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));

@@ -21,6 +21,7 @@
 #include "harness/step_checks.h"
 #include "harness/step_judge.h"
 #include "harness/stepper.h"
+#include "scenes/contacts.h"
 
 namespace pbdcheck {
 namespace {
@@ -135,17 +136,34 @@ std::int64_t every_of(const std::string& text) {
   return every;
 }
 
+/// The judge of its steps: those of other integrators than implicit Euler are stated by the judges of contact
+/// alone.
+std::string reference_of(const SceneFile& file) {
+  if (file.method.integrator == "implicit_euler") return default_reference(file.scene);
+  return std::string(pbd::reference::contact_judges()[0].name);
+}
+
 /// Refuses what the judge does not solve before anything is computed.
 void require_judgeable(const SceneFile& file, std::int64_t every) {
-  if (file.method.integrator != "implicit_euler")
-    throw pbd::SetupError("--judge", "`" + file.method.integrator + "`", "method.integrator implicit_euler");
+  const std::string& integrator = file.method.integrator;
+  const bool euler = integrator == "implicit_euler";
+  if (!euler && integrator != "bdf2" && integrator != "generalised_alpha")
+    throw pbd::SetupError("--judge", "`" + file.method.integrator + "`",
+                          "method.integrator implicit_euler, bdf2, generalised_alpha");
+  if (!euler && std::any_of(file.scene.effects.begin(), file.scene.effects.end(),
+                            [](const pbd::Effect& effect) { return pbd::damped(effect); }))
+    throw pbd::SetupError("--judge", "damping with `" + integrator + "`",
+                          "damping with method.integrator implicit_euler");
+  if (integrator == "generalised_alpha" && contact_of(file.scene) == nullptr)
+    throw pbd::SetupError("--judge", "`generalised_alpha` without contact",
+                          "a scene with contact, where its first step is implicit Euler's");
   if (file.method.direction_blend != 1)
     throw pbd::SetupError("--judge", fmt::format("method.direction_blend {}", file.method.direction_blend),
                           "1");
   if (every > file.steps)
     throw pbd::SetupError("--judge", fmt::format("every={}", every),
                           fmt::format("1 to {} steps", file.steps));
-  if (knows_contact(default_reference(file.scene)))
+  if (knows_contact(reference_of(file)))
     pbd::reference::require_judged(file.scene, file.scene.initial, file.step_s,
                                    pbd::friction_by_name(file.method.friction));
 }
@@ -170,6 +188,7 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
     const auto claim = claim_of(file.scene, workspace, begun, ended, h, report);
     if (judges.checks) judges.checks->add(step, claim, report.status, file.script.changes_scene());
     if (judges.judge && judges.judge->due(step)) judges.judge->add(step, claim, report);
+    if (judges.judge) judges.judge->follow(claim);
   };
   const bool judged = judges.checks || judges.judge;
   while (totals.steps < file.steps && lost.empty()) {
@@ -208,7 +227,7 @@ int simulate(const SimulateOptions& options) {
   Judges judges;
   auto& [checks, judge] = judges;
   if (options.check) checks.emplace();
-  if (every > 0) judge.emplace(options.directory, default_reference(file.scene), every);
+  if (every > 0) judge.emplace(options.directory, reference_of(file), every, file.method.rho);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {

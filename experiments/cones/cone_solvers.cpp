@@ -20,8 +20,8 @@ using namespace pbd::reference;
 namespace {
 
 ConeSolution solve_by_siconos(std::string_view name, const ConeTask& task) {
-  const auto& [delassus, free_velocity, friction] = task.problem;
-  const pbd::rivals::ContactProblem problem{delassus, free_velocity, friction};
+  const ConeProblem& given = task.problem;
+  const pbd::rivals::ContactProblem problem{given.delassus, given.free_velocity, given.friction};
   if (!pbd::rivals::siconos_takes(problem))
     throw pbd::SetupError("W with " + std::string(name), "an entry by which Siconos ends the program",
                           "a positive diagonal, and entries from 1e-12 to 1e12 1/kg");
@@ -40,7 +40,7 @@ ConeSolution solve_by_siconos(std::string_view name, const ConeTask& task) {
 const std::vector<ConeSolver>& cone_solvers() {
   static const std::vector<ConeSolver> list = [] {
     const auto judge = [](auto solve) {
-      return [=](const ConeTask& task) { return solve(task.problem, task.law, task.tolerance); };
+      return [=](const ConeTask& task) { return solve(task.problem, task.law, task.tolerance, nullptr); };
     };
     const std::vector<std::string> judged{"coulomb", "cone"};
     std::vector<ConeSolver> all{

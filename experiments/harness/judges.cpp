@@ -1,5 +1,7 @@
 #include "harness/judges.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -7,6 +9,7 @@
 #include "error.h"
 #include "harness/interrupt.h"
 #include "harness/measure.h"
+#include "harness/progress.h"
 #include "primal_newton.h"
 #include "scenes/choices.h"
 
@@ -32,6 +35,25 @@ Judged judged_of(const pbd::Scene& scene, const pbd::State& state, double h,
           judged.residual};
 }
 
+/// Whether limits or limited forces are among its constraints.
+bool bounded(const pbd::Effect& effect) {
+  return std::visit(
+      [](const auto& own) {
+        if constexpr (requires { own.bounds; }) return !own.bounds.empty();
+        return false;
+      },
+      effect);
+}
+
+/// Lets a judge's work be interrupted, and tells of what takes long.
+std::function<void()> watched(const std::string& name, const pbd::State& state) {
+  return
+      [notice = SlowNotice(fmt::format("{} solves the step from t = {:.6g} s", name, state.time))]() mutable {
+        throw_if_interrupted();
+        notice.poll();
+      };
+}
+
 /// Null if there is none of that name.
 pbd::reference::ContactJudge contact_judge(const std::string& name) {
   for (const auto& judge : pbd::reference::contact_judges())
@@ -55,26 +77,31 @@ bool knows_contact(const std::string& reference) {
 std::string default_reference(const pbd::Scene& scene) {
   const bool beyond_equations =
       std::any_of(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {
-        return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect);
+        return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect) || bounded(effect);
       });
   return std::string(beyond_equations ? pbd::reference::contact_judges()[0].name
                                       : pbd::reference::judges()[0].name);
 }
 
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
-                  pbd::Friction friction) {
+                  pbd::Friction friction, const pbd::reference::IntegratorMap* map) {
   for (const auto& judge : pbd::reference::judges())
     if (judge.name == name) return judged_of(scene, state, h, judge.judge(scene, state, h));
   if (const auto judge = contact_judge(name))
-    return judged_of(scene, state, h, judge(scene, state, h, friction, {.poll = throw_if_interrupted}));
+    return judged_of(scene, state, h,
+                     judge(scene, state, h, friction, {.poll = watched(name, state), .map = map}));
   throw pbd::SetupError("--reference", "`" + name + "`", allowed_names(name, reference_names()));
 }
 
-Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept) {
+Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept,
+                  const pbd::reference::IntegratorMap* map) {
   if (const auto judge = contact_judge(name))
     return judged_of(claim.scene, claim.start, claim.h,
                      judge(claim.scene, claim.start, claim.h, claim.friction,
-                           {&claim, features_kept, throw_if_interrupted}));
+                           {.near = &claim,
+                            .features_kept = features_kept,
+                            .poll = watched(name, claim.start),
+                            .map = map}));
   throw pbd::SetupError("--reference", "`" + name + "`", "a judge of contact");
 }
 

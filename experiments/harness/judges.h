@@ -6,6 +6,7 @@
 
 #include "harness/cases.h"
 #include "judge.h"
+#include "rigid_step.h"
 #include "scene.h"
 #include "step_claim.h"
 
@@ -16,7 +17,8 @@ std::vector<std::string> reference_names();
 
 bool knows_contact(const std::string& reference);
 
-/// The first of them that knows the scene's effects: with contact or damping a judge of contact.
+/// The first of them that knows the scene's effects: with contact, damping or bounds of forces a judge of
+/// contact.
 std::string default_reference(const pbd::Scene& scene);
 
 /// What a reference says about one step.
@@ -30,13 +32,16 @@ struct Judged {
   double residual = 0;
 };
 
-/// The implicit Euler step of h seconds from `state` by a reference, its contacts by the law `friction`.
-/// Throws SetupError for a name that is not one of `reference_names()`.
+/// The step of h seconds from `state` by a reference, its contacts by the law `friction`: implicit Euler's,
+/// or by a reference that knows contact that of a `map`. Throws SetupError for a name that is not one of
+/// `reference_names()`.
 Judged judge_step(const std::string& name, const pbd::Scene& scene, const pbd::State& state, double h,
-                  pbd::Friction friction = pbd::Friction::coulomb);
+                  pbd::Friction friction = pbd::Friction::coulomb,
+                  const pbd::reference::IntegratorMap* map = nullptr);
 
 /// The same by a judge of contact that starts from what a step claims.
-Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept);
+Judged judge_near(const std::string& name, const pbd::reference::StepClaim& claim, bool features_kept,
+                  const pbd::reference::IntegratorMap* map = nullptr);
 
 /// The implicit Euler step by primal_newton, for comparing with: throws std::runtime_error with the judge's
 /// reason unless it was solved, Interrupted if the user asked to stop.

@@ -36,12 +36,23 @@ bool in_colour() {
   return on_terminal() && (no_colour == nullptr || *no_colour == '\0');
 }
 
+void note(std::string_view text) {
+  message("note", "36", text);
+}
+
 void warn(std::string_view text) {
   message("warning", "33", text);
 }
 
 void error_message(std::string_view text) {
   message("error", "31", text);
+}
+
+void SlowNotice::poll() {
+  const auto spent = std::chrono::steady_clock::now() - begin_;
+  if (spent < next_) return;
+  note(fmt::format("{}: {:.0f} s so far", what_, std::chrono::duration<double>(spent).count()));
+  next_ *= 2;
 }
 
 ProgressBar::ProgressBar(std::string title, std::int64_t units)

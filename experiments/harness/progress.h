@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace pbdcheck {
 
@@ -13,9 +14,24 @@ namespace pbdcheck {
 bool on_terminal();
 bool in_colour();
 
-/// Prints "warning: ..." or "error: ..." to stderr.
+/// Prints "note: ...", "warning: ..." or "error: ..." to stderr.
+void note(std::string_view text);
 void warn(std::string_view text);
 void error_message(std::string_view text);
+
+/// Says on stderr that something takes long: after 5 s, and each time as long again as it has taken.
+class SlowNotice {
+ public:
+  explicit SlowNotice(std::string what) : what_(std::move(what)) {}
+
+  /// To be called often.
+  void poll();
+
+ private:
+  std::string what_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::chrono::seconds next_{5};  // what is sooner done nobody waits for
+};
 
 class ProgressBar {
  public:

@@ -37,13 +37,14 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
 
 }  // namespace
 
-JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim) {
-  JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction), {}, {}};
+JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim,
+                        const pbd::reference::IntegratorMap* map) {
+  JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction, map), {}, {}};
   judged.own = judged.nearest = distance(claim, judged.reference);
   for (const auto& [kept, start] :
        {std::pair{false, JudgeStart::claim}, {true, JudgeStart::claim_and_features_kept}}) {
     if (judged.nearest.of_scale <= claim.tolerance || !knows_contact(reference)) break;
-    const StepDistance other = distance(claim, judge_near(reference, claim, kept));
+    const StepDistance other = distance(claim, judge_near(reference, claim, kept, map));
     if (std::isnan(other.of_scale) || other.of_scale >= judged.nearest.of_scale / 2) continue;
     judged.nearest = other;
     judged.start = start;
@@ -51,9 +52,11 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
   return judged;
 }
 
-StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every)
+StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every,
+                     double rho)
     : reference_(std::move(reference)),
       every_(every),
+      memory_(rho),
       table_(directory / "judged.csv",
              {"step", "time_s", "step_s", "solver_status", "tolerance", "error", "error_m", "error_of_scale",
               "nearest_start", "nearest_error_m", "nearest_error_of_scale", "reference", "status", "reason",
@@ -61,7 +64,8 @@ StepJudge::StepJudge(const std::filesystem::path& directory, std::string referen
              &totals_) {}
 
 void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report) {
-  const JudgedClaim judged = judge_claim(reference_, claim);
+  const auto map = memory_.map_of(claim);
+  const JudgedClaim judged = judge_claim(reference_, claim, map ? &*map : nullptr);
   const double nearest = judged.nearest.of_scale;
   ++judged_;
   unsolved_ += std::isnan(nearest);

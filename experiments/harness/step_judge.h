@@ -15,6 +15,7 @@
 
 #include "harness/judges.h"
 #include "harness/results.h"
+#include "integrator_map.h"
 #include "step/step.h"
 #include "step_claim.h"
 
@@ -36,18 +37,23 @@ struct JudgedClaim {
   JudgeStart start = JudgeStart::own;
 };
 
-/// Throws SetupError for what the reference does not know.
-JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim);
+/// `map` is that of another integrator than implicit Euler. Throws SetupError for what the reference does not
+/// know.
+JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim,
+                        const pbd::reference::IntegratorMap* map = nullptr);
 
 class StepJudge {
  public:
   /// Judges every step whose number `every` divides, each part of those that are made in parts, by the
-  /// reference of that name, into `directory`'s judged.csv.
-  StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every);
+  /// reference of that name, into `directory`'s judged.csv. `rho` is that of generalised_alpha.
+  StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every, double rho);
 
   bool due(std::int64_t step) const { return step % every_ == 0; }
 
   void add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report);
+
+  /// To be told of each step, behind `add`: what an integrator carries on comes from them all.
+  void follow(const pbd::reference::StepClaim& claim) { memory_.follow(claim); }
 
   void close() { table_.close(); }
   const TableTotals& totals() const { return totals_; }
@@ -77,6 +83,7 @@ class StepJudge {
   std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, ambiguous_ = 0, by_features_ = 0,
                from_claim_alone_ = 0, worst_step_ = 0;
   double worst_error_m_ = std::nan(""), worst_error_of_scale_ = std::nan("");
+  pbd::reference::IntegratorMemory memory_;
   TableTotals totals_;
   Table table_;
 };

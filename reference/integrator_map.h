@@ -1,0 +1,59 @@
+// What integrators other than implicit Euler make of a step (rigid_step.h), from their formulas and the steps
+// before. Of BDF2, with w = h/h_l-1, y = (x, v) and y' of the motion between contacts,
+//
+//   y_l+1 = y_l + w^2/(1 + 2 w) (y_l - y_l-1) + h (1 + w)/(1 + 2 w) y'_l+1
+//
+// so that x = x_l + shift + d v and M (v - base)/d = f + J^T gamma, d = h (1 + w)/(1 + 2 w), shift = w^2/(1 +
+// 2 w) (x_l - x_l-1), base = v_l + w^2/(1 + 2 w) (v_l - v_l-1 - what contacts brought as the last step
+// ended). Of generalised alpha (chung1993time), with a for accelerations and q for those by all forces but
+// contacts' impulses,
+//
+//   x_l+1 = x_l + h v_l + h^2 ((1/2 - beta) a_l + beta a_l+1),  v_l+1 = v_l + h ((1 - gamma) a_l + gamma
+//   a_l+1), (1 - alpha_m) a_l+1 + alpha_m a_l = (1 - alpha_f) q_l+1 + alpha_f q_l
+//
+// solved for v_l+1: contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with
+// what they brought, so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in
+// the body's own axes. Impulses of contacts act over h. A step that is the first one, does not begin where
+// the last one ended or in which things strike is implicit Euler's. Whether something strikes the solver
+// decides; here it is read from the step's own places and velocities, which only one of both maps leads to
+// (where both do, nothing moves).
+#pragma once
+
+#include "rigid_step.h"
+#include "step_claim.h"
+
+namespace pbd::reference {
+
+/// The integrators that are judged: implicit_euler, bdf2 and generalised_alpha. Throws SetupError for others.
+void require_judged_integrator(std::string_view name);
+
+/// Follows a motion step by step.
+class IntegratorMemory {
+ public:
+  /// `rho` is generalised_alpha's spectral radius for fast oscillations.
+  explicit IntegratorMemory(double rho = 0) : rho_(rho) {}
+
+  /// The map that leads to a claim's end; none for implicit Euler's. Throws SetupError for integrators that
+  /// are not judged.
+  std::optional<IntegratorMap> map_of(const StepClaim& claim) const;
+
+  /// Takes what the next step needs to know of this one.
+  void follow(const StepClaim& claim);
+
+ private:
+  IntegratorMap bdf2(const StepClaim& claim, const RigidStep& step) const;
+  IntegratorMap generalised_alpha(const StepClaim& claim, const RigidStep& step) const;
+  Vector acceleration_at(const RigidStep& step) const;
+  void follow_acceleration(const RigidStep& step, const Vector& velocity);
+
+  double h_ = 0;                 // of the last step, s; 0: none
+  Vector before_;                // velocities where it began
+  Vector moved_;                 // its ways and arcs, m and rad
+  Vector acceleration_, begun_;  // a at its end and its begin, m/s^2 and rad/s^2
+  Vector by_constraints_;        // the part of q by constraints and gyroscopic torques at the end
+  double rho_ = 0;
+  Vector pressed_;  // what contacts brought, m/s and rad/s
+  std::optional<State> ended_;
+};
+
+}  // namespace pbd::reference

@@ -1,6 +1,7 @@
 #include "ledger/baseline.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "harness/files.h"
 #include "harness/provenance.h"
 #include "harness/results.h"
+#include "studies/iteration/measured_rate.h"
 
 namespace pbdcheck {
 namespace {
@@ -22,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* head_name = "baseline.json";
+constexpr std::array same_keys{"compiler", "processor", "march"};  // of a record: those of one machine
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct CsvTable {
@@ -69,12 +72,13 @@ nlohmann::ordered_json read_json(const fs::path& path) {
   return json;
 }
 
-enum class Kind { time, work, error, other };
+enum class Kind { time, work, error, rate, other };
 
 Kind kind_of(const std::string& column) {
   const auto has = [&](const char* part) { return column.find(part) != std::string::npos; };
   if (has("wall_s") || has("cpu_s")) return Kind::time;
   if (column == "sweeps" || column == "row_updates" || column == "outer_iterations") return Kind::work;
+  if (column == "measured_rate") return Kind::rate;
   return has("error") || has("residual") || has("difference") ? Kind::error : Kind::other;
 }
 
@@ -85,7 +89,8 @@ std::optional<double> number_in(const std::string& cell) {
   return value;
 }
 
-/// How far a cell is from what it was, as a multiple of what is allowed.
+/// How far a cell is from what it was, as a multiple of what is allowed. Rates are measured from errors that
+/// fall to rounding: on another machine they are known to what can be told of them.
 double deviation(Kind kind, const std::string& was, const std::string& is, bool same_machine) {
   if (was == is || kind == Kind::time) return 0;
   const auto before = number_in(was), now = number_in(is);
@@ -94,7 +99,9 @@ double deviation(Kind kind, const std::string& was, const std::string& is, bool 
   const double size = std::abs(*before);
   const double allowed = kind == Kind::work    ? 0.1 * size + 2
                          : kind == Kind::error ? (same_machine ? 0.5 : 2) * size + rounding
-                                               : (same_machine ? 1e-6 : 1e-4) * size + rounding;
+                         : kind == Kind::rate && !same_machine
+                             ? 2 * least_rate
+                             : (same_machine ? 1e-6 : 1e-4) * size + rounding;
   return std::abs(*now - *before) / allowed;
 }
 
@@ -176,8 +183,10 @@ bool is_baseline(const fs::path& baseline) {
 std::vector<std::string> differences(const fs::path& baseline, const fs::path& results) {
   const auto head = read_json(baseline / head_name);
   const auto machine = run_record(1, RunOutcome::complete, "");
-  const bool same_machine = head.value("processor", "") == machine.value("processor", "") &&
-                            head.value("compiler", "") == machine.value("compiler", "");
+  // Virtual processors of one name have several instruction sets, which round sums otherwise.
+  const bool same_machine = std::all_of(same_keys.begin(), same_keys.end(), [&](const char* key) {
+    return head.contains(key) && head.at(key) == machine.at(key);
+  });
   std::vector<Difference> found;
   for (const std::string& name : head.at("tables").get<std::vector<std::string>>()) {
     if (fs::is_regular_file(results / (name + ".csv")))
@@ -198,7 +207,8 @@ void bless_results(const fs::path& results, const fs::path& baseline, const std:
   constexpr std::uintmax_t largest = 64 << 10;  // bytes: the repository is to stay small
   const auto record = blessed_record(results);
   nlohmann::ordered_json head{{"reason", reason}};
-  for (const char* key : {"commit", "dirty", "compiler", "processor"}) head[key] = record.at(key);
+  for (const char* key : {"commit", "dirty"}) head[key] = record.at(key);
+  for (const char* key : same_keys) head[key] = record.at(key);
   head["tables"] = head["left_out"] = nlohmann::ordered_json::array();
   std::vector<std::string> names;
   for (const auto& [name, rows] : record.at("rows").items())

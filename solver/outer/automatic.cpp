@@ -60,7 +60,7 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
 /// True while aitken's residual halves soon enough and does not grow far; if not, proximal goes on with the
 /// step.
 bool Automatic::gains(const Progress& progress) {
-  constexpr int patience = 20;
+  constexpr int patience = 6;  // twice what the least share of a change needs to halve an error
   constexpr double too_much = 100;
   if (progress.residual() < of_aitken_.lowest / 2)
     of_aitken_ = {.lowest = progress.residual()};

@@ -1,8 +1,9 @@
 // The implicit Euler step of a scene with contact (rigid_step.h), with impulses r = h lambda of its contacts:
 //
-//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0      (by other integrators' IntegratorMap: h/s C^T
-//   lambda) K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
+//   load - J^T gamma - C^T lambda = 0,  c + A gamma = 0
+//   K contains r, perpendicular to u~ in K*  (cone_problem.h, the laws coulomb and cone)
 //
+// by other integrators' IntegratorMap with h/s C^T lambda for C^T lambda.
 // Limits of joints and motors of limited force are bounded rows of the same problem: the impulse is h gamma,
 // and what the row sees (c + A gamma)/h.
 // C are the directions of a contact at the step's end: its normal n and two tangents. What the law sees of a
@@ -11,7 +12,8 @@
 //         and n . (u + e u_l), u their velocities against each other; in u_l a body's spin is what it is
 //         where the step begins, in the body's own axes
 //   u_t = t . (u + s), s the velocity at which surfaces that move along themselves go against each other
-// with d of an integrator's map in the place of h, and A r_n/(h d).
+//
+// by an integrator's map with d for h, and A r_n/(h d).
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
 // `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
 // what is parting too slowly for its e, collides.

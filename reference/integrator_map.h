@@ -3,13 +3,17 @@
 //
 //   y_l+1 = y_l + w^2/(1 + 2 w) (y_l - y_l-1) + h (1 + w)/(1 + 2 w) y'_l+1
 //
-// so that x = x_l + shift + d v and M (v - base)/d = f + J^T gamma, d = h (1 + w)/(1 + 2 w), shift = w^2/(1 +
-// 2 w) (x_l - x_l-1), base = v_l + w^2/(1 + 2 w) (v_l - v_l-1 - what contacts brought as the last step
-// ended). Of generalised alpha (chung1993time), with a for accelerations and q for those by all forces but
-// contacts' impulses,
+// so that x = x_l + shift + d v and M (v - base)/d = f + J^T gamma, with
 //
-//   x_l+1 = x_l + h v_l + h^2 ((1/2 - beta) a_l + beta a_l+1),  v_l+1 = v_l + h ((1 - gamma) a_l + gamma
-//   a_l+1), (1 - alpha_m) a_l+1 + alpha_m a_l = (1 - alpha_f) q_l+1 + alpha_f q_l
+//   d = h (1 + w)/(1 + 2 w),  shift = w^2/(1 + 2 w) (x_l - x_l-1),
+//   base = v_l + w^2/(1 + 2 w) (v_l - v_l-1 - b), b what contacts brought as the last step ended
+//
+// Of generalised alpha (chung1993time), with a for accelerations and q for those by all forces but contacts'
+// impulses,
+//
+//   x_l+1 = x_l + h v_l + h^2 ((1/2 - beta) a_l + beta a_l+1)
+//   v_l+1 = v_l + h ((1 - gamma) a_l + gamma a_l+1)
+//   (1 - alpha_m) a_l+1 + alpha_m a_l = (1 - alpha_f) q_l+1 + alpha_f q_l
 //
 // solved for v_l+1: contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with
 // what they brought, so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in

@@ -33,7 +33,7 @@ struct Totals {
   std::int64_t outer_iterations = 0;
   std::int64_t sweeps = 0;
   std::int64_t row_updates = 0;
-  double worst_residual = 0;
+  double worst_residual = 0;  // of steps that are not ok
   std::int64_t worst_step = 0;
   std::string worst_constraint;     // empty where none is told
   std::int64_t steps_in_parts = 0;  // that diverged as a whole
@@ -49,6 +49,7 @@ struct Totals {
     outer_iterations += report.outer_iterations;
     sweeps += report.sweeps;
     row_updates += report.row_updates;
+    if (report.status == pbd::Status::ok) return;
     if (!std::isnan(worst_residual) && !(report.residual() <= worst_residual)) {
       worst_residual = report.residual();
       worst_step = steps;
@@ -58,7 +59,8 @@ struct Totals {
   std::int64_t missed() const { return steps - by_status[0]; }
 };
 
-/// The worst step. Its residual is NaN if it diverged, infinite where nothing moves: there is no scale.
+/// The worst of the steps that are not ok. Its residual is NaN if it diverged, infinite where nothing moves:
+/// there is no scale.
 std::string worst_text(const Totals& totals) {
   if (std::isnan(totals.worst_residual))
     return fmt::format("step {} without a finite residual", totals.worst_step);

@@ -94,9 +94,10 @@ struct BodyDistance {
   std::vector<ForceBounds> bounds{};  // empty: none
 };
 
-/// c = angle - (rest_angle + rate t) modulo 2 pi in (-pi, pi] (1 row, rad): the angle that body b is turned
-/// by about a's axis u_a, from the reference direction of a to that of b, both at right angles to the axis.
-/// With compliance a spring; a rate (rad/s) makes it a motor.
+/// c = angle - (rest_angle + rate t) modulo 2 pi, in (-pi, pi] where a step begins, from where it goes on in
+/// the step (1 row, rad): the angle that body b is turned by about a's axis u_a, from the reference direction
+/// of a to that of b, both at right angles to the axis. With compliance a spring; a rate (rad/s) makes it a
+/// motor.
 struct AngleJoint {
   static constexpr std::string_view name = "angle_joint";
   std::vector<std::array<int, 2>> body;

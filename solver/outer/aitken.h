@@ -1,5 +1,6 @@
-// aitken: as plain, but each body and node goes the share w of its change of velocity f = g(v) - v that its
-// last two changes suggest (Aitken's relaxation, kuttler2008fixed, one w a body):
+// aitken: as plain, but each node, and each body with its rotation, goes the share w of its change of
+// velocity f = g(v) - v that its last two changes suggest (Aitken's relaxation, kuttler2008fixed), 1 at
+// first:
 //   v <- v + w f,   w <- -w f_l . (f - f_l)/|f - f_l|^2 in the metric M, from 1/5 to 1
 // It has plain's fixed points. Plain multiplies an error by -K/M, K the stiffness that impulses give along
 // turning directions: where that is below -1 plain walks in a circle, by some bodies of a pile alone, and

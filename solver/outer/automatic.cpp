@@ -29,7 +29,7 @@ void Automatic::take_solver(StepSystem& system, std::size_t next) {
 
 void Automatic::begin(StepSystem& system) {
   slow_changes_ = spent_ = 0;
-  contacts_stiffen_.reset();
+  uses_aitken_.reset();
   taken_over_ = takes_over_ = false;
   gain_ = of_aitken_ = {};
   take_solver(system, own);
@@ -57,32 +57,31 @@ bool Automatic::plain_contracts(StepSystem& system, const Progress& progress) {
          mass_.update(system, 1) <= slow_contraction;
 }
 
-/// True while aitken's residual halves soon enough and does not grow far; if not, proximal goes on with the
-/// step.
-bool Automatic::gains(const Progress& progress) {
+void Automatic::Gain::note(double residual) {
+  if (residual < lowest / 2)
+    *this = {.lowest = residual};
+  else
+    ++iterations_since;
+}
+
+/// Where its residual does not halve soon or grows far: proximal goes on with the step.
+void Automatic::leave_aitken_without_gain(const Progress& progress) {
   constexpr int patience = 6;  // twice what the least share of a change needs to halve an error
   constexpr double too_much = 100;
-  if (progress.residual() < of_aitken_.lowest / 2)
-    of_aitken_ = {.lowest = progress.residual()};
-  else
-    ++of_aitken_.iterations_since;
-  contacts_stiffen_ =
-      of_aitken_.iterations_since < patience && progress.residual() <= too_much * of_aitken_.lowest;
-  return *contacts_stiffen_;
+  of_aitken_.note(progress.residual());
+  if (of_aitken_.iterations_since >= patience || !(progress.residual() <= too_much * of_aitken_.lowest))
+    uses_aitken_ = false;
 }
 
 /// As far as the iterate tells that a step first asks at.
 bool Automatic::contacts_stiffen_most(StepSystem& system) {
-  if (!contacts_stiffen_) {
-    mass_.update(system, 1);
-    double contacts = 0, others = 0;
-    for (const Slot& slot : system.slots) {
-      double& largest = slot.source->kind().contacts ? contacts : others;
-      largest = std::max(largest, slot.count > 0 ? slot.cost.contraction : 0);
-    }
-    contacts_stiffen_ = contacts > others;
+  mass_.update(system, 1);
+  double contacts = 0, others = 0;
+  for (const Slot& slot : system.slots) {
+    double& largest = slot.source->kind().contacts ? contacts : others;
+    largest = std::max(largest, slot.count > 0 ? slot.cost.contraction : 0);
   }
-  return *contacts_stiffen_;
+  return contacts > others;
 }
 
 void Automatic::take_over(StepSystem& system) {
@@ -98,10 +97,7 @@ bool Automatic::is_spent(const StepSystem& system, const Progress& progress) {
   const int enough = progress.residual() > far * progress.scale ? many : most;
   if (quasi_newton_->follows() && quasi_newton_->descends(system) && progress.iterations_of_rows >= enough)
     return true;
-  if (progress.residual() < gain_.lowest / 2)
-    gain_ = {.lowest = progress.residual()};
-  else
-    ++gain_.iterations_since;
+  gain_.note(progress.residual());
   return gain_.iterations_since >= patience && progress.residual() <= near * progress.scale;
 }
 
@@ -120,10 +116,13 @@ void Automatic::iterate(StepSystem& system, Progress& progress) {
   } else if (!plain_is_slow(progress) && plain_contracts(system, progress)) {
     system.at.v = system.at.rebuilt;
     relax(system, progress);
-  } else if (contacts_stiffen_most(system) && gains(progress)) {
-    aitken_.iterate(system, progress);
   } else {
-    proximal_.iterate(system, progress);
+    if (!uses_aitken_) uses_aitken_ = contacts_stiffen_most(system);
+    if (*uses_aitken_) leave_aitken_without_gain(progress);
+    if (*uses_aitken_)
+      aitken_.iterate(system, progress);
+    else
+      proximal_.iterate(system, progress);
   }
   const Method& method = system.problem.method;
   spent_ = progress.sweeps - before >= method.max_sweeps ? spent_ + 1 : 0;

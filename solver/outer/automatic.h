@@ -46,9 +46,11 @@ class Automatic {
  private:
   static constexpr double near = 1e-6;  // of the scale: quasi_newton has arrived
 
-  struct Gain {
+  struct Gain {                // of an iteration
     double lowest = infinity;  // residual when it last halved, sqrt(J),
     int iterations_since = 0;
+
+    void note(double residual);
   };
 
   void take_over(StepSystem& system);
@@ -57,7 +59,7 @@ class Automatic {
   bool plain_is_slow(const Progress& progress);
   bool plain_contracts(StepSystem& system, const Progress& progress);
   bool contacts_stiffen_most(StepSystem& system);
-  bool gains(const Progress& progress);
+  void leave_aitken_without_gain(const Progress& progress);
   std::size_t successor(std::size_t contacts) const;
   void take_solver(StepSystem& system, std::size_t next);
 
@@ -74,8 +76,8 @@ class Automatic {
   Aitken aitken_;
   Proximal proximal_;
   GeometricMass mass_;
-  int slow_changes_ = 0;                  // of v in this step, in a row
-  std::optional<bool> contacts_stiffen_;  // more than all else in this step
+  int slow_changes_ = 0;             // of v in this step, in a row
+  std::optional<bool> uses_aitken_;  // in this step, in proximal's place
 };
 
 }  // namespace pbd

@@ -1,6 +1,7 @@
 // A true step, made by hand, is not refuted; with one number of it changed it is, by the check of that law.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "claimed_contacts.h"
 
@@ -140,6 +141,28 @@ TEST_CASE("constraints: at rest an angle is known to rounding") {
         AngleJoint{{{0, 1}}, {Vec3::UnitY()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {off}, {0}, {0}});
     Step step(held);
     step.forces[0] = {0};
+    CHECK(refuted(step) == names);
+  }
+}
+
+// I (w1 - w0)/h = -c1/A with c1 = c0 + h w1, past half a turn.
+TEST_CASE("constraints: within a step an angle goes on past half a turn") {
+  constexpr double inertia = 0.1, compliance = 1, w0 = 5, c0 = std::numbers::pi - 0.02, h = Step::h;
+  for (const auto& [turns, names] : {std::pair{0, Names{}}, {1, Names{"constraints"}}}) {
+    const double jump = 2 * std::numbers::pi * turns, soft = h / (inertia * compliance);
+    const double w1 = (w0 - soft * (c0 - jump)) / (1 + soft * h), c1 = c0 - jump + h * w1;
+    REQUIRE(c1 + jump > std::numbers::pi);
+    Scene scene;
+    add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+    add_body(scene, Vec3::Zero(), 1, Vec3::Constant(inertia), Eigen::Quaterniond::Identity(), Vec3::Zero(),
+             w0 * Vec3::UnitY());
+    scene.effects.emplace_back(
+        AngleJoint{{{0, 1}}, {Vec3::UnitY()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {-c0}, {0}, {compliance}});
+    Step step(scene);
+    step.end.spin.col(1) = w1 * Vec3::UnitY();
+    step.move();
+    step.forces[0] = {-c1 / compliance};
+    INFO(turns << " turns off");
     CHECK(refuted(step) == names);
   }
 }

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from content import Figure, Section, Table, joined, listed, number, share, span
+from content import Figure, Section, Table, counted, joined, listed, number, share, span
 from selecting import good
 
 MODELS = {"tet_p1": "elements", "springs": "springs"}
@@ -79,7 +79,7 @@ def cubes_text(frame):
     worst = off(asked["bulge"], asked["bulge_expected"]).groupby(asked["model"]).max()
     return (f"{against('springs', worst.get('springs', 0) > worst.get('tet_p1', np.inf))}Under a plate without friction {joined(parts) or 'nothing was solved'}, for nu = {span(asked['poisson'])}. "
             f"The ground carries the weight to {number(off(done['ground_n'], done['weight_n']).max(), 2)} in {share(len(done), len(frame))} cases. "
-            f"Both models end where the judge's steps do: off by {span(judged['off_judge'])} of the sag, where the tolerance allows "
+            f"Of {counted(int(judged['judged_steps'].sum()), 'step')} that the judge solved both models end where it does: in all off by {span(judged['off_judge'])} of the sag, where the tolerance allows "
             f"{span(judged['allowed_off_judge'])}.")
 
 

@@ -197,7 +197,8 @@ void contact(Context& context, const std::map<int, CubeNetwork>& fitted) {
     }
   to.table.close();
   context.verdict(Basis::code, "fem_vs_springs.judged",
-                  "a cube comes to rest where the judge's steps lead, as near as the tolerance says",
+                  "on its way to rest a cube's steps end where the judge's do, of those that it solves, as "
+                  "near as the tolerance says",
                   fmt::format("largest share of what the tolerance allows ({})", to.judged.owner()),
                   to.judged.value(), 1);
   context.verdict(Basis::theory, "fem_vs_springs.weight", "the ground carries what stands on it",

@@ -2,7 +2,7 @@
 //
 // 0.2 m, 1000 kg/m^3, E = 1e5 Pa. Between frictionless plates the stress is uniaxial, but for its own weight
 // m g even, of the mean P = (W + m g/2)/A under a plate of the weight W. A corotational strain is the stretch
-// less 1, so that to the last digit
+// less 1, so that large strains change nothing of
 //
 //   sag = L P/E,   bulge = nu P/E   (mean widening at half the height, over the width)
 #pragma once
@@ -36,9 +36,8 @@ SoftCube soft_cube(const CubeCase& each, double kappa);
 
 /// At rest, which implicit Euler reaches by steps so long that each leaves little of the way. The tolerance
 /// bounds what a step's velocities are off by in the metric of masses, and so by h tolerance scale/sqrt(m)
-/// the place of a node of mass m. The judge leaves some steps
-/// open, refusing an overlap of 1e-14 m of its own; where it solved none, or was not asked, `off_judge` is
-/// NaN.
+/// the place of a node of mass m. The judge leaves some steps open, refusing an overlap of 1e-14 m of its
+/// own; where it solved none, or was not asked, `off_judge` is NaN.
 struct Resting {
   double sag = 0, bulge = 0;  // m, and over the width
   double ground = 0;          // N, carried by the ground

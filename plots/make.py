@@ -14,6 +14,7 @@ import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401
 import energy  # noqa: F401
+import fem_vs_springs  # noqa: F401
 import judged_frames  # noqa: F401
 import first_page  # noqa: F401
 import frame_scaling  # noqa: F401

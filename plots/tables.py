@@ -62,6 +62,13 @@ TABLES = {
                                  "error_beam status reason",
     ("mesh_refinement", "locking"): "n elements poisson value reference_mesh reference_beam error_mesh error_beam status reason",
     ("mesh_refinement", "mms"): "n h_m error_l2 error_h1 order_l2 order_h1",
+    ("fem_vs_springs", "bars"): "model n integrator step_s tip_m tip_beam_m frequency_hz predicted_hz mesh_hz beam_hz left predicted_left "
+                                "error predicted_error other_modes status reason",
+    ("fem_vs_springs", "courses"): "model n step_s time_s tip_m beam_m status reason",
+    ("fem_vs_springs", "networks"): "n kappa poisson lattice_poisson isotropic_poisson status reason",
+    ("fem_vs_springs", "cubes"): "model n scene friction_coefficient poisson sag_m sag_expected_m bulge bulge_expected ground_n weight_n "
+                                 "off_judge allowed_off_judge judged_steps rows sweeps status reason",
+    ("fem_vs_springs", "cost"): "scene model n relaxation tolerance step_s rows outer_iterations sweeps wall_s status reason",
     ("time_order", "errors"): ORDER_ERRORS,
     ("time_order", "orders"): ORDERS,
     ("energy", "series"): "scene integrator alpha outer relaxation step_s time_s energy_j scale_j momentum_kg_m_s "

@@ -2,6 +2,8 @@
 
 #include <gsl/gsl_sf_ellint.h>
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -102,6 +104,20 @@ BarState neo_hookean_bar(double young, double poisson, double stretch) {
   const auto across = [&](double t) { return mu * (t * t - 1) + lambda * std::log(stretch * t * t); };
   const double t = find_root(across, 1e-3, 1e3);
   return {mu * (stretch - 1 / stretch) + lambda * std::log(stretch * t * t) / stretch, t};
+}
+
+double spring_lattice_poisson(const Points& springs, const Eigen::VectorXd& stiffness) {
+  // Six strains (xx, yy, zz, 2 xy, 2 yz, 2 zx): a spring's elongation is l n^T eps n.
+  Eigen::Matrix<double, 6, 6> moduli = Eigen::Matrix<double, 6, 6>::Zero();
+  for (Eigen::Index i = 0; i < springs.cols(); ++i) {
+    const double length = springs.col(i).norm();
+    const Vec3 n = springs.col(i) / length;
+    Eigen::Matrix<double, 6, 1> along;
+    along << n.cwiseAbs2(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x();
+    moduli += stiffness[i] * length * length * along * along.transpose();
+  }
+  const Eigen::Matrix<double, 6, 1> strain = moduli.ldlt().solve(Eigen::Matrix<double, 6, 1>::Unit(0));
+  return -strain[1] / strain[0];
 }
 
 double hertz_force(double young, double poisson, double radius, double depth) {

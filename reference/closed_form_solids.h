@@ -2,6 +2,8 @@
 // units.
 #pragma once
 
+#include "geometry.h"
+
 namespace pbd::reference {
 
 /// Saint-Venant's torsion of a square bar of `side` a: angle (rad) T L/(beta G a^4), beta = 1/3 (1 - 192/pi^5
@@ -39,6 +41,12 @@ struct BarState {
   double stress, lateral;
 };
 BarState neo_hookean_bar(double young, double poisson, double stretch);
+
+/// Lattice of one node a cell, of volume V, joined by springs of stiffness k along vectors l n (m, a column
+/// each): strained evenly it is in balance, by symmetry, so that C_ijpq = sum of k l^2 n_i n_j n_p n_q / V.
+/// Its lateral (y) over axial strain under a stress along x. C is symmetric in all its indices (Cauchy's
+/// relations): where it is isotropic, lambda = mu, and this is 1/4 (love1927treatise).
+double spring_lattice_poisson(const Points& springs, const Eigen::VectorXd& stiffness);
 
 /// Force (N) on a rigid sphere pressed by `depth` into an elastic half space: 4/3 E/(1 - nu^2) sqrt(R)
 /// d^(3/2).

@@ -62,7 +62,7 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
       found.reason = fmt::format("step {}: farther than {:.2g} m from the start", k, limits.way_m);
     }
   }
-  for (const EffectCost& cost : workspace.costs()) found.bytes += cost.bytes;
+  for (const EffectCost& cost : workspace.costs()) found.rows += cost.rows, found.bytes += cost.bytes;
   return found;
 }
 

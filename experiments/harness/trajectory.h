@@ -24,8 +24,8 @@ struct Trajectory {
   pbd::State end;
   double wall_s = 0;  // making of the workspace and steps; the least of the repeats
   std::int64_t outer_iterations = 0, sweeps = 0, row_updates = 0, missed_steps = 0;
-  std::int64_t bytes = 0;    // of the rows of the last step
-  double penetration_m = 0;  // deepest overlap that a step ends with
+  std::int64_t rows = 0, bytes = 0;  // of the last step
+  double penetration_m = 0;          // deepest overlap that a step ends with
   pbd::Status status = pbd::Status::ok;
   std::string reason{};
 };

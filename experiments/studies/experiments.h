@@ -22,6 +22,7 @@ void inexact(Context& context);
 void dual_vs_primal(Context& context);
 void softness(Context& context);
 void mesh_refinement(Context& context);
+void fem_vs_springs(Context& context);
 void time_order(Context& context);
 void energy(Context& context);
 void figure_1(Context& context);

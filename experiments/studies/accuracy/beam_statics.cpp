@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "linear_fem.h"
+#include "studies/accuracy/spring_network.h"
 
 namespace pbdcheck {
 
@@ -36,6 +37,7 @@ FirstMode mode_from(const Scene& scene, Points loads) {
     found.frequency = std::sqrt(square) / (2 * std::numbers::pi);
     if (found.report.status == Status::ok) found.report = at.report;
   }
+  found.inertia = loads;
   return found;
 }
 
@@ -55,23 +57,16 @@ BeamMesh beam_mesh(int n) {
   return {n, std::move(mesh), shear, axial};
 }
 
-Scene solid_beam(const TetMesh& mesh, double poisson) {
+Scene solid_beam(const TetMesh& mesh, double poisson, Strain strain) {
   Scene scene;
-  add_solid(scene, mesh, beam_density, {beam_young, poisson}, Strain::linear);
+  add_solid(scene, mesh, beam_density, {beam_young, poisson}, strain);
   clamp_smallest_x(scene);
   return scene;
 }
 
 Scene spring_beam(const TetMesh& mesh, double kappa) {
   Scene scene = solid_beam(mesh, 0);
-  Distance links;
-  for (const auto& edge : edges(mesh)) {
-    const double length = (mesh.x.col(edge[0]) - mesh.x.col(edge[1])).norm();
-    links.node.push_back(edge);
-    links.rest_length.push_back(length);
-    links.compliance.push_back(1 / (kappa * beam_young * length));
-  }
-  scene.effects = {std::move(links)};
+  scene.effects = {edge_springs(mesh, kappa * beam_young)};
   return scene;
 }
 
@@ -98,8 +93,8 @@ FirstMode first_mode(const Scene& scene, const TetMesh& mesh) {
   return with.frequency < against.frequency ? with : against;
 }
 
-double lateral_contraction(const TetMesh& mesh, const Points& displacement) {
-  double cell = beam_size.x();
+double lateral_contraction(const TetMesh& mesh, const Vec3& size, const Points& displacement) {
+  double cell = size.x();
   for (int node = 0; node < mesh.x.cols(); ++node)
     if (mesh.x(0, node) > 0) cell = std::min(cell, mesh.x(0, node));
   const auto mean = [&](int axis, auto&& chosen) {
@@ -114,12 +109,12 @@ double lateral_contraction(const TetMesh& mesh, const Points& displacement) {
   };
   const auto across = [&](double at) {
     return mean(1, [&](const Vec3& x) {
-      return std::abs(x.x() - beam_size.x() / 2) < cell / 2 && std::abs(x.y() - at) < cell / 2;
+      return std::abs(x.x() - size.x() / 2) < cell / 2 && std::abs(x.y() - at) < cell / 2;
     });
   };
-  const double middle = beam_size.x() / 2;
+  const double middle = size.x() / 2;
   const double axial = (along(middle + cell) - along(middle - cell)) / (2 * cell);
-  return -(across(beam_size.y()) - across(0)) / beam_size.y() / axial;
+  return -(across(size.y()) - across(0)) / size.y() / axial;
 }
 
 }  // namespace pbdcheck

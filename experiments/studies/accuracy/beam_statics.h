@@ -25,8 +25,8 @@ BeamMesh beam_mesh(int n);
 /// Nodal loads of 1 N in all along `direction` on the end face.
 pbd::Points end_loads(const pbd::TetMesh& mesh, const pbd::Vec3& direction);
 
-/// Linear tetrahedra.
-pbd::Scene solid_beam(const pbd::TetMesh& mesh, double poisson);
+/// Tetrahedra.
+pbd::Scene solid_beam(const pbd::TetMesh& mesh, double poisson, pbd::Strain strain = pbd::Strain::linear);
 
 /// Links along all edges, stiffness kappa E l_rest, masses of the solid.
 pbd::Scene spring_beam(const pbd::TetMesh& mesh, double kappa);
@@ -48,11 +48,13 @@ Statics static_equilibrium(pbd::Scene scene, const pbd::Points& loads);
 /// Grids of Kuhn's are symmetric in y and z: one mode is, too, the other one changes its sign.
 struct FirstMode {
   double frequency = 0;
+  pbd::Points inertia{};  // of the mode's displacements u, M u, scaled at will
   pbd::Report report{};
 };
 FirstMode first_mode(const pbd::Scene& scene, const pbd::TetMesh& mesh);
 
-/// Lateral over axial strain in the middle of a stretched beam, by the means over its cross sections.
-double lateral_contraction(const pbd::TetMesh& mesh, const pbd::Points& displacement);
+/// Lateral over axial strain in the middle of a bar of `size` stretched along x, by the means over its cross
+/// sections. Takes an even number of cells along x.
+double lateral_contraction(const pbd::TetMesh& mesh, const pbd::Vec3& size, const pbd::Points& displacement);
 
 }  // namespace pbdcheck

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "harness/files.h"
 #include "harness/measure.h"
 #include "harness/step_checks.h"
 #include "harness/step_judge.h"

@@ -6,7 +6,7 @@
 
 #include "harness/measure.h"
 #include "linear_fem.h"
-#include "studies/accuracy/beam_statics.h"
+#include "studies/accuracy/spring_network.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
@@ -18,29 +18,6 @@ constexpr double beam_poisson = 0.3;
 
 reference::LinearSolid judged_beam(int n, double poisson) {
   return reference::clamped_beam({10 * n, n, n}, beam_size, {beam_young, poisson}, beam_density);
-}
-
-double work_of(const Points& loads, const Points& displacement) {
-  return loads.cwiseProduct(displacement).sum();
-}
-
-/// The network's compliances per kappa are proportional to 1/kappa; kappa fits those of rod and beam theory
-/// in the least squares of their logarithms, so that neither load case is favoured.
-struct Network {
-  double axial, shear;  // F . u at 1 N, J, with the fitted kappa
-  double kappa, lateral;
-  Report report;
-};
-
-Network fitted_network(const BeamMesh& each, double axial_theory, double shear_theory) {
-  const Scene unit = spring_beam(each.mesh, 1);
-  const Statics axial = static_equilibrium(unit, small_load * each.axial);
-  const Statics shear = static_equilibrium(unit, small_load * each.shear);
-  const double a = work_of(each.axial, axial.displacement) / small_load;
-  const double s = work_of(each.shear, shear.displacement) / small_load;
-  const double kappa = std::sqrt((a / axial_theory) * (s / shear_theory));
-  return {a / kappa, s / kappa, kappa, lateral_contraction(each.mesh, axial.displacement),
-          shear.report.status == Status::ok ? axial.report : shear.report};
 }
 
 void beam_rows(Table& table, const std::string& model, const BeamMesh& each, const std::string& quantity,
@@ -71,9 +48,9 @@ void modes_and_contraction(Context& context, Table& table, const BeamMesh& each,
       reference::linear_modes(judged_beam(each.n, beam_poisson), 1, reference::MassMatrix::lumped).at(0);
   beam_rows(table, "tet_p1", each, "frequency_hz", tets.frequency, lumped, theory, tets.report);
   beam_rows(table, "springs", each, "frequency_hz", springs.frequency, lumped, theory, springs.report);
-  const double lateral = lateral_contraction(each.mesh, stretched.displacement);
-  const double own =
-      lateral_contraction(each.mesh, reference::linear_static(judged_beam(each.n, beam_poisson), each.axial));
+  const double lateral = lateral_contraction(each.mesh, beam_size, stretched.displacement);
+  const double own = lateral_contraction(
+      each.mesh, beam_size, reference::linear_static(judged_beam(each.n, beam_poisson), each.axial));
   beam_rows(table, "tet_p1", each, "poisson", lateral, own, beam_poisson, stretched.report);
   beam_rows(table, "springs", each, "poisson", network.lateral, own, beam_poisson, network.report);
   const std::string id = "mesh.n" + std::to_string(each.n);

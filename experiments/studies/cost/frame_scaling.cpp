@@ -109,7 +109,7 @@ struct Growth {
   bool has(std::size_t part) const { return parts.front()[part].frames > 0; }
 };
 
-Growth measure(Context& context, std::size_t scene, int largest) {
+Growth measured_growth(Context& context, std::size_t scene, int largest) {
   Growth growth{std::string(sized_names[scene])};
   for (int level = least_level; level <= largest; ++level) {
     const SizedScene sized = sized_scene(growth.scene, level, context.directory());
@@ -160,7 +160,7 @@ void frame_scaling(Context& context) {
                  "frame_cpu_s", "begin_cpu_s", "iteration_cpu_s", "status", "reason"});
   Table exponents = context.table("exponents", {"scene", "part", "quantity", "exponent", "low", "high"});
   for (std::size_t scene = 0; scene < sized_names.size(); ++scene) {
-    const Growth growth = measure(context, scene, largest);
+    const Growth growth = measured_growth(context, scene, largest);
     for (std::size_t p = 0; p < part_names.size(); ++p) {
       if (!growth.has(p)) continue;
       add_frames(frames, growth, p);

@@ -60,7 +60,7 @@ Basis basis_of(std::string_view family, std::string_view gate) {
 }
 
 /// A gate in a family of cases: its largest number and the bound there.
-struct Judged {
+struct JudgedGate {
   std::string_view family, gate;
   double bound;
   Worst worst{};
@@ -78,7 +78,7 @@ void contact_hard_cases(Context& context) {
                 "sweeps", "gate", "measured", "bound", "holds", "status", "reason"});
   Table frontiers = context.table("frontier", {"scene", "outer", "relaxation", "friction", "largest_step_s",
                                                "fewest_sweeps", "status", "reason"});
-  std::vector<Judged> judged;
+  std::vector<JudgedGate> judged;
   for (const ContactCase& each : cases) {
     for (const std::string& relaxation : relaxations) {
       if (each.family == "soft" && relaxation != relaxations[0]) continue;  // for its time
@@ -93,11 +93,12 @@ void contact_hard_cases(Context& context) {
                    run.ok, run.sweeps, std::string(gate.name), gate.measured, gate.bound,
                    std::int64_t{gate.holds()}, status, run.reason});
         if (relaxation != relaxations[0]) continue;
-        const auto found = std::find_if(judged.begin(), judged.end(), [&](const Judged& of) {
+        const auto found = std::find_if(judged.begin(), judged.end(), [&](const JudgedGate& of) {
           return of.family == each.family && of.gate == gate.name;
         });
-        Judged& own =
-            found != judged.end() ? *found : judged.emplace_back(Judged{each.family, gate.name, gate.bound});
+        JudgedGate& own = found != judged.end()
+                              ? *found
+                              : judged.emplace_back(JudgedGate{each.family, gate.name, gate.bound});
         own.worst.add(gate.measured, each.name);
       }
       if (relaxation != relaxations[0]) continue;

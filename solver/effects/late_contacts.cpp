@@ -193,10 +193,10 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double apart = entering(pair, start, end, behind, last_apart(pair, start, end, behind), overlapping);
   const double left = (overlapping - apart) * travel;
   // What touches as they come to overlap is how they met, wherever its planes and lines lie at the start, but
-  // for the planes that stand for rims.
+  // for the planes that stand for rims; of triangles they may lie far behind.
   const bool rims = is_cylinder(pair.collider[0]) || is_cylinder(pair.collider[1]);
-  for (const auto& [at, least] :
-       {std::pair{apart, behind}, {1.0, behind}, {apart, rims ? behind : -infinity}}) {
+  const double least_met = rims || two.kind == Carrier::triangle ? behind : -infinity;
+  for (const auto& [at, least] : {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}}) {
     generate_between(pair, start, end, at, slack + left);
     keep_overlapping(pair, start, end, allowed, least);
     if (!overlapping_.empty()) return true;

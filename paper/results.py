@@ -26,6 +26,9 @@ class Animation(NamedTuple):
     rendered: bool  # from these very frames
 
 
+LEDGER = "verify"  # the folder of `make verify`, no experiment's
+
+
 class Results:
     """Only complete runs are read: beside them, a table may stem from an earlier run."""
 
@@ -34,7 +37,7 @@ class Results:
 
     def experiments(self):
         return sorted(p.name for p in self.directory.iterdir()
-                      if p.is_dir() and (any(p.glob("*.csv")) or (p / "run.json").exists()))
+                      if p.is_dir() and p.name != LEDGER and (any(p.glob("*.csv")) or (p / "run.json").exists()))
 
     def run(self, experiment):
         return reading.read_run(self.directory / experiment)

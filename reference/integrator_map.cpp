@@ -59,13 +59,13 @@ struct Alpha {
   }
 };
 
-}  // namespace
-
-void require_judged_integrator(std::string_view name) {
-  if (name != "implicit_euler" && name != "bdf2" && name != "generalised_alpha")
-    throw SetupError("method.integrator", "`" + std::string(name) + "`",
+void require_judged(std::string_view integrator) {
+  if (std::find(judged_integrators.begin(), judged_integrators.end(), integrator) == judged_integrators.end())
+    throw SetupError("method.integrator", "`" + std::string(integrator) + "`",
                      "implicit_euler, bdf2, generalised_alpha: the steps the judge states");
 }
+
+}  // namespace
 
 /// a where a step begins: of an instant that is apart from it in proportion to the step.
 Vector IntegratorMemory::acceleration_at(const RigidStep& step) const {
@@ -109,7 +109,7 @@ IntegratorMap IntegratorMemory::bdf2(const StepClaim& claim, const RigidStep& st
 }
 
 std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
-  require_judged_integrator(claim.integrator);
+  require_judged(claim.integrator);
   if (claim.integrator == "implicit_euler" || !(h_ > 0) || !same(*ended_, claim.start)) return {};
   const RigidStep euler = step_of(claim);
   RigidStep own = euler;
@@ -119,7 +119,7 @@ std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) co
 }
 
 void IntegratorMemory::follow(const StepClaim& claim) {
-  require_judged_integrator(claim.integrator);
+  require_judged(claim.integrator);
   if (claim.integrator == "implicit_euler") return;
   RigidStep step = step_of(claim);
   step.map = map_of(claim);

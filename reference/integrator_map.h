@@ -23,13 +23,17 @@
 // (where both do, nothing moves).
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "rigid_step.h"
 #include "step_claim.h"
 
 namespace pbd::reference {
 
-/// The integrators that are judged: implicit_euler, bdf2 and generalised_alpha. Throws SetupError for others.
-void require_judged_integrator(std::string_view name);
+/// Whose steps the judges state.
+inline constexpr std::array<std::string_view, 3> judged_integrators{"implicit_euler", "bdf2",
+                                                                    "generalised_alpha"};
 
 /// Follows a motion step by step.
 class IntegratorMemory {

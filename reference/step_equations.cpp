@@ -62,8 +62,8 @@ void check_motion(const StepClaim& claim, Findings& findings) {
   findings.require("motion", "orientations, rad", turned, step_rounding * (1 + claim.h * spin));
 }
 
-/// Of the values of an angle, which are 2 pi apart, the nearest to the one where the step begins: within a
-/// step it does not jump.
+/// Of the values of an angle that goes on, which are 2 pi apart, the nearest to the one where the step
+/// begins.
 double unwrapped(double value, double begun) {
   constexpr double period = 2 * std::numbers::pi;
   return value + period * std::round((begun - value) / period);
@@ -79,8 +79,12 @@ void check_constraints(const StepClaim& claim, const StepModel& model, double le
   if (!gather_forces(claim, model.rigid, gamma)) gamma.setConstant(model.rigid.rows(), std::nan(""));
   Vector value = values_at(model.rigid, placement_of(claim.end));
   const Vector begun = values_at(model.rigid, placement_of(claim.start));
+  Vector may_jump = value;
   for (Eigen::Index row = 0; row < value.size(); ++row)
-    if (model.angle[static_cast<std::size_t>(row)]) value[row] = unwrapped(value[row], begun[row]);
+    if (model.goes_on[static_cast<std::size_t>(row)]) {
+      value[row] = unwrapped(value[row], begun[row]);
+      may_jump[row] = begun[row];
+    }
   const bool hard_alone = !is_euler_step(claim) || explicit_forces(claim);
   const double size = claim.end.x.cwiseAbs().maxCoeff();
   double squared = 0, most = -1;
@@ -95,7 +99,7 @@ void check_constraints(const StepClaim& claim, const StepModel& model, double le
     const RowMatrix n = metric_of(model.rigid, block, claim.h);
     if (block.hard && is_singular(n))
       return findings.leave_out("constraints: those whose rows depend on each other");
-    if (at_jump(model, block, begun[block.row], size))
+    if (at_jump(model, block, may_jump[block.row], size))
       return findings.leave_out("constraints: angles at their jump");
     const RowVector own = gamma.segment(block.row, block.rows());
     RowVector missed = value.segment(block.row, block.rows());

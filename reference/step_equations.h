@@ -14,11 +14,12 @@ inline constexpr double step_rounding = 64 * std::numeric_limits<double>::epsilo
 /// A scene's rows and what is to be known of each.
 struct StepModel {
   RigidModel rigid;
-  std::vector<bool> damped;                   // of each row
-  std::vector<bool> angle;                    // taken modulo 2 pi
-  std::vector<bool> own_frame;                // damped in the frame of a's body: J is another one
-  std::vector<std::array<double, 2>> bounds;  // of each row's force
-  std::vector<std::string> name;              // of each row's constraint
+  std::vector<bool> damped{};                   // of each row
+  std::vector<bool> angle{};                    // taken modulo 2 pi
+  std::vector<bool> goes_on{};                  // an angle that does not jump within a step
+  std::vector<bool> own_frame{};                // damped in the frame of a's body: J is another one
+  std::vector<std::array<double, 2>> bounds{};  // of each row's force
+  std::vector<std::string> name{};              // of each row's constraint
 };
 /// Throws SetupError for a scene that is invalid or where nothing can move.
 StepModel make_step_model(const Scene& scene);

@@ -24,8 +24,8 @@ Scene undamped(const Scene& scene) {
 void describe(const Scene& scene, int effect, int constraint, StepModel& model) {
   const Effect& stated = scene.effects[static_cast<std::size_t>(effect)];
   model.damped.push_back(damped(stated));
-  model.angle.push_back(std::holds_alternative<Bending>(stated) ||
-                        std::holds_alternative<AngleJoint>(stated));
+  model.goes_on.push_back(std::holds_alternative<AngleJoint>(stated));
+  model.angle.push_back(model.goes_on.back() || std::holds_alternative<Bending>(stated));
   model.own_frame.push_back(damped(stated) && (std::holds_alternative<PointJoint>(stated) ||
                                                std::holds_alternative<Attachment>(stated)));
   std::array<double, 2> bounds{-infinity, infinity};
@@ -76,7 +76,7 @@ double scale_of(const StepClaim& claim, const RigidModel& model) {
 }  // namespace
 
 StepModel make_step_model(const Scene& scene) {
-  StepModel model{make_rigid_model(undamped(scene)), {}, {}, {}, {}, {}};
+  StepModel model{.rigid = make_rigid_model(undamped(scene))};
   take_told_normals(model.rigid);
   for (Element& element : model.rigid.nodes.elements)
     element.turns = damped(scene.effects[static_cast<std::size_t>(element.effect)]);

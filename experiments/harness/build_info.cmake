@@ -23,4 +23,8 @@ string(REGEX REPLACE "-march=native" "" handed_on "${handed_on}")
 if(handed_on MATCHES "(-march=|\"-target-cpu\" \")([a-z0-9._-]+)")
   set(MARCH ${CMAKE_MATCH_2})
 endif()
+# A compiler older than the processor names the last one that it knows, and adds what is beyond that.
+if(handed_on MATCHES "(-m|\"\\+)avx512f")
+  string(APPEND MARCH "+avx512f")
+endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/build_info.h.in ${OUTPUT} @ONLY)

@@ -190,7 +190,8 @@ class ContactSearch {
   bool nearest_of_surface(const ActiveContact& contact, const Configuration& at) const;
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
-  // Late contacts: late_contacts.cpp. The way between is that of turns below pi, and straight for nodes.
+  // Late contacts: late_contacts.cpp, and passing_contacts.cpp for what meets on the way. The way between is
+  // that of turns below pi, and straight for nodes.
   static Eigen::Matrix3d turned_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double share);
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,

@@ -21,8 +21,8 @@ void Aitken::iterate(StepSystem& system, Progress& progress) {
 }
 
 void Aitken::suggest_shares(const Problem& problem) {
-  // What its neighbours do seems a body's own to it: of 0.05, 0.1 and 0.2 the last one solved most steps of a
-  // pile of 1000 boxes.
+  // A smaller share would hold a body back for long where not it, but a neighbour, has turned its change
+  // round.
   constexpr double least = 0.2;
   const Bodies& bodies = problem.bodies;
   along_.assign(static_cast<std::size_t>(bodies.nodes()), 0.0);

@@ -66,8 +66,8 @@ void Automatic::Gain::note(double residual) {
 
 /// Where its residual does not halve soon or grows far: proximal goes on with the step.
 void Automatic::leave_aitken_without_gain(const Progress& progress) {
-  constexpr int patience = 6;  // twice what the least share of a change needs to halve an error
-  constexpr double too_much = 100;
+  constexpr int patience = 6;       // twice what the least share of a change needs to halve an error
+  constexpr double too_much = 100;  // twice the digits by which proximal's acceleration is taken back
   of_aitken_.note(progress.residual());
   if (of_aitken_.iterations_since >= patience || !(progress.residual() <= too_much * of_aitken_.lowest))
     uses_aitken_ = false;

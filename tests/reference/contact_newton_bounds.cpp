@@ -2,26 +2,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cone_interior_point.h"
 #include "cone_ipopt.h"
-#include "contact_newton.h"
-#include "scenes/contacts.h"
+#include "judged_contact.h"
 
 using namespace pbd;
 using namespace pbd::reference;
+using namespace pbd::test;
 using pbdcheck::BodyScene;
 
 namespace {
-
-constexpr double bound_step_s = 0.01, bound_gravity = 9.81, bound_closed = 1e-10;
-
-ContactJudgement judged_bounds(const Scene& scene, Friction friction = Friction::coulomb,
-                               ConeSolver solver = cone_interior_point) {
-  const ContactJudgement j = contact_newton(scene, scene.initial, bound_step_s, friction, solver);
-  INFO(j.reason);
-  CHECK(j.outcome == Outcome::ok);
-  return j;
-}
 
 /// A wheel of 0.5 kg m^2 about the world's z, turning at `spin` (rad/s), with angle joints of `bounds` and
 /// `rest` (rad) that go on at `rate` (rad/s).
@@ -49,7 +38,7 @@ Scene limited_wheel(double spin, const std::vector<std::array<double, 2>>& rest_
 
 /// A box of 4 kg on the ground, its middle led along x by a motor of limited force (N) at `rate` (m/s).
 Scene driven_box(double force, double rate, double friction) {
-  BodyScene build({.friction = friction}, bound_gravity);
+  BodyScene build({.friction = friction}, gravity);
   build.ground();
   const int box = build.box(Vec3(0.4, 0.4, 0.1), 4, {.position = {0, 0, 0.05}});
   Scene scene = build.finish();
@@ -64,38 +53,35 @@ Scene driven_box(double force, double rate, double friction) {
 
 TEST_CASE("a motor of limited torque turns a wheel by its torque and no faster than its rate") {
   const double torque = 10, inertia = 0.5;
-  CHECK(std::abs(judged_bounds(limited_wheel(0, {{0, 5}}, {{-torque, torque}})).spin(2, 1) -
-                 torque * bound_step_s / inertia) <= bound_closed);
-  CHECK(std::abs(judged_bounds(limited_wheel(0, {{0, -5}}, {{-torque, torque}})).spin(2, 1) +
-                 torque * bound_step_s / inertia) <= bound_closed);
-  CHECK(std::abs(judged_bounds(limited_wheel(0, {{0, 0.1}}, {{-torque, torque}})).spin(2, 1) - 0.1) <=
-        bound_closed);
-  CHECK(std::abs(judged_bounds(limited_wheel(0, {{0, 5}}, {{-torque, torque}}), Friction::cone, cone_ipopt)
-                     .spin(2, 1) -
-                 torque * bound_step_s / inertia) <= 1e-8);
+  CHECK(std::abs(judged(limited_wheel(0, {{0, 5}}, {{-torque, torque}})).spin(2, 1) -
+                 torque * judged_step_s / inertia) <= by_hand);
+  CHECK(std::abs(judged(limited_wheel(0, {{0, -5}}, {{-torque, torque}})).spin(2, 1) +
+                 torque * judged_step_s / inertia) <= by_hand);
+  CHECK(std::abs(judged(limited_wheel(0, {{0, 0.1}}, {{-torque, torque}})).spin(2, 1) - 0.1) <= by_hand);
+  CHECK(std::abs(
+            judged(limited_wheel(0, {{0, 5}}, {{-torque, torque}}), Friction::cone, cone_ipopt).spin(2, 1) -
+            torque * judged_step_s / inertia) <= 1e-8);
 }
 
 TEST_CASE("limits of an angle end a turn there and let it go elsewhere") {
   const std::vector<ForceBounds> limits{{0, infinity}, {-infinity, 0}};
   const std::vector<std::array<double, 2>> at{{-0.02, 0}, {0.03, 0}};
-  CHECK(std::abs(judged_bounds(limited_wheel(-5, at, limits)).spin(2, 1) + 0.02 / bound_step_s) <=
-        bound_closed);
-  CHECK(std::abs(judged_bounds(limited_wheel(5, at, limits)).spin(2, 1) - 0.03 / bound_step_s) <=
-        bound_closed);
-  CHECK(std::abs(judged_bounds(limited_wheel(1, at, limits)).spin(2, 1) - 1) <= bound_closed);
+  CHECK(std::abs(judged(limited_wheel(-5, at, limits)).spin(2, 1) + 0.02 / judged_step_s) <= by_hand);
+  CHECK(std::abs(judged(limited_wheel(5, at, limits)).spin(2, 1) - 0.03 / judged_step_s) <= by_hand);
+  CHECK(std::abs(judged(limited_wheel(1, at, limits)).spin(2, 1) - 1) <= by_hand);
   // One that gives way: I (w - w0) = h gamma, h w + 0.02 + A gamma = 0.
   const double compliance = 1e-3, inertia = 0.5;
-  const double soft = (inertia * -5 - bound_step_s * 0.02 / compliance) /
-                      (inertia + bound_step_s * bound_step_s / compliance);
-  CHECK(std::abs(judged_bounds(limited_wheel(-5, at, limits, compliance)).spin(2, 1) - soft) <= bound_closed);
+  const double soft = (inertia * -5 - judged_step_s * 0.02 / compliance) /
+                      (inertia + judged_step_s * judged_step_s / compliance);
+  CHECK(std::abs(judged(limited_wheel(-5, at, limits, compliance)).spin(2, 1) - soft) <= by_hand);
 }
 
 TEST_CASE("a limited motor drags a box against friction or is held by it") {
   for (const Friction law : {Friction::coulomb, Friction::cone}) {
-    CHECK(std::abs(judged_bounds(driven_box(10, 1, 0.5), law).v(0, 1)) <= bound_closed);  // mu m g is 19.6 N
-    CHECK(std::abs(judged_bounds(driven_box(100, 0.1, 0.5), law).v(0, 1) - 0.1) <= 1e-9);
+    CHECK(std::abs(judged(driven_box(10, 1, 0.5), law).v(0, 1)) <= by_hand);  // mu m g is 19.6 N
+    CHECK(std::abs(judged(driven_box(100, 0.1, 0.5), law).v(0, 1) - 0.1) <= 1e-9);
   }
   const double force = 30, mass = 4;
-  CHECK(std::abs(judged_bounds(driven_box(force, 1, 0.5)).v(0, 1) -
-                 (force / mass - 0.5 * bound_gravity) * bound_step_s) <= bound_closed);
+  CHECK(std::abs(judged(driven_box(force, 1, 0.5)).v(0, 1) -
+                 (force / mass - 0.5 * gravity) * judged_step_s) <= by_hand);
 }

@@ -2,25 +2,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cone_interior_point.h"
-#include "contact_newton.h"
-#include "scenes/contacts.h"
+#include "judged_contact.h"
 
 using namespace pbd;
 using namespace pbd::reference;
+using namespace pbd::test;
 using pbdcheck::BodyScene;
 
 namespace {
 
-constexpr double rim_step_s = 0.01, rim_gravity = 9.81, rim_closed = 1e-10;
 constexpr double rim_radius = 0.1, rim_length = 0.3;
-
-ContactJudgement judged_rim(const Scene& scene) {
-  const auto j = contact_newton(scene, scene.initial, rim_step_s, Friction::coulomb, cone_interior_point);
-  INFO(j.reason);
-  CHECK(j.outcome == Outcome::ok);
-  return j;
-}
 
 /// Where a ball of `size` (m) ends that meets a fixed cylinder about z without friction and gravity.
 Vec3 end_of_ball(double size, const Vec3& position, const Vec3& velocity, bool node) {
@@ -34,7 +25,7 @@ Vec3 end_of_ball(double size, const Vec3& position, const Vec3& velocity, bool n
   }
   Scene scene = build.finish();
   if (node) add_node(scene, position, 1, velocity);
-  return judged_rim(scene).x.col(1);
+  return judged(scene).x.col(1);
 }
 
 /// Above what a cylinder's lowest point is, m.
@@ -51,56 +42,55 @@ TEST_CASE("balls and nodes end on a cylinder's side and cap where they would be 
       INFO(node << " " << size);
       // Impulses are along the normal of the end: where it would be, projected.
       const Vec3 beside(0.08, 0.09 + size, 0.05), into(-2, -3, 0.5);
-      Vec3 end = beside + rim_step_s * into;
+      Vec3 end = beside + judged_step_s * into;
       end.head<2>() *= (rim_radius + size) / end.head<2>().norm();
-      CHECK((end_of_ball(size, beside, into, node) - end).norm() <= rim_closed);
+      CHECK((end_of_ball(size, beside, into, node) - end).norm() <= by_hand);
       const Vec3 above(0.03, -0.04, rim_length / 2 + size + 0.01), down(0.4, 0.2, -3);
-      end = above + rim_step_s * down;
+      end = above + judged_step_s * down;
       end.z() = rim_length / 2 + size;
-      CHECK((end_of_ball(size, above, down, node) - end).norm() <= rim_closed);
+      CHECK((end_of_ball(size, above, down, node) - end).norm() <= by_hand);
     }
 }
 
 TEST_CASE("balls and round nodes end on a cylinder's rim at their radius from its nearest point") {
   const double size = 0.03;
   const Vec3 from(0.09, 0.08, rim_length / 2 + 0.03), into(-1, -1, -2);
-  const Vec3 free = from + rim_step_s * into;
+  const Vec3 free = from + judged_step_s * into;
   Vec3 rim(free.x(), free.y(), rim_length / 2);
   rim.head<2>() *= rim_radius / free.head<2>().norm();
   const Vec3 end = rim + size * (free - rim).normalized();
-  for (const bool node : {false, true})
-    CHECK((end_of_ball(size, from, into, node) - end).norm() <= rim_closed);
+  for (const bool node : {false, true}) CHECK((end_of_ball(size, from, into, node) - end).norm() <= by_hand);
 }
 
 TEST_CASE("a point that goes by beyond a cylinder's rim meets nothing") {
   const Vec3 from(0.101, 0, rim_length / 2 + 0.005), by(0.1, 0, -2);
-  CHECK((end_of_ball(0, from, by, true) - (from + rim_step_s * by)).norm() <= rim_closed);
+  CHECK((end_of_ball(0, from, by, true) - (from + judged_step_s * by)).norm() <= by_hand);
 }
 
 TEST_CASE("a cylinder that lies on the ground slips and turns as by hand") {
-  const auto j = judged_rim(pbdcheck::slipping(pbdcheck::Round::cylinder));
-  const double friction = 0.2, slowed = friction * rim_gravity * rim_step_s;
+  const auto j = judged(pbdcheck::slipping(pbdcheck::Round::cylinder));
+  const double friction = 0.2, slowed = friction * gravity * judged_step_s;
   const Eigen::Index body = j.x.cols() - 1;
-  CHECK(std::abs(j.v(0, body) - (1 - slowed)) <= rim_closed);
+  CHECK(std::abs(j.v(0, body) - (1 - slowed)) <= by_hand);
   const Vec3 spin = j.orientation.back() * Vec3(j.spin.col(j.spin.cols() - 1));
-  CHECK(std::abs(spin.y() - 2 * slowed / 0.1) <= rim_closed / 0.1);  // I = m R^2/2
+  CHECK(std::abs(spin.y() - 2 * slowed / 0.1) <= by_hand / 0.1);  // I = m R^2/2
 }
 
 TEST_CASE("a cylinder stands on its cap and comes down on its rim") {
-  BodyScene standing({.friction = 0.5}, rim_gravity);
+  BodyScene standing({.friction = 0.5}, gravity);
   standing.ground();
   standing.cylinder(rim_radius, rim_length, 2, {.position = {0, 0, rim_length / 2}});
-  const auto still = judged_rim(standing.finish());
-  CHECK(still.v.cwiseAbs().maxCoeff() <= rim_closed);
-  CHECK(still.spin.cwiseAbs().maxCoeff() <= rim_closed);
+  const auto still = judged(standing.finish());
+  CHECK(still.v.cwiseAbs().maxCoeff() <= by_hand);
+  CHECK(still.spin.cwiseAbs().maxCoeff() <= by_hand);
 
-  BodyScene tilted({.friction = 0.3}, rim_gravity);
+  BodyScene tilted({.friction = 0.3}, gravity);
   tilted.ground();
   const Eigen::Quaterniond askew(Eigen::AngleAxisd(0.5, Vec3(1, 2, 0).normalized()));
   const double low = rim_length / 2 * std::cos(0.5) + rim_radius * std::sin(0.5);
   tilted.cylinder(rim_radius, rim_length, 2,
                   {.position = {0, 0, low + 0.01}, .orientation = askew, .velocity = {0.5, 0, -3}});
-  const auto fallen = judged_rim(tilted.finish());
-  CHECK(std::abs(height_of_rim(fallen, 1)) <= rim_closed);
+  const auto fallen = judged(tilted.finish());
+  CHECK(std::abs(height_of_rim(fallen, 1)) <= by_hand);
   CHECK(fallen.contacts == 1);
 }

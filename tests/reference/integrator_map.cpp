@@ -4,54 +4,43 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cone_interior_point.h"
-#include "contact_newton.h"
-#include "scenes/contacts.h"
+#include "judged_contact.h"
 
 using namespace pbd;
 using namespace pbd::reference;
+using namespace pbd::test;
 using pbdcheck::BodyScene;
 
 namespace {
 
-constexpr double map_step_s = 0.01, map_gravity = 9.81, map_closed = 1e-10;
-
 /// A body or node (column 1) that is at `x` with velocity `v` a step later.
 State later(const State& from, const Vec3& x, const Vec3& v) {
   State state = from;
-  state.time += map_step_s;
+  state.time += judged_step_s;
   state.x.col(1) = x;
   state.v.col(1) = v;
   return state;
 }
 
 StepClaim claim_by_bdf2(const Scene& scene, const State& start, const State& end) {
-  StepClaim claim{.scene = scene, .start = start, .end = end, .h = map_step_s, .integrator = "bdf2"};
+  StepClaim claim{.scene = scene, .start = start, .end = end, .h = judged_step_s, .integrator = "bdf2"};
   claim.forces.resize(scene.effects.size());
   return claim;
 }
 
 Scene box_on_ground(double friction, const Vec3& position, const Vec3& velocity) {
-  BodyScene build({.friction = friction}, map_gravity);
+  BodyScene build({.friction = friction}, gravity);
   build.ground();
   build.box(Vec3(0.4, 0.4, 0.1), 4, {.position = position, .velocity = velocity});
   return build.finish();
 }
 
-ContactJudgement judged_by(const Scene& scene, const State& start, const std::optional<IntegratorMap>& map) {
-  const auto j = contact_newton(scene, start, map_step_s, Friction::coulomb, cone_interior_point,
-                                {.map = map ? &*map : nullptr});
-  INFO(j.reason);
-  CHECK(j.outcome == Outcome::ok);
-  return j;
-}
-
 }  // namespace
 
 TEST_CASE("a fall by BDF2 is a step of implicit Euler and then by both last places") {
-  const Vec3 from(0, 0, 5), down = -map_gravity * Vec3::UnitZ();
+  const Vec3 from(0, 0, 5), down = -gravity * Vec3::UnitZ();
   const Scene scene = box_on_ground(0.5, from, Vec3(1, 0, 0));
-  const double h = map_step_s;
+  const double h = judged_step_s;
   const Vec3 v0(1, 0, 0), v1 = v0 + h * down, x1 = from + h * v1;
   const State first = later(scene.initial, x1, v1);
   IntegratorMemory memory;
@@ -62,9 +51,9 @@ TEST_CASE("a fall by BDF2 is a step of implicit Euler and then by both last plac
   const State second = later(first, x2, v2);
   const auto map = memory.map_of(claim_by_bdf2(scene, first, second));
   REQUIRE(map.has_value());
-  const auto j = judged_by(scene, first, map);
-  CHECK((j.x.col(1) - x2).norm() <= map_closed * h);
-  CHECK((j.v.col(1) - v2).norm() <= map_closed);
+  const auto j = judged(scene, first, Friction::coulomb, cone_interior_point, {.map = &*map});
+  CHECK((j.x.col(1) - x2).norm() <= by_hand * h);
+  CHECK((j.v.col(1) - v2).norm() <= by_hand);
   // What ends where implicit Euler leads to is a step of that; so is one from elsewhere.
   const Vec3 v_euler = v1 + h * down;
   CHECK_FALSE(
@@ -74,7 +63,7 @@ TEST_CASE("a fall by BDF2 is a step of implicit Euler and then by both last plac
 }
 
 TEST_CASE("a box that slides by BDF2 loses the speed of friction in each step and no more") {
-  const double mu = 0.3, h = map_step_s, lost = mu * map_gravity * h;
+  const double mu = 0.3, h = judged_step_s, lost = mu * gravity * h;
   const Vec3 from(0, 0, 0.05);
   const Scene scene = box_on_ground(mu, from, Vec3(1, 0, 0));
   const Vec3 v1(1 - lost, 0, 0), x1 = from + h * v1;
@@ -87,18 +76,18 @@ TEST_CASE("a box that slides by BDF2 loses the speed of friction in each step an
   const State second = later(first, x2, v2);
   const auto map = memory.map_of(claim_by_bdf2(scene, first, second));
   REQUIRE(map.has_value());
-  CHECK(std::abs(map->base[0] - v1.x()) <= map_closed);
-  CHECK(std::abs(map->base[2] + map_gravity * h / 3) <= map_closed);
-  const auto j = judged_by(scene, first, map);
-  CHECK((j.v.col(1) - v2).norm() <= map_closed);
-  CHECK((j.x.col(1) - x2).norm() <= map_closed * h);
+  CHECK(std::abs(map->base[0] - v1.x()) <= by_hand);
+  CHECK(std::abs(map->base[2] + gravity * h / 3) <= by_hand);
+  const auto j = judged(scene, first, Friction::coulomb, cone_interior_point, {.map = &*map});
+  CHECK((j.v.col(1) - v2).norm() <= by_hand);
+  CHECK((j.x.col(1) - x2).norm() <= by_hand * h);
 }
 
 TEST_CASE("a box comes down by BDF2 where its gap closes") {
-  const double h = map_step_s;
+  const double h = judged_step_s;
   const Vec3 from(0, 0, 0.09), v0(0, 0, -2);
   const Scene scene = box_on_ground(0, from, v0);
-  const Vec3 v1 = v0 - h * map_gravity * Vec3::UnitZ(), x1 = from + h * v1;
+  const Vec3 v1 = v0 - h * gravity * Vec3::UnitZ(), x1 = from + h * v1;
   const State first = later(scene.initial, x1, v1);
   IntegratorMemory memory;
   memory.follow(claim_by_bdf2(scene, scene.initial, first));
@@ -107,13 +96,13 @@ TEST_CASE("a box comes down by BDF2 where its gap closes") {
   const State second = later(first, Vec3(0, 0, 0.05), Vec3(0, 0, down));
   const auto map = memory.map_of(claim_by_bdf2(scene, first, second));
   REQUIRE(map.has_value());
-  const auto j = judged_by(scene, first, map);
-  CHECK(std::abs(j.x(2, 1) - 0.05) <= map_closed * h);
-  CHECK(std::abs(j.v(2, 1) - down) <= map_closed);
+  const auto j = judged(scene, first, Friction::coulomb, cone_interior_point, {.map = &*map});
+  CHECK(std::abs(j.x(2, 1) - 0.05) <= by_hand * h);
+  CHECK(std::abs(j.v(2, 1) - down) <= by_hand);
 }
 
 TEST_CASE("a box that slides by generalised alpha follows its parabola whatever rho is") {
-  const double mu = 0.3, h = map_step_s, slowing = mu * map_gravity;
+  const double mu = 0.3, h = judged_step_s, slowing = mu * gravity;
   const Vec3 from(0, 0, 0.05), along = Vec3::UnitX();
   const Scene scene = box_on_ground(mu, from, along);
   for (const double rho : {0.0, 0.5, 0.8}) {
@@ -134,9 +123,9 @@ TEST_CASE("a box that slides by generalised alpha follows its parabola whatever 
       const State next = later(now, x, v);
       const auto map = memory.map_of(claim(now, next));
       REQUIRE(map.has_value());
-      const auto j = judged_by(scene, now, map);
-      CHECK((j.v.col(1) - v).norm() <= map_closed);
-      CHECK((j.x.col(1) - x).norm() <= map_closed * h);
+      const auto j = judged(scene, now, Friction::coulomb, cone_interior_point, {.map = &*map});
+      CHECK((j.v.col(1) - v).norm() <= by_hand);
+      CHECK((j.x.col(1) - x).norm() <= by_hand * h);
       memory.follow(claim(now, next));
       now = next;
     }

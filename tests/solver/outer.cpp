@@ -97,31 +97,6 @@ TEST_CASE("the proximal iteration solves a taut step where plain does not, whate
   }
 }
 
-// A mass on one link has one motion that plain multiplies by -kappa: the right share of each change, 1/(1 +
-// kappa), is what two changes tell, and what is then left is of second order.
-TEST_CASE("aitken solves at once where plain walks away from the solution of one body") {
-  constexpr double h = 0.1, speed = 25;  // of a link of 1 m kappa is the free motion's excess, 1.7
-  Scene scene;
-  scene.mass = {infinity, 1};
-  scene.initial.x = Points::Zero(3, 2);
-  scene.initial.x.col(1) = Vec3(1, 0, 0);
-  scene.initial.v = Points::Zero(3, 2);
-  scene.initial.v.col(1) = Vec3(0, speed, 0);
-  scene.effects.emplace_back(Gravity{});
-  scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
-  Method method = direct_method(1e-10);
-  method.outer = "plain";
-  State state = scene.initial;
-  CHECK(one_step(scene, method, h, state).status == Status::not_converged);
-  method.outer = "aitken";
-  state = scene.initial;
-  const Report report = one_step(scene, method, h, state);
-  CHECK(report.status == Status::ok);
-  CHECK(report.outer_iterations <= 15);
-  // The free motion's end, projected on to the circle.
-  CHECK((state.x.col(1) - Vec3(1, h * speed, -gravity * h * h).normalized()).norm() <= 1e-9);
-}
-
 // A strut that leans by 0.01 rad under its load: nothing is taut, and plain does not contract.
 TEST_CASE("auto leaves plain where the step surprises its prediction") {
   Scene scene;

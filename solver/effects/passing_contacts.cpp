@@ -1,0 +1,111 @@
+// What meets or passes on the way of a step, where ways are looked at (contact_search.h).
+#include <algorithm>
+#include <cmath>
+
+#include "effects/contact_search.h"
+
+namespace pbd {
+
+/// States what touches round of `found_` at a share of the way, and has passed at `end`, as the plane
+/// between, which b carries: a distance has no sign by which to see that one passed the other.
+void ContactSearch::part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end,
+                                   double share) {
+  const auto [first, second] = pair.collider;
+  const std::array<Frame, 2> at{frame_between(first, start, end, share),
+                                frame_between(second, start, end, share)};
+  for (ContactPoint& point : found_) {
+    if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) continue;
+    if (touching_at(active(point, first, second), end).gap < 0) continue;
+    const Frame &a = at[point.swapped ? 1 : 0], &b = at[point.swapped ? 0 : 1];
+    point.direction_b = b.rotation.transpose() * touching(point, a, b).normal;
+    point.kind = ContactPoint::Kind::face;
+  }
+}
+
+/// True if what touches round has turned about each other by more than a right angle at `end`, and was in
+/// each other on the way by as much as that takes: no rolling, but one that passed the other.
+bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
+                                 const Configuration& end) const {
+  if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) return false;
+  const int first = pair.collider[0], second = pair.collider[1];
+  const auto touching_after = [&](double share) {
+    const Frame one = frame_between(first, start, end, share), two = frame_between(second, start, end, share);
+    return point.swapped ? touching(point, two, one) : touching(point, one, two);
+  };
+  if (!(touching_after(0).normal.dot(touching_after(1).normal) < 0)) return false;
+  constexpr int places = 256;  // two in what is cut so deep, of a way of a hundred sizes
+  const double turned = (1 - std::sqrt(0.5)) * (point.radius_a + point.radius_b);
+  for (int k = 1; k < places; ++k)
+    if (touching_after(k / double(places)).gap < -turned) return true;
+  return false;
+}
+
+/// Sets `overlapping_` to the planes between what of a pair touches round where the step begins, and has
+/// passed at `end`; true if there are any.
+bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
+                                double slack) {
+  generate_between(pair, start, end, 0, 2 * slack);
+  std::erase_if(found_, [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
+  part_by_planes(pair, start, end, 0);
+  keep_overlapping(pair, start, end, -slack, -infinity);
+  return !overlapping_.empty();
+}
+
+/// Walks the way of a pair that begins apart. True where it touches by features that overlap at `end` by more
+/// than `allowed`, or is in each other by more than that (negative, m); sets `overlapping_` to those
+/// features, if there are any. A gap falls by no more than both travel, so that no smaller share needs to be
+/// looked at; what touches goes on by half a radius at most.
+bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Configuration& end,
+                          double allowed, double slack) {
+  constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
+  const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
+  const double travel = travel_between(one, two), round = round_radius_of(one, two);
+  double gap = pair.nearest, share = 0, touching_for = 0;
+  apart_ = 0;
+  for (int k = 0; k < most; ++k) {
+    touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
+    share += std::max(gap, touching_for) / travel;
+    if (!(share < 1)) return false;
+    gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
+    if (gap > slack) {
+      apart_ = share;
+      continue;
+    }
+    const bool inside = gap < allowed;
+    if (inside) share = entering(pair, start, end, -slack, apart_, share);
+    generate_between(pair, start, end, share, 2 * slack);
+    if (inside) part_by_planes(pair, start, end, share);
+    keep_overlapping(pair, start, end, allowed, -slack);
+    if (inside || !overlapping_.empty()) return true;
+  }
+  overlapping_.clear();
+  return true;
+}
+
+bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, const Configuration& end,
+                              std::vector<double>& share) {
+  bool any = false;
+  for (const NearPair& near : near_pairs_) {
+    const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
+    const Pair pair{.collider = near.collider, .nearest = near.nearest, .overlooked = slack};
+    if (!std::isfinite(slack)) continue;
+    apart_ = 0;
+    if (!(pair.nearest > slack ? meets(pair, start, end, -slack, slack)
+                               : find_passed(pair, start, end, slack)))
+      continue;
+    any = true;
+    const auto lower = [&](Eigen::Index column) { share[column] = std::min(share[column], apart_); };
+    for (const int collider : near.collider) {
+      const Motion& motion = motions_[collider];
+      if (motion.kind == Carrier::triangle)
+        for (const int node : effect_.triangle[motion.carrier]) lower(node);
+      else if (motion.kind == Carrier::node)
+        lower(motion.carrier);
+      else
+        lower(bodies.node(motion.carrier)), lower(bodies.column(motion.carrier));
+    }
+  }
+  return any;
+}
+
+}  // namespace pbd

@@ -1,5 +1,7 @@
 #include "collision/mesh_overlap.h"
 
+#include <cmath>
+
 namespace pbd {
 namespace {
 
@@ -26,7 +28,8 @@ bool goes_through(const RoundedPolyhedron& a, const Vec3& p, const Vec3& q, doub
   return begin < end;
 }
 
-/// That a's edge goes through the mesh's triangle, by more than `flush` on both sides and from its own edges.
+/// That a's edge goes through the mesh's triangle, by more than `flush` on both sides and from the lines of
+/// its own edges: what goes on both sides of one of them is no deeper than it is from that.
 bool pierces(const MeshPair& pair, const Polyhedron::Edge& edge, int triangle) {
   const Vec3& normal = pair.b.solid.faces[triangle].normal;
   const Vec3 from = pair.a.node(edge.node[0]), along = pair.a.node(edge.node[1]) - from;
@@ -35,7 +38,9 @@ bool pierces(const MeshPair& pair, const Polyhedron::Edge& edge, int triangle) {
   const Vec3 x = from + begin / (begin - end) * along;
   for (int k = 0; k < 3; ++k) {
     const Vec3 p = corner(pair.b, triangle, k), side = corner(pair.b, triangle, (k + 1) % 3) - p;
-    if (!(normal.cross(side).dot(x - p) > pair.flush * side.norm())) return false;
+    if (!(normal.cross(side).dot(x - p) > 0)) return false;
+    const Vec3 across = along.cross(side);
+    if (!(std::abs(across.dot(x - p)) > pair.flush * across.norm())) return false;
   }
   return true;
 }

@@ -21,7 +21,7 @@ TEST_CASE("an edge that touches a mesh's edge is felt where that edge has a node
   const Shape wedge = kind == "hull" ? Shape(ConvexHull(on_edges)) : Shape(ClosedMesh(on_edges));
   const double across = GENERATE(0.0, 0.25);     // m, from the middle of the wedge
   const double along = GENERATE(0.0, 0.5, 0.3);  // m, from the middle of the ridge
-  const double gap = GENERATE(0.0, 1e-17, -1e-15, 1e-12, -1e-12, 1e-7, -1e-7, 1e-4);
+  const double gap = GENERATE(0.0, 1e-17, -1e-15, 1e-12, -1e-12, 1e-7, -1e-7, -1.5e-6, -2e-6, -3e-6, 1e-4);
   const double yaw = GENERATE(0.0, 0.3);
   const Frame at{Vec3(across, along, 2 + gap), Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix()};
   for (const bool first : {true, false}) {

@@ -79,13 +79,6 @@ class Report(unittest.TestCase):
         path = self.directory / experiment / "run.json"
         path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | values), encoding="utf-8")
 
-    def test_the_ledger_beside_the_results_is_no_experiment(self):
-        sample.write_all(self.directory)
-        experiments = report.Results(self.directory).experiments()
-        (self.directory / "verify").mkdir()
-        (self.directory / "verify" / "run.json").write_text("{}", encoding="utf-8")
-        self.assertEqual(report.Results(self.directory).experiments(), experiments)
-
     def test_a_run_that_is_not_complete_shows_its_reason_and_no_results(self):
         sample.write_all(self.directory)
         self.change_run("judges", status="failed", reason="out of memory")

@@ -28,6 +28,9 @@ bool collide(StepSystem& system, double accuracy) {
   return any;
 }
 
+/// Rounds in a row that find other rows and leave the iterate where it is: it will call for the same again.
+constexpr int most_in_place = 10;
+
 constexpr double nearly = 1e-4;  // of the scale: solved far enough to tell what else is met
 
 /// One step in the making.
@@ -118,7 +121,7 @@ void StepRun::begin_rows() {
 
 void StepRun::solve(const Observer& observer) {
   StepSystem& system = w.system;
-  int solved_anew = 0;
+  int solved_anew = 0, in_place = 0;
   begin_rows();
   for (;;) {
     if (observer)
@@ -131,9 +134,10 @@ void StepRun::solve(const Observer& observer) {
     const bool stalled = stalls();
     const bool ended = finished(w.method, levels, progress, report) || settle_here(stalled);
     if (ended && report.status == Status::ok && find_other_rows()) {
+      in_place = progress.iterations_of_rows == 0 ? in_place + 1 : 0;
       forget(w.outer);
       begin_rows();
-      if (++solved_anew <= w.method.max_outer) continue;
+      if (++solved_anew <= w.method.max_outer && in_place < most_in_place) continue;
       report.status = Status::not_converged;
       report.reason = "each solution calls for other rows";
     } else if (ended && report.status == Status::ok && turned_round(system)) {

@@ -4,8 +4,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import sample
 from results import Results
+
+import sample
 
 
 class Folder(unittest.TestCase):

@@ -145,7 +145,8 @@ TEST_CASE("a run writes its verdicts and record, and its exit code says whether 
                           "settings", "libraries", "wall_s"})
     CHECK(record.contains(key));
   CHECK(record["march"] != "native");  // says nothing on another machine
-  CHECK_THAT(record["march"].get<std::string>(), Catch::Matches("[a-z0-9._+-]+") && !Catch::Equals("unknown"));
+  CHECK_THAT(record["march"].get<std::string>(),
+             Catch::Matches("[a-z0-9._+-]+") && !Catch::Equals("unknown"));
   CHECK_THAT(record["date"].get<std::string>(),
              Catch::Matches("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"));
   CHECK_THAT(record["system"].get<std::string>(), Catch::Contains(" "));  // a name and a release

@@ -8,9 +8,13 @@
 // nearest to the origin (gilbert1988fast): its direction is the n of the proof, a simplex around the origin
 // the witness that there is none.
 //
-// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. `deeper_than`
-// tries as many ways to part the shapes as it is given or finds in their centres and faces, so that its yes
-// is sure of these ways alone; its no is a proof.
+// What is rounded about a polyhedron, a segment or a point is as deep in another such shape as the radii make
+// it along the line between what they are rounded about, or, where these meet, along a face's normal or
+// across an edge of each (gottschalk1996obbtree): all of these are tried.
+//
+// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. Of cylinders
+// `deeper_than` tries these ways and those it finds from them, so that its yes is sure of them alone; its no
+// is a proof.
 #pragma once
 
 #include <array>
@@ -33,8 +37,8 @@ Vec3 farthest_point(const PlacedShape& placed, const Vec3& direction);
 /// sep(n), m.
 double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n);
 
-/// Unit vectors along which the shapes may well part: a half space's normal, else the line of the centres and
-/// the normals of faces.
+/// Unit vectors along which the shapes may well part: a half space's normal, else the line of the centres,
+/// the normals of faces and, if none of these parts them, those above.
 std::vector<Vec3> ways_apart(const PlacedShape& a, const PlacedShape& b);
 
 /// The largest sep(n) over the ways, m.

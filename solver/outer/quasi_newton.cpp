@@ -226,13 +226,17 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
 
 /// True if the iterate is so near to the solution that its impulses may be settled.
 bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
-  constexpr int patience = 5;
-  constexpr double near = 10;  // times the tolerance
-  const double allowed = near * system.problem.method.tolerance * progress.scale;
-  if (!descends(system)) return without_fall_ >= patience && progress.change <= allowed;
-  without_fall_ = progress.primal < lowest_ ? 0 : without_fall_ + 1;
+  const double tolerance = system.problem.method.tolerance;
+  if (!descends(system)) {
+    constexpr int patience = 5;
+    constexpr double near = 10;  // times the tolerance
+    return without_fall_ >= patience && progress.change <= near * tolerance * progress.scale;
+  }
+  constexpr double well = 0.5;
+  without_fall_ = progress.primal < well * lowest_ ? 0 : without_fall_ + 1;
   lowest_ = std::min(lowest_, progress.primal);
-  return find_direction() <= allowed && without_fall_ >= patience;
+  // Settling is a step of Newton's method: it leaves of an error about its square.
+  return find_direction() <= std::sqrt(tolerance) * progress.scale && without_fall_ > 0;
 }
 
 /// Where nothing changes any velocity no impulse may be needed at all: what the eliminated rows answer is
@@ -263,7 +267,8 @@ std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progres
 }
 
 void QuasiNewton::unsettle(StepSystem& system) {
-  without_fall_ = 0;
+  constexpr int wait = 5;  // iterations, until it is tried again
+  without_fall_ = descends(system) ? -wait : 0;
   system.at.v = search_from_;
   evaluate(system);
 }

@@ -1,20 +1,12 @@
 #include "outer/metric.h"
 
-#include <iterator>
+#include <utility>
 
 #include "rows/polar.h"
 #include "rows/threads.h"
 
 namespace pbd {
 namespace {
-
-template <int B, class Real>
-MetricFactor<B, Real> converted(const std::vector<Eigen::Matrix<double, B, B>>& lower) {
-  MetricFactor<B, Real> factor;
-  factor.lower.resize(lower.size());
-  for (std::size_t k = 0; k < lower.size(); ++k) factor.lower[k] = lower[k].template cast<Real>();
-  return factor;
-}
 
 Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& deformation) {
   if (deformation.isZero(0)) return Eigen::Matrix3d::Identity();
@@ -29,13 +21,15 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
   constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
   if (!pattern_.is_of(inverse_mass, entries)) pattern_ = analyse(inverse_mass, entries);
   if (pattern_.products() > most_products) {
-    factor_ = converted<1, double>(factorised<1>(pattern_, inverse_mass, entries));
+    factor_ = MetricFactor<1, double>{factorised<1>(pattern_, inverse_mass, entries, {})};
   } else {
-    const auto lower = factorised<3>(pattern_, inverse_mass, entries);
-    if (shape == MetricShape::rest && pivot_ratio(pattern_, lower) >= single_precision)
-      factor_ = converted<3, float>(lower);
+    auto* last = std::get_if<MetricFactor<3, double>>(&factor_);
+    std::vector<double> number = factorised<3>(pattern_, inverse_mass, entries,
+                                               last ? std::move(last->number) : std::vector<double>());
+    if (shape == MetricShape::rest && pivot_ratio(pattern_, number) >= single_precision)
+      factor_ = MetricFactor<3, float>{{number.begin(), number.end()}};
     else
-      factor_ = converted<3, double>(lower);
+      factor_ = MetricFactor<3, double>{std::move(number)};
   }
   inverse_diagonal_ = inverse_mass;
   for (const auto& entry : entries)
@@ -71,7 +65,7 @@ void Metric::solve(const Points& right, Points& result) {
       if (pattern_.column[node] >= 0)
         work_.col(pattern_.column[node]).noalias() = rotation_[node].transpose() * right.col(node);
   });
-  std::visit([&](const auto& factor) { factor.solve(pattern_, work_); }, factor_);
+  std::visit([&](auto& factor) { factor.solve(pattern_, work_); }, factor_);
   each_columns(threads, right.cols(), [&](Eigen::Index first, Eigen::Index count) {
     for (Eigen::Index node = first; node < first + count; ++node)
       if (pattern_.column[node] >= 0)

@@ -10,7 +10,7 @@
 // which allocates. Of sheets, whose stiffness across themselves is their tension, it is that of the current
 // shape with the tension's part: Newton's method without what is not convex (`Constraint::stiffening`). It is
 // factored anew wherever a descent leaves more than 0.7 of the residual, under rows more than a tenth. Above
-// 1e9 block products (about 18000 nodes of a beam four times as long as high) it falls back to one number a
+// 1e10 block products (about 70000 nodes of a beam four times as long as high) it falls back to one number a
 // pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once
 

@@ -1,0 +1,42 @@
+// Where the Cholesky factor of a sparse symmetric matrix of blocks is not zero.
+//
+// Nodes are ordered by nested dissection (METIS: karypis1998fast), the columns by a postorder of the
+// elimination tree. Neighbouring columns that have blocks in the same rows make a panel, which is stored and
+// multiplied as one dense matrix; panels of few columns take in the next one where that stores few zeros.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "rows/source.h"
+
+namespace pbd {
+
+struct FactorPattern {
+  std::vector<int> column;                // of each node in L, -1 for infinite mass
+  std::vector<std::array<int, 2>> pairs;  // of nodes, that the matrix's blocks were of
+
+  /// Panel s has the columns from first[s] to first[s + 1]: L is lower triangular in the rows of their own
+  /// numbers, and full in row[start[s]] to row[start[s + 1]], ascending, all below. Its blocks are a matrix
+  /// of height(s) rows from place[s] on, counted in blocks.
+  std::vector<int> first, start, row;
+  std::vector<std::size_t> place;
+  std::vector<int> panel;  // of each column
+
+  int columns() const { return static_cast<int>(panel.size()); }
+  int panels() const { return static_cast<int>(place.size()) - 1; }
+  int width(int s) const { return first[s + 1] - first[s]; }
+  int height(int s) const { return width(s) + start[s + 1] - start[s]; }
+  /// The row of a panel's matrix that block row i of L has in it; it is there.
+  int row_in(int s, int i) const;
+
+  bool is_of(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries) const;
+  /// Multiplications of blocks that the factorisation takes.
+  double products() const;
+};
+
+/// From the blocks of a matrix. Throws std::bad_alloc where METIS finds no memory.
+FactorPattern analyse(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries);
+
+}  // namespace pbd

@@ -30,6 +30,7 @@ import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
 import point_hard_cases  # noqa: F401
 import redundant  # noqa: F401
+import large_scenes  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
 import scenes  # noqa: F401

@@ -10,7 +10,7 @@ from sample_scenes import contact_scenes, figure_1, judged_frames
 from sample_bench import contact_hard_cases, simbenchmark
 from sample_cones import cone_problems, friction_cone
 from sample_contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
-from sample_cost import METHOD_COLUMNS, advice, effects_cost, frame_scaling, method_points, rival_newton, threads, trajectories, work_precision
+from sample_cost import METHOD_COLUMNS, advice, effects_cost, frame_scaling, large_scenes, method_points, rival_newton, threads, trajectories, work_precision
 from sample_elements import fem_vs_springs
 from sample_files import verdict, write, write_run
 from sample_motion import damping, direction
@@ -48,7 +48,7 @@ def write_all(directory):
     for experiment in (figure_1, contact_scenes, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
                        mesh_refinement, fem_vs_springs, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
                        friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
-                       work_precision, trajectories, advice, rival_newton,
+                       work_precision, trajectories, advice, rival_newton, large_scenes,
                        effects_cost, frame_scaling, threads, point_hard_cases, generated_scenes, generated_worlds, tunnelling, judges):
         experiment(directory)
         name = experiment.__name__

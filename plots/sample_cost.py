@@ -119,6 +119,16 @@ def threads(directory):
            for s, r in (("boxes_on_ground", names[1]), ("flexible_cow", names[4])) for t in (1, 2)])
 
 
+def large_scenes(directory):
+    rows = [(scene, unit, size, 3 * size, method, target, -np.log10(target), 1e-5 * size, 1e-6 * size * factor, 1e-3 * size, target / 2,
+             *(("not_converged", "memory spent") if method == "newton" and size > 1e5 else ("ok", "")))
+            for scene, unit in (("solid", "tetrahedra"), ("cloth", "cells")) for size in (1e4, 9e4, 3e5)
+            for method, factor in (("quasi_newton", 1), ("newton", 5)) for target in (1e-3, 1e-6)]
+    rows += [("columns", "boxes", 1e4, 6e4, "auto", target, 1, 0.1, 0.2, 50, target / 2, "ok", "") for target in (1e-3, 1e-6)]
+    write(directory, "large_scenes", "steps", "scene unit size unknowns method error_target iterations setup_s wall_s memory_mb error status reason",
+          rows)
+
+
 def frame_scaling(directory):
     rows = [(scene, part, size, 20, 1 if size > 500 else 0, 2.5 * size, 9.0 * size, 3 * size ** power, 1e-4 * size ** (1 + power), 1e-5 * size,
              3e-5 * size, "not_converged" if size > 500 else "ok", "1 of 20 frames missed" if size > 500 else "")

@@ -80,6 +80,8 @@ const std::vector<Experiment>& experiments() {
       {"advice", "Does `pbdcheck advise` find settings that meet an error, and the quickest that do?",
        advice},
       {"rival_newton", "When is the constraint solver faster than Newton's method?", rival_newton},
+      {"large_scenes", "What does a step of a large scene cost in time and memory, beside Newton's method?",
+       large_scenes},
       {"effects_cost", "What does each effect cost, and does an effect that is absent cost nothing?",
        effects_cost},
       {"threads", "What do threads gain, and how near are sweeps to what memory gives?", threads},

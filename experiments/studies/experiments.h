@@ -47,6 +47,7 @@ void work_precision(Context& context);
 void trajectories(Context& context);
 void advice(Context& context);
 void rival_newton(Context& context);
+void large_scenes(Context& context);
 void effects_cost(Context& context);
 void threads(Context& context);
 void frame_scaling(Context& context);

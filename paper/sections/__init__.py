@@ -9,7 +9,7 @@ from sections.bodies import joints, redundant, rotation
 from sections.bench import contact_hard_cases, simbenchmark
 from sections.cones import cone_problems, friction_cone
 from sections.contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
-from sections.cost import effects_cost, frame_scaling, rival_newton, threads, work_precision
+from sections.cost import effects_cost, frame_scaling, large_scenes, rival_newton, threads, work_precision
 from sections.elements import fem_vs_springs
 from sections.energy import energy
 from sections.motion import damping, direction
@@ -27,7 +27,7 @@ SECTIONS = {function.__name__: function for function in (
     figure_1, contact_scenes, judges, judged_frames, outer_convergence, stability_map, contraction, contact_contraction, inner_convergence, contact_convergence, conditioning, inexact, dual_vs_primal,
     mesh_refinement, fem_vs_springs, softness, time_order, energy, direction, damping, rotation, joints, redundant, incline, stopping,
     friction_isotropy, convex_gap, late_friction, restitution, stack, coupling, simbenchmark, contact_hard_cases, friction_cone, cone_problems,
-    work_precision, trajectories, advice, rival_newton,
+    work_precision, trajectories, advice, rival_newton, large_scenes,
     effects_cost, frame_scaling, threads, point_hard_cases, generated_scenes, generated_worlds, tunnelling)}
 
 

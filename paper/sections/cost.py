@@ -203,6 +203,37 @@ def yes(flag):
     return "yes" if flag == 1 else "no"
 
 
+def large_scenes(results):
+    section = Section(
+        "What does a step of a large scene cost in time and memory, beside Newton's method?",
+        "A cantilever of tetrahedra and a sheet let go, by `quasi_newton` and by `newton`, the rival: seconds of the second step from rest until the "
+        "error first falls to a target, and the memory that each takes at most, the scene itself left out. Of a solid `quasi_newton` factors one "
+        "constant matrix; of a sheet, whose stiffness across itself is its tension, that of the current shape, as Newton's method does. "
+        "Columns of boxes at rest are solved by `auto`, to tolerances of the residual.",
+        figures=[Figure("large_scenes_costs", "Time of a step and memory over the number of unknowns.")])
+    return section.tell(results.table("large_scenes", "steps"), largest_text, large_table)
+
+
+def largest_text(steps):
+    """On which scenes quasi_newton takes more than half of Newton's time, and whether one of the two fails."""
+    times = good(steps, "wall_s").pivot_table("wall_s", ["scene", "size", "error_target"], "method", sort=False)
+    if not {"newton", "quasi_newton"} <= set(times):
+        return ""
+    ratio = (times["quasi_newton"] / times["newton"]).dropna()
+    told = [f"`{scene}`: `quasi_newton` takes {span(rows)} of Newton's time" for scene, rows in ratio.groupby(level="scene", sort=False)]
+    lost = steps[(steps["status"] != "ok")]
+    told += [f"`{r['method']}` does not reach {number(r['error_target'])} on {r['size']:.0f} {r['unit']} ({r['reason']})"
+             for _, r in lost.iterrows()]
+    return "; ".join(told) + "."
+
+
+def large_table(steps):
+    return Table("Steps of large scenes.", ["scene", "size", "unknowns", "method", "to", "iterations", "set-up (s)", "a step (s)", "MB"],
+                 [[f"`{r['scene']}`", f"{r['size']:.0f} {r['unit']}", f"{r['unknowns']:.0f}", f"`{r['method']}`", number(r["error_target"]),
+                   f"{r['iterations']:.0f}", number(r["setup_s"]), number(r["wall_s"]) if r["status"] == "ok" else r["reason"],
+                   number(r["memory_mb"])] for _, r in steps.iterrows()], first=True)
+
+
 def frame_scaling(results):
     section = Section(
         "Does a frame's time grow linearly with the scene?",

@@ -9,6 +9,7 @@
 #include "scenes/contacts.h"
 #include "scenes/standard.h"
 #include "step/step.h"
+#include "studies/cost/effects_absent.h"
 #include "studies/cost/effects_scaling.h"
 #include "studies/experiments.h"
 
@@ -95,31 +96,14 @@ void costs_per_effect(Context& context, Table& table) {
   context.advance("costs");
 }
 
-void absent_is_free(Context& context) {
-  const Scene scene = chain(200);
-  Scene padded = scene;
-  padded.effects.insert(padded.effects.begin(), {Bending{}, TetStrain{}});
-  padded.effects.emplace_back(TriangleStrain{});
-  padded.effects.emplace_back(ExternalForce{});
-  padded.effects.emplace_back(Contact{});
-  const State a = run_scene(scene).state, b = run_scene(padded).state;
-  context.verdict(
-      Basis::theory, "effects.empty.bitwise",
-      "effects that are present and empty change no bit of the result", "entries that differ",
-      static_cast<double>((a.x.array() != b.x.array()).count() + (a.v.array() != b.v.array()).count()), 0);
-  std::vector<double> change = ratios(padded, scene);
-  for (double& ratio : change) ratio = std::abs(ratio - 1);
-  context.verdict(Basis::goal, "effects.empty.free",
-                  "effects that are present and empty cost nothing measurable",
-                  "|time with / time without - 1|", Measured(change), 0.05);
-
+void removed_is_cheaper(Context& context) {
   Scene removed = mixed();
   std::erase_if(removed.effects,
                 [](const Effect& effect) { return std::holds_alternative<TetStrain>(effect); });
   // Its rows are no longer swept, its nodes stay.
   context.verdict(Basis::theory, "effects.removed.cheaper", "without the solid's strain a scene costs less",
                   "time without / time with", Measured(ratios(removed, mixed())), 1);
-  context.advance("absent effects");
+  context.advance("an effect removed");
 }
 
 /// Layers of balls that touch each other and the ground.
@@ -156,10 +140,12 @@ void frictionless_is_cheap(Context& context, Table& table) {
 }  // namespace
 
 void effects_cost(Context& context) {
-  context.begin(3 + 9);
+  context.begin(3 + 9 + 23 + 2);
   Table costs = context.table("costs", {"scene", "effect", "rows", "bytes", "wall_s", "wall_s_per_step"});
   costs_per_effect(context, costs);
-  absent_is_free(context);
+  effects_absent(context);
+  effects_stripped(context);
+  removed_is_cheaper(context);
   frictionless_is_cheap(context, costs);
   effects_scaling(context);
   costs.close();

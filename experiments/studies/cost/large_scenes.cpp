@@ -19,7 +19,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double targets[]{1e-3, 1e-6};
+constexpr double large_targets[]{1e-3, 1e-6};
 constexpr double ended = 1e-10;  // of the residual: both methods end so
 
 struct LargeScene {
@@ -97,7 +97,7 @@ class Costing {
     }
     for (const Contestant& contestant : contestants) {
       const Costs costs = costs_of(contestant, scene, start, exact);
-      for (const double target : targets) add(large, contestant.name, target, costs);
+      for (const double target : large_targets) add(large, contestant.name, target, costs);
       if (contestant.name == "newton" && !costs.trace.points.empty())
         apart_.add(costs.trace.points.back().error);
       context_.advance(fmt::format("{} {} by {}", large.size, large.unit, contestant.name));
@@ -106,7 +106,7 @@ class Costing {
 
   /// To tolerances of the residual: there is no other answer to compare with.
   void solve(const LargeScene& large) {
-    for (const double target : targets) {
+    for (const double target : large_targets) {
       Method method;
       method.tolerance = target;
       const PeakMemory memory;
@@ -196,9 +196,9 @@ void large_scenes(Context& context) {
 
   context.verdict(Basis::code, "large.alike", "both methods end at the same places",
                   "largest distance of Newton's end from quasi_newton's, relative", costing.apart(),
-                  0.1 * targets[1]);
+                  0.1 * large_targets[1]);
   if (context.full())
-    for (const double target : targets) {
+    for (const double target : large_targets) {
       const std::string by = fmt::format(" to an error of {:g}", target),
                         what = "ratio of its time to newton's";
       context.verdict(

@@ -7,6 +7,17 @@
 namespace pbd {
 namespace {
 
+/// Solves constraint i alone, whose impulse is free, and adds its squared residual to `squared`.
+template <class Block>
+void solve_free_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
+                           double& squared) {
+  const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+  const typename Block::Value change = -block.inverse_diagonal[i] * r;
+  squared -= r.dot(change);
+  block.impulse[i] += change;
+  block.apply(inverse_mass, i, change, v);
+}
+
 /// Solves constraint i alone, and adds its squared residual to `squared`.
 template <class Block>
 void solve_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
@@ -25,7 +36,12 @@ void solve_constraint(const std::vector<double>& inverse_mass, Block& block, std
 Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) PBD_FLATTEN {
-    for (std::size_t i = 0; i < block.size(); ++i) solve_constraint(rows.inverse_mass, block, i, v, squared);
+    if (block.bounded())
+      for (std::size_t i = 0; i < block.size(); ++i)
+        solve_constraint(rows.inverse_mass, block, i, v, squared);
+    else
+      for (std::size_t i = 0; i < block.size(); ++i)
+        solve_free_constraint(rows.inverse_mass, block, i, v, squared);
   });
   return {std::sqrt(squared)};
 }

@@ -107,11 +107,10 @@ struct RowBlock : ConstraintShape<R, K> {
   /// v += W J^T p with other directions for constraint i
   void apply(const std::vector<double>& inverse_mass, std::size_t i,
              const typename Shape::Jacobian& directions, const typename Shape::Value& p, Points& v) const {
-    const Velocities push = directions.transpose() * p;
     for (int a = 0; a < K; ++a) {
       const int index = node[i][a];
       if (bounded() && inverse_mass[index] == 0) continue;  // other chunks of its colour may have it, too
-      v.col(index) += inverse_mass[index] * push.template segment<3>(3 * a);
+      v.col(index) += inverse_mass[index] * (directions.template middleCols<3>(3 * a).transpose() * p);
     }
   }
 
@@ -138,7 +137,10 @@ struct RowBlock : ConstraintShape<R, K> {
 
   /// J_i v + b_i + Sigma_i p
   typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
-    return bias[i] + compliance[i] * p + jacobian[i] * gather(v, i);
+    // Node by node: what is gathered in parts would be read as a whole before it is written.
+    typename Shape::Value r = bias[i] + compliance[i] * p;
+    for (int a = 0; a < K; ++a) r.noalias() += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
+    return r;
   }
 };
 

@@ -53,8 +53,9 @@ ContactFeature PlacedSurface::feature(int kind, std::size_t i) const {
 
 bool PlacedSurface::lies_along(const Vec3& n, const Vec3& from, int kind, std::size_t i, double slope) const {
   if (surface.deformable || kind == feature_kind::face) return true;
-  if (kind == feature_kind::rim) {
-    const Vec3 inward = (x[i] - from) / surface.cylinder, along = i == 0 ? axis() : Vec3(-axis());
+  if (surface.cylinder > 0 && kind != feature_kind::edge) {
+    const std::size_t end = kind == feature_kind::rim ? i : (i - 2) / rim_corners;
+    const Vec3 inward = (x[end] - from) / surface.cylinder, along = end == 0 ? axis() : Vec3(-axis());
     return n.dot(inward) >= -slope && n.dot(along) >= -slope;
   }
   const auto& beside = kind == feature_kind::corner ? surface.beside_corner[i] : surface.beside_edge[i];

@@ -58,18 +58,10 @@ std::string reference_of(const SceneFile& file) {
 
 void require_judgeable(const SceneFile& file, std::int64_t every) {
   const std::string& integrator = file.method.integrator;
-  const bool euler = integrator == "implicit_euler";
   constexpr auto& known = pbd::reference::judged_integrators;
   if (std::find(known.begin(), known.end(), integrator) == known.end())
     throw pbd::SetupError("--judge", "`" + integrator + "`",
                           fmt::format("method.integrator {}", fmt::join(known, ", ")));
-  if (!euler && std::any_of(file.scene.effects.begin(), file.scene.effects.end(),
-                            [](const pbd::Effect& effect) { return pbd::damped(effect); }))
-    throw pbd::SetupError("--judge", "damping with `" + integrator + "`",
-                          "damping with method.integrator implicit_euler");
-  if (integrator == "generalised_alpha" && contact_of(file.scene) == nullptr)
-    throw pbd::SetupError("--judge", "`generalised_alpha` without contact",
-                          "a scene with contact, where its first step is implicit Euler's");
   if (file.method.direction_blend != 1)
     throw pbd::SetupError("--judge", fmt::format("method.direction_blend {}", file.method.direction_blend),
                           "1");

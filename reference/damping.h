@@ -1,5 +1,5 @@
-// Damping of constraints (rigid_step.h): c + T dc/dt + A gamma = 0 with dc/dt = (c - c0)/d. Of implicit Euler d
-// is h and c0 what c is where the step begins; by another integrator's map
+// Damping of constraints (rigid_step.h): c + T dc/dt + A gamma = 0 with dc/dt = (c - c0)/d. Of implicit Euler
+// d is h and c0 what c is where the step begins; by another integrator's map
 //
 //   c0 = c_l + along dc/dt_l + bend d2c/dt2_l + share (c_l - c_l-1)
 //   dc/dt = J v,  d2c/dt2 = J a + (c(x + d v) - 2 c(x) + c(x - d v))/d^2

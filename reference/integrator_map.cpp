@@ -169,9 +169,9 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
   if (method_.integrator == "implicit_euler") return {};
   const RigidStep step = step_of(scene, start, h);
   const auto& hard = step.model.hard;
-  const bool begins_anew =
-      !carries_accelerations() || std::find(hard.begin(), hard.end(), true) != hard.end() ||
-      (method_.integrator == "generalised_alpha" && touches(scene));
+  const bool begins_anew = !carries_accelerations() ||
+                           std::find(hard.begin(), hard.end(), true) != hard.end() ||
+                           (method_.integrator == "generalised_alpha" && touches(scene));
   if (!goes_on(start) && begins_anew) return {};
   if (!carries_accelerations()) return bdf2(step);
   const Begun begun = this->begun(scene, step);
@@ -201,8 +201,7 @@ void IntegratorMemory::follow(const StepClaim& claim) {
   moved_ = step.shift() + step.d() * velocity;
   pressed_ = Vector::Zero(step.model.unknowns);
   if (Vector gamma; touches(claim.scene) && gather_forces(claim, step.model, gamma) && gamma.allFinite())
-    pressed_ =
-        step.s() * system_at(step, velocity, gamma).force(gamma).cwiseQuotient(step.model.inertia);
+    pressed_ = step.s() * system_at(step, velocity, gamma).force(gamma).cwiseQuotient(step.model.inertia);
   if (carries_accelerations()) follow_acceleration(step, velocity);
 }
 

@@ -139,6 +139,16 @@ TEST_CASE("a cylinder's rim ends on another's side at its radius from the axis")
   CHECK(std::abs(least - 0.2) <= rounding);
 }
 
+TEST_CASE("an upright cylinder's rim ends on the side of one that lies along it") {
+  BodyScene build({.friction = 0}, 0);
+  build.fixed(Cylinder{0.1, 1}, {.position = {0.2, 0, -0.2}, .orientation = along_y});
+  build.cylinder(tube_radius, tube_length, 2, {.position = {0, 0, 0}, .velocity = {2, 0, 0}});
+  const auto j = judged(build.finish());
+  CHECK(j.contacts == 1);
+  const auto from_axis = [](const Vec3& x) { return std::hypot(x.x() - 0.2, x.z() + 0.2); };
+  CHECK(std::abs(least_of_rim(j, 1, from_axis) - 0.1) <= rounding);
+}
+
 TEST_CASE("a cylinder's rim ends on a box's edge and on another's rim") {
   BodyScene on_edge({.friction = 0.3}, pbdcheck::gravity);
   on_edge.fixed(Box{{0.4, 1, 0.2}}, {.position = {-0.2, 0, -0.1}});

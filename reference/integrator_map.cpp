@@ -89,17 +89,32 @@ struct Alpha {
   }
 };
 
+IntegratorMap midpoint(const RigidStep& step) {
+  const double half = step.h / 2;
+  IntegratorMap map;
+  map.d = map.s = half;
+  map.extension = 2;
+  map.shift = map.acceleration = Vector::Zero(step.model.unknowns);
+  map.base = step.start_velocity();
+  map.bend = -half * half / 2;
+  return map;
+}
+
 bool by_alpha(const Method& method) {
   return method.integrator == "newmark" && !(method.beta && method.gamma);
 }
 
 }  // namespace
 
+void require_judged(std::string_view integrator, const std::string& where) {
+  if (std::find(judged_integrators.begin(), judged_integrators.end(), integrator) == judged_integrators.end())
+    throw SetupError(
+        where, "`" + std::string(integrator) + "`",
+        "implicit_euler, newmark, bdf2, generalised_alpha, midpoint: the steps the judge states");
+}
+
 IntegratorMemory::IntegratorMemory(const Method& method) : method_(method) {
-  if (std::find(judged_integrators.begin(), judged_integrators.end(), method.integrator) ==
-      judged_integrators.end())
-    throw SetupError("method.integrator", "`" + method.integrator + "`",
-                     "implicit_euler, newmark, bdf2, generalised_alpha: the steps the judge states");
+  require_judged(method.integrator, "method.integrator");
 }
 
 bool IntegratorMemory::goes_on(const State& start) const {
@@ -168,6 +183,7 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
                                                           double h) const {
   if (method_.integrator == "implicit_euler") return {};
   const RigidStep step = step_of(scene, start, h);
+  if (method_.integrator == "midpoint") return midpoint(step);
   const auto& hard = step.model.hard;
   const bool begins_anew = !carries_accelerations() ||
                            std::find(hard.begin(), hard.end(), true) != hard.end() ||
@@ -189,7 +205,7 @@ std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) co
 }
 
 void IntegratorMemory::follow(const StepClaim& claim) {
-  if (method_.integrator == "implicit_euler") return;
+  if (carries_nothing()) return;
   RigidStep step = step_of(claim.scene, claim.start, claim.h);
   step.map = map_of(claim);
   if (step.map && carries_accelerations()) begun_ = step.map->acceleration;

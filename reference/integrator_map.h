@@ -19,6 +19,10 @@
 //
 //   x_l+1 = x_l + h ((1 - alpha) v_l + alpha v_l+1),  v_l+1 = v_l + h ((1 - alpha) q_l + alpha q_l+1)
 //
+// The midpoint rule is implicit Euler's step of h/2, carried on as far again; of a damped value's rate there
+//
+//   dc/dt = (c - c_l)/d + d/2 v_l^T c'' v_l,  d = h/2
+//
 // Contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with what they brought,
 // so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in the body's own axes.
 // Impulses of contacts act over h. A step that is the first one, or does not begin where the last one ended,
@@ -38,8 +42,11 @@
 namespace pbd::reference {
 
 /// Whose steps the judges state.
-inline constexpr std::array<std::string_view, 4> judged_integrators{"implicit_euler", "newmark", "bdf2",
-                                                                    "generalised_alpha"};
+inline constexpr std::array<std::string_view, 5> judged_integrators{"implicit_euler", "newmark", "bdf2",
+                                                                    "generalised_alpha", "midpoint"};
+
+/// Throws SetupError, which says `where`, for other integrators.
+void require_judged(std::string_view integrator, const std::string& where);
 
 /// Follows a motion step by step.
 class IntegratorMemory {
@@ -65,7 +72,10 @@ class IntegratorMemory {
   };
 
   bool goes_on(const State& start) const;
-  bool carries_accelerations() const { return method_.integrator != "bdf2"; }
+  bool carries_nothing() const {
+    return method_.integrator == "implicit_euler" || method_.integrator == "midpoint";
+  }
+  bool carries_accelerations() const { return !carries_nothing() && method_.integrator != "bdf2"; }
   Begun begun(const Scene& scene, const RigidStep& step) const;
   IntegratorMap bdf2(const RigidStep& step) const;
   IntegratorMap newmark(const RigidStep& step, const Begun& begun) const;

@@ -37,6 +37,7 @@ struct IntegratorMap {
   Vector acceleration{};            // per unknown, m/s^2 or rad/s^2, where the step begins: if bend is not 0
   double share = 0;                 // 1
   std::optional<Placement> last{};  // where the step before began: if share is not 0
+  double extension = 1;             // how many times as far as solved for the step goes on in the end
 };
 
 struct RigidStep {
@@ -47,6 +48,7 @@ struct RigidStep {
   std::optional<IntegratorMap> map{};  // none: implicit Euler
 
   double d() const { return map ? map->d : h; }
+  double extension() const { return map ? map->extension : 1; }
   double s() const { return map ? map->s : h; }
   /// Where the unknowns go by themselves, and the velocities that forces change.
   Vector shift() const { return map ? map->shift : Vector::Zero(model.unknowns); }
@@ -61,6 +63,8 @@ struct RigidStep {
   Vector start_velocity() const;
   Placement placement(const Vector& velocity) const;
   State end(const Vector& velocity) const;
+  /// Where the step ends that is solved by `velocity`, beyond its `end` by the map's extension.
+  State carried_on(const Vector& velocity) const;
 };
 
 /// The system at (velocity, gamma).

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "commands/commands.h"
@@ -20,28 +21,57 @@
 #include "harness/measure.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/step_checks.h"
 #include "harness/stepper.h"
+#include "integrator_map.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
 namespace {
 
-/// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
-/// tolerance. Throws std::runtime_error if one diverged.
-pbd::State advanced(SceneFile& file, int steps, int& missed) {
-  pbd::State state = file.scene.initial;
-  pbd::Workspace workspace = file.workspace();
-  Stepper stepper(file, workspace);
-  for (int i = 1; i <= steps; ++i) {
-    const auto report = stepper.whole(state);
-    if (report.status == pbd::Status::diverged)
-      throw std::runtime_error(
-          fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
-    if (report.status != pbd::Status::ok) ++missed;
+/// The scene's own method on the way to the step that is compared, and what a reference has to know of that.
+struct Way {
+  SceneFile& file;
+  pbd::Workspace workspace;
+  pbd::State state;
+  pbd::reference::IntegratorMemory memory;
+  int missed = 0;  // that missed their tolerance
+
+  /// `integrator` is that of the compared step.
+  Way(SceneFile& own, const std::string& integrator)
+      : file(own),
+        workspace(own.workspace()),
+        state(own.scene.initial),
+        memory(integrator == "implicit_euler" ? pbd::Method{} : own.method) {}
+
+  /// Makes `steps` steps. Throws std::runtime_error if one diverged.
+  void go(int steps) {
+    Stepper stepper(file, workspace);
+    const auto follow = [&](const pbd::State& begun, const pbd::State& ended, double h,
+                            const pbd::Report& report) {
+      memory.follow(claim_of(file.scene, workspace, begun, ended, h, report));
+    };
+    for (int i = 1; i <= steps; ++i) {
+      const auto report = stepper.whole(state, follow);
+      if (report.status == pbd::Status::diverged)
+        throw std::runtime_error(
+            fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
+      if (report.status != pbd::Status::ok) ++missed;
+    }
+    stepper.begin(file.step_s, state);
   }
-  stepper.begin(file.step_s, state);
-  return state;
-}
+
+  /// The compared step's, none of implicit Euler. Whether something strikes in it the scene's own method
+  /// says.
+  std::optional<pbd::reference::IntegratorMap> map() const {
+    if (!memory.smooth_map(file.scene, state, file.step_s)) return {};
+    pbd::Workspace next(file.scene, file.method);
+    next.go_on_from(workspace);
+    pbd::State end = state;
+    const auto report = pbd::step(next, file.step_s, end);
+    return memory.map_of(claim_of(file.scene, next, state, end, file.step_s, report));
+  }
+};
 
 /// compare.csv as it is written.
 class Comparison {
@@ -56,8 +86,9 @@ class Comparison {
                &totals_) {}
 
   /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
-  void add_judge(const std::string& name, const Judged& judged) {
+  void add_judge(const std::string& name, const std::string& integrator, const Judged& judged) {
     pbd::Method method;
+    method.integrator = integrator;
     method.outer = "judge";
     method.relaxation = name;
     add({name, method},
@@ -125,7 +156,11 @@ void draw(const std::filesystem::path& directory) {
 }
 
 /// Refuses what the reference does not solve, and a step beyond the scene's last.
-void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
+void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& integrator,
+                        const std::string& reference) {
+  if (integrator != "implicit_euler" && !knows_contact(reference))
+    throw pbd::SetupError("--reference " + reference, "steps of `" + integrator + "`",
+                          "cone_interior_point, cone_ipopt: this reference solves implicit Euler's alone");
   if (contact_of(file.scene) != nullptr && !knows_contact(reference))
     throw pbd::SetupError(
         "--reference " + reference, "a scene with contact",
@@ -148,21 +183,24 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
-  const std::string name = options.reference.empty() ? default_reference(file.scene) : options.reference;
-  require_comparable(options, file, name);
   const auto contenders = parsed_contenders(options.methods, file);
+  const std::string integrator = contenders.front().method.integrator;
+  const std::string name =
+      options.reference.empty() ? default_reference(file.scene, integrator) : options.reference;
+  require_comparable(options, file, integrator, name);
   require_writable(options.directory);
   Comparison comparison(options, file);
   PartialFile record(options.directory / "run.json");
 
-  int missed = 0;
-  const pbd::State state = advanced(file, options.at_step, missed);
-  if (missed > 0)
-    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
+  Way way(file, integrator);
+  way.go(options.at_step);
+  if (way.missed > 0)
+    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", way.missed,
                      options.at_step));
-  const Judged judged =
-      judge_step(name, file.scene, state, file.step_s, pbd::friction_by_name(file.method.friction));
-  comparison.add_judge(name, judged);
+  const auto map = way.map();
+  const Judged judged = judge_step(name, file.scene, way.state, file.step_s,
+                                   pbd::friction_by_name(file.method.friction), map ? &*map : nullptr);
+  comparison.add_judge(name, integrator, judged);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   if (judged.status != "ok") {
@@ -170,7 +208,7 @@ int compare(const CompareOptions& options) {
     reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
     error_message(reason);
   }
-  bool all_ok = outcome == RunOutcome::complete && missed == 0;
+  bool all_ok = outcome == RunOutcome::complete && way.missed == 0;
   ProgressBar progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
@@ -179,7 +217,8 @@ int compare(const CompareOptions& options) {
         continue;
       }
       throw_if_interrupted();
-      const Trace trace = measure([&] { return contender.measure_once(file, state, judged.x); });
+      const Trace trace =
+          measure([&] { return contender.measure_once(file, way.state, way.workspace, judged.x); });
       if (!comparison.add_trace(contender, trace)) {
         all_ok = false;
         warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));

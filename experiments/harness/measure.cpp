@@ -47,7 +47,7 @@ double relative_error(const pbd::Points& x, const pbd::Points& reference, const 
 }
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-                   const pbd::Points& exact) {
+                   const pbd::Points& exact, const pbd::Workspace* before) {
   Trace trace;
   const pbd::Points begin = places(scene, state.x, state.orientation);
   pbd::Bodies bodies(scene);
@@ -60,6 +60,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   Clock::duration watching{0};
   const auto start = Clock::now();
   pbd::Workspace workspace(scene, method);
+  if (before != nullptr) workspace.go_on_from(*before);
   pbd::State end = state;
   const auto observe = [&](const pbd::Iterate& iterate) {
     const auto entered = Clock::now();

@@ -78,6 +78,12 @@ Spring bdf2(const Spring& s, const Spring& last) {  // y = q
   return solved(s, s.x + share * (s.x - last.x) + d * from_v, d * d, from_v, d, 0, 1);
 }
 
+Spring midpoint(const Spring& s) {  // y = q in the middle
+  const double half = s.h / 2;
+  const Spring middle = solved(s, s.x + half * s.v, half * half, s.v, half, 0, 1);
+  return {2 * middle.x - s.x, 2 * middle.v - s.v, 0, 0, s.h, s.h};
+}
+
 State state_of(const Scene& scene, const Spring& s, double time) {
   State state = scene.initial;
   state.time = time;
@@ -135,6 +141,10 @@ TEST_CASE("damped springs that move go by generalised alpha from their first ste
     method.rho = rho;
     check_steps(method, [&](const Spring& s, const Spring&) { return generalised_alpha(s, rho); });
   }
+}
+
+TEST_CASE("damped springs go by the midpoint rule") {
+  check_steps(method_of("midpoint"), [](const Spring& s, const Spring&) { return midpoint(s); });
 }
 
 TEST_CASE("damped springs go by BDF2 after a step of implicit Euler") {

@@ -49,6 +49,24 @@ TEST_CASE("compare sees the orientation of bodies") {
   CHECK(std::stod(rows.back()[10]) > 0);
 }
 
+// A chain is hard; the blocks are damped and touch; joints have limits.
+TEST_CASE("compare takes each integrator's step, by what it carries from the steps before") {
+  const TemporaryFolder folder;
+  for (const std::string scene : {"chain.toml", "soft_cubes.toml", "ragdoll.toml"})
+    for (const std::string integrator : {"newmark", "bdf2", "generalised_alpha"}) {
+      INFO(scene << " " << integrator);
+      const auto ran = run_program({"compare", scenes / scene, "--set", "method.integrator=" + integrator,
+                                    "--set", "method.tolerance=1e-10", "--at-step", "5", "--method",
+                                    "outer=auto", "--method", "outer=proximal", "-o", folder.path});
+      CHECK(ran.exit_code == 0);
+      const auto rows = rows_of(folder.path / "compare.csv");
+      REQUIRE(rows.size() > 2);
+      CHECK(rows[1][2] == integrator);
+      for (std::size_t i = 2; i < rows.size(); ++i)
+        if (i + 1 == rows.size() || rows[i + 1][13] != rows[i][13]) CHECK(std::stod(rows[i][10]) < 1e-8);
+    }
+}
+
 TEST_CASE("compare measures a rival as it does a method") {
   const TemporaryFolder folder;
   const auto spring = folder.write(

@@ -156,11 +156,7 @@ void draw(const std::filesystem::path& directory) {
 }
 
 /// Refuses what the reference does not solve, and a step beyond the scene's last.
-void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& integrator,
-                        const std::string& reference) {
-  if (integrator != "implicit_euler" && !knows_contact(reference))
-    throw pbd::SetupError("--reference " + reference, "steps of `" + integrator + "`",
-                          "cone_interior_point, cone_ipopt: this reference solves implicit Euler's alone");
+void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
   if (contact_of(file.scene) != nullptr && !knows_contact(reference))
     throw pbd::SetupError(
         "--reference " + reference, "a scene with contact",
@@ -178,16 +174,29 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
                           fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));
 }
 
+/// The reference of steps by the integrator, `first` of implicit Euler's. Throws SetupError if the one asked
+/// for knows no others.
+std::string reference_of(const CompareOptions& options, const SceneFile& file, const std::string& integrator,
+                         const std::string& first) {
+  if (integrator == "implicit_euler") return first;
+  const std::string name = options.reference.empty() ? default_reference(file.scene, integrator) : first;
+  if (!knows_contact(name))
+    throw pbd::SetupError("--reference " + name, "steps of `" + integrator + "`",
+                          "cone_interior_point, cone_ipopt: this reference solves implicit Euler's alone");
+  require_comparable(options, file, name);
+  return name;
+}
+
 }  // namespace
 
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
+  const std::string first = options.reference.empty() ? default_reference(file.scene) : options.reference;
+  require_comparable(options, file, first);
   const auto contenders = parsed_contenders(options.methods, file);
   const std::string integrator = contenders.front().method.integrator;
-  const std::string name =
-      options.reference.empty() ? default_reference(file.scene, integrator) : options.reference;
-  require_comparable(options, file, integrator, name);
+  const std::string name = reference_of(options, file, integrator, first);
   require_writable(options.directory);
   Comparison comparison(options, file);
   PartialFile record(options.directory / "run.json");

@@ -4,7 +4,9 @@
 #include <chrono>
 
 #include "harness/interrupt.h"
+#include "names.h"
 #include "rows/bodies.h"
+#include "step/integrators.h"
 
 namespace pbdcheck {
 
@@ -56,6 +58,11 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   const auto error_of = [&](const pbd::State& at) {
     return relative_error(places(scene, at.x, at.orientation), exact, begin);
   };
+  const pbd::Integrator& integrator = pbd::find_named(pbd::integrators(), "integrator", method.integrator);
+  const double extension = integrator.coefficients({method, h, pbd::infinity, true}).extension;
+  const auto carried_on = [&](const pbd::Points& from, const pbd::Points& to) {
+    return extension == 1 ? to : pbd::Points(from + extension * (to - from));
+  };
   pbd::State reached = state;
   Clock::duration watching{0};
   const auto start = Clock::now();
@@ -66,7 +73,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
     const auto entered = Clock::now();
     throw_if_interrupted();
     const double residual = std::max(iterate.primal, iterate.dual);
-    bodies.end(iterate.x, iterate.v, reached);
+    bodies.end(carried_on(x, iterate.x), carried_on(v, iterate.v), reached);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
                             seconds(entered - start - watching), error_of(reached),
                             iterate.scale > 0 ? residual / iterate.scale : residual});

@@ -53,7 +53,8 @@ TEST_CASE("compare sees the orientation of bodies") {
 TEST_CASE("compare takes each integrator's step, by what it carries from the steps before") {
   const TemporaryFolder folder;
   for (const std::string scene : {"chain.toml", "soft_cubes.toml", "ragdoll.toml"})
-    for (const std::string integrator : {"newmark", "bdf2", "generalised_alpha"}) {
+    for (const std::string integrator : {"newmark", "bdf2", "generalised_alpha", "midpoint"}) {
+      if (integrator == "midpoint" && scene != "chain.toml") continue;  // it allows no contact
       INFO(scene << " " << integrator);
       const auto ran = run_program({"compare", scenes / scene, "--set", "method.integrator=" + integrator,
                                     "--set", "method.tolerance=1e-10", "--at-step", "5", "--method",
@@ -124,11 +125,11 @@ TEST_CASE("compare says where a scene states what its references do not solve") 
   const TemporaryFolder folder;
   const auto scene =
       folder.write("limits.toml",
-                   "[step]\nstep_s = 0.01\nsteps = 2\n[method]\nintegrator = \"bdf2\"\n"
+                   "[step]\nstep_s = 0.01\nsteps = 2\n[method]\nintegrator = \"symplectic_euler\"\n"
                    "[[rigid_body]]\nname = \"arm\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\n"
                    "[[joint]]\nkind = \"angle\"\nbodies = [\"world\", \"arm\"]\naxis = [0, 0, 1]\n");
   check_refused(run_program({"compare", scene, "--method", "outer=plain"}),
-                {"error: " + scene.string() + ":5: method.integrator: got `bdf2`"});
+                {"error: " + scene.string() + ":5: method.integrator: got `symplectic_euler`"});
   check_refused(run_program({"compare", scene, "--method", "outer=plain", "--reference", "primal_newton",
                              "--set", "joint.0.max_angle_rad=1"}),
                 {"error: " + scene.string() + ":10: joint.0: got a limit or a limited force"});

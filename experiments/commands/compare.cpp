@@ -7,11 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <stdexcept>
 
 #include "commands/commands.h"
 #include "commands/contender.h"
+#include "commands/way.h"
 #include "contact_newton.h"
 #include "error.h"
 #include "harness/contact_sums.h"
@@ -21,57 +20,10 @@
 #include "harness/measure.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
-#include "harness/step_checks.h"
-#include "harness/stepper.h"
-#include "integrator_map.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
 namespace {
-
-/// The scene's own method on the way to the step that is compared, and what a reference has to know of that.
-struct Way {
-  SceneFile& file;
-  pbd::Workspace workspace;
-  pbd::State state;
-  pbd::reference::IntegratorMemory memory;
-  int missed = 0;  // that missed their tolerance
-
-  /// `integrator` is that of the compared step.
-  Way(SceneFile& own, const std::string& integrator)
-      : file(own),
-        workspace(own.workspace()),
-        state(own.scene.initial),
-        memory(integrator == "implicit_euler" ? pbd::Method{} : own.method) {}
-
-  /// Makes `steps` steps. Throws std::runtime_error if one diverged.
-  void go(int steps) {
-    Stepper stepper(file, workspace);
-    const auto follow = [&](const pbd::State& begun, const pbd::State& ended, double h,
-                            const pbd::Report& report) {
-      memory.follow(claim_of(file.scene, workspace, begun, ended, h, report));
-    };
-    for (int i = 1; i <= steps; ++i) {
-      const auto report = stepper.whole(state, follow);
-      if (report.status == pbd::Status::diverged)
-        throw std::runtime_error(
-            fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
-      if (report.status != pbd::Status::ok) ++missed;
-    }
-    stepper.begin(file.step_s, state);
-  }
-
-  /// The compared step's, none of implicit Euler. Whether something strikes in it the scene's own method
-  /// says.
-  std::optional<pbd::reference::IntegratorMap> map() const {
-    if (!memory.smooth_map(file.scene, state, file.step_s)) return {};
-    pbd::Workspace next(file.scene, file.method);
-    next.go_on_from(workspace);
-    pbd::State end = state;
-    const auto report = pbd::step(next, file.step_s, end);
-    return memory.map_of(claim_of(file.scene, next, state, end, file.step_s, report));
-  }
-};
 
 /// compare.csv as it is written.
 class Comparison {

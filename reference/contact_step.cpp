@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "damping.h"
-#include "error.h"
 #include "step_rows.h"
 
 namespace pbd::reference {
@@ -44,9 +43,7 @@ ContactStep::ContactStep(StepModel stated, const Scene& scene, const State& stat
     bounded.push_back({row, bounds});
     step.model.hard[static_cast<std::size_t>(row)] = false;
   }
-  step.damping = damping_of(scene, step.model, start_, h);
-  if (map && !step.damping.empty())
-    throw SetupError("damping", "with another integrator than implicit_euler", "none in what is judged so");
+  step.damping = damping_of(scene, step);
   const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
   const Points start_velocities = state.v;
   const Vector free = step.start_velocity() - step.s() * system.load.cwiseQuotient(step.model.inertia);

@@ -6,34 +6,24 @@
 //   rim    the distance to the circle, beyond both, of rounded points alone: that of points has no sign
 //
 // Of what is in the cylinder it is the part that the point was beside where the step begins, or if it was in
-// it then, the one that is less deep. A half space is touched by each rim's deepest point, whose way along
-// the rim does not change the gap to first order, and by `rim_corners` of each rim: flat on a plane none is
-// deepest, and a rim's own point counts where its disc leans by more than `flat`.
+// it then, the one that is less deep. The side is across edges, and another's side, as an edge with the
+// radius R is (between_surfaces.h). Faces and caps, and a half space, are touched by each rim's deepest
+// point, whose way along the rim does not change the gap to first order, and by `rim_corners` of each rim:
+// flat on a plane none is deepest, and a rim's own point counts where its disc leans by more than `flat`.
+// Edges, sides and other rims are touched by a rim where it is nearest to them (rim_points.h): where an edge
+// that lies on a cap leaves it, where discs that lie on each other cross, where a side ends beside an edge.
 //
-// Limits: points, spheres and half spaces alone.
+// Limits: a rim and what has no radius must cross: where they are parallel no normal is theirs alone.
 #pragma once
 
-#include "placed_surface.h"
+#include "between_surfaces.h"
 
 namespace pbd::reference {
 
-/// A cylinder and what is beside it, where a step begins and at `at`.
-struct BesideCylinder {
-  const Placement& start;
-  const Placement& at;
-  const PlacedSurface& other;
-  const PlacedSurface& cylinder;
-  double moved = 0;  // m, by both
-  double depth = 0;  // m, overlaps that count anyway
-};
+/// Appends what corners of another surface touch of a cylinder.
+void corners_beside_cylinder(const PlacedSurface& other, const PlacedSurface& cylinder, const Between& both);
 
-/// Appends the pairs that are valid at `at`, as near and as deep as FeatureSearch::find says.
-void find_beside_cylinder(const BesideCylinder& both, std::vector<FeaturePair>& found);
-
-/// Whether a point (m) is nearer to the axis than the cylinder's radius, but for next to nothing.
-bool over_cap(const Surface& cylinder, const Placement& at, const Vec3& point);
-
-/// Throws SetupError if one is a cylinder and the other no point, sphere or half space.
-void require_beside_cylinder(const Surface& one, const Surface& other);
+/// Appends what rims of either touch of the other's edges, sides and rims.
+void rims_across(const PlacedSurface& a, const PlacedSurface& b, const Between& both);
 
 }  // namespace pbd::reference

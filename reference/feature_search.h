@@ -11,8 +11,8 @@
 // since what will lie flat comes down askew. Over a half space every corner counts, and it has none.
 // Deformable surfaces touch each other by corners over faces, edges across edges and corners beside edges,
 // these a thousandth longer than they are, and beside corners, without a corner in common. Edges that are
-// `parallel` (rad) are left to their ends. Edges in a plane of their two faces are none. What is beside a
-// cylinder is in cylinder_features.h.
+// `parallel` (rad) are left to their ends. Edges in a plane of their two faces are none. What cylinders touch
+// is in cylinder_features.h.
 #pragma once
 
 #include "touching_features.h"
@@ -21,7 +21,6 @@ namespace pbd::reference {
 
 class FeatureSearch {
  public:
-  /// Throws SetupError for cylinders beside other than points, spheres and half spaces.
   FeatureSearch(const Scene& scene, const Contact& contact);
 
   /// Appends the pairs that are valid at `at`, nearer than both surfaces have moved since `start` and a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "damping.h"
 #include "error.h"
 #include "step_equations.h"
 #include "step_rows.h"
@@ -9,8 +10,8 @@
 namespace pbd::reference {
 namespace {
 
-RigidStep step_of(const StepClaim& claim) {
-  return {make_step_model(claim.scene).rigid, claim.start, claim.h};
+RigidStep step_of(const Scene& scene, const State& start, double h) {
+  return {make_step_model(scene).rigid, start, h};
 }
 
 /// Velocities of the unknowns where a claim ends.
@@ -49,40 +50,110 @@ Vector given(const RigidStep& step) {
   return given;
 }
 
-/// Newmark's and the method's parameters, by Chung and Hulbert.
+/// Accelerations by all forces where the step begins, hard constraints' none.
+Vector all_forces(const Scene& scene, const RigidStep& step) {
+  const Vector velocity = step.start_velocity();
+  RigidStep still{step.model, step.start, 0};
+  still.map = IntegratorMap{.d = 1, .s = 1, .shift = -velocity, .base = velocity, .along = -1};
+  still.damping = damping_of(scene, still);
+  const RigidSystem system = system_at(still, velocity, Vector::Zero(step.model.rows()));
+  Vector gamma = Vector::Zero(step.model.rows());
+  if (SparseLu compliance; step.model.rows() > 0 && compliance.compute(system.compliance))
+    gamma = compliance.solve(-system.value);
+  const auto bounds = make_step_model(scene).bounds;
+  for (std::size_t row = 0; row < bounds.size(); ++row) {
+    double& own = gamma[static_cast<Eigen::Index>(row)];
+    own = std::clamp(own, bounds[row][0], bounds[row][1]);
+  }
+  return -system.force(gamma).cwiseQuotient(step.model.inertia);
+}
+
+bool touches(const Scene& scene) {
+  return std::any_of(scene.effects.begin(), scene.effects.end(),
+                     [](const Effect& effect) { return std::holds_alternative<Contact>(effect); });
+}
+
+/// The parameters of generalised alpha by Chung and Hulbert, or of Newmark's own family.
 struct Alpha {
   double m, f, gamma, beta;
 
-  explicit Alpha(double rho) : m((2 * rho - 1) / (rho + 1)), f(rho / (rho + 1)) {
+  explicit Alpha(const Method& method) : m(0), f(0) {
+    if (method.integrator == "newmark") {
+      gamma = *method.gamma, beta = *method.beta;
+      return;
+    }
+    m = (2 * method.rho - 1) / (method.rho + 1);
+    f = method.rho / (method.rho + 1);
     gamma = 0.5 + f - m;
     beta = (gamma + 0.5) * (gamma + 0.5) / 4;
   }
 };
 
-void require_judged(std::string_view integrator) {
-  if (std::find(judged_integrators.begin(), judged_integrators.end(), integrator) == judged_integrators.end())
-    throw SetupError("method.integrator", "`" + std::string(integrator) + "`",
-                     "implicit_euler, bdf2, generalised_alpha: the steps the judge states");
+IntegratorMap midpoint(const RigidStep& step) {
+  const double half = step.h / 2;
+  IntegratorMap map;
+  map.d = map.s = half;
+  map.extension = 2;
+  map.shift = map.acceleration = Vector::Zero(step.model.unknowns);
+  map.base = step.start_velocity();
+  map.bend = -half * half / 2;
+  return map;
+}
+
+bool by_alpha(const Method& method) {
+  return method.integrator == "newmark" && !(method.beta && method.gamma);
 }
 
 }  // namespace
 
-/// a where a step begins: of an instant that is apart from it in proportion to the step.
-Vector IntegratorMemory::acceleration_at(const RigidStep& step) const {
-  const Vector q = given(step) + by_constraints_;
-  return q + step.h / h_ * (acceleration_ - q);
+void require_judged(std::string_view integrator, const std::string& where) {
+  if (std::find(judged_integrators.begin(), judged_integrators.end(), integrator) == judged_integrators.end())
+    throw SetupError(
+        where, "`" + std::string(integrator) + "`",
+        "implicit_euler, newmark, bdf2, generalised_alpha, midpoint: the steps the judge states");
 }
 
-IntegratorMap IntegratorMemory::generalised_alpha(const StepClaim& claim, const RigidStep& step) const {
-  const Alpha alpha(rho_);
-  const double h = claim.h, weight = h * alpha.gamma / (1 - alpha.m), ratio = alpha.beta / alpha.gamma;
-  const Vector q = given(step) + by_constraints_, a = acceleration_at(step);
+IntegratorMemory::IntegratorMemory(const Method& method) : method_(method) {
+  require_judged(method.integrator, "method.integrator");
+}
+
+bool IntegratorMemory::goes_on(const State& start) const {
+  return h_ > 0 && same(*ended_, start);
+}
+
+/// a is of an instant that is apart from the step's begin in proportion to the step.
+IntegratorMemory::Begun IntegratorMemory::begun(const Scene& scene, const RigidStep& step) const {
+  if (!goes_on(step.start)) {
+    const Vector q = all_forces(scene, step);
+    return {q, q, Vector::Zero(q.size())};
+  }
+  const Vector q = given(step) + by_constraints_;
+  return {q, q + step.h / h_ * (acceleration_ - q), pressed_ / h_};
+}
+
+IntegratorMap IntegratorMemory::newmark(const RigidStep& step, const Begun& begun) const {
+  const double of_start = step.h * (1 - method_.alpha);
+  const Vector velocity = step.start_velocity();
+  IntegratorMap map;
+  map.d = map.s = step.h * method_.alpha;
+  map.along = of_start;
+  map.shift = of_start * velocity;
+  map.base = velocity + of_start * begun.q;
+  return map;
+}
+
+IntegratorMap IntegratorMemory::by_accelerations(const RigidStep& step, const Begun& begun) const {
+  const Alpha alpha(method_);
+  const double h = step.h, weight = h * alpha.gamma / (1 - alpha.m), ratio = alpha.beta / alpha.gamma;
   const Vector velocity = step.start_velocity();
   IntegratorMap map;
   map.d = h * ratio;
   map.s = weight * (1 - alpha.f);
-  map.shift = h * (1 - ratio) * velocity + h * h * (0.5 - ratio) * (a + pressed_ / h_);
-  map.base = velocity + weight * alpha.f * q + (h * (1 - alpha.gamma) - weight * alpha.m) * a;
+  map.along = h * (1 - ratio);
+  map.bend = h * h * (0.5 - ratio);
+  map.acceleration = begun.a;
+  map.shift = map.along * velocity + map.bend * (begun.a + begun.pushed);
+  map.base = velocity + weight * alpha.f * begun.q + (h * (1 - alpha.gamma) - weight * alpha.m) * begun.a;
   return map;
 }
 
@@ -90,51 +161,64 @@ IntegratorMap IntegratorMemory::generalised_alpha(const StepClaim& claim, const 
 void IntegratorMemory::follow_acceleration(const RigidStep& step, const Vector& velocity) {
   const Vector change = velocity - step.start_velocity() - pressed_;
   by_constraints_ = (velocity - step.base() - pressed_) / step.s() - given(step);
-  if (!step.map) {
-    acceleration_ = change / step.h;
-    return;
-  }
-  const Alpha alpha(rho_);
+  acceleration_ = change / step.h;
+  if (!step.map || by_alpha(method_)) return;
+  const Alpha alpha(method_);
   acceleration_ = (change - step.h * (1 - alpha.gamma) * begun_) / (step.h * alpha.gamma);
 }
 
-IntegratorMap IntegratorMemory::bdf2(const StepClaim& claim, const RigidStep& step) const {
-  const double ratio = claim.h / h_, share = ratio * ratio / (1 + 2 * ratio);
+IntegratorMap IntegratorMemory::bdf2(const RigidStep& step) const {
+  const double ratio = step.h / h_;
   IntegratorMap map;
-  map.d = map.s = claim.h * (1 + ratio) / (1 + 2 * ratio);
+  map.share = ratio * ratio / (1 + 2 * ratio);
+  map.d = map.s = step.h * (1 + ratio) / (1 + 2 * ratio);
+  map.last = last_;
   const Vector velocity = step.start_velocity();
-  map.shift = share * moved_;
-  map.base = velocity + share * (velocity - before_ - pressed_);
+  map.shift = map.share * moved_;
+  map.base = velocity + map.share * (velocity - before_ - pressed_);
   return map;
 }
 
+std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, const State& start,
+                                                          double h) const {
+  if (method_.integrator == "implicit_euler") return {};
+  const RigidStep step = step_of(scene, start, h);
+  if (method_.integrator == "midpoint") return midpoint(step);
+  const auto& hard = step.model.hard;
+  const bool begins_anew = !carries_accelerations() ||
+                           std::find(hard.begin(), hard.end(), true) != hard.end() ||
+                           (method_.integrator == "generalised_alpha" && touches(scene));
+  if (!goes_on(start) && begins_anew) return {};
+  if (!carries_accelerations()) return bdf2(step);
+  const Begun begun = this->begun(scene, step);
+  return by_alpha(method_) ? newmark(step, begun) : by_accelerations(step, begun);
+}
+
 std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
-  require_judged(claim.integrator);
-  if (claim.integrator == "implicit_euler" || !(h_ > 0) || !same(*ended_, claim.start)) return {};
-  const RigidStep euler = step_of(claim);
+  auto map = smooth_map(claim.scene, claim.start, claim.h);
+  if (!map || method_.integrator == "newmark" || !touches(claim.scene)) return map;
+  const RigidStep euler = step_of(claim.scene, claim.start, claim.h);
   RigidStep own = euler;
-  own.map = claim.integrator == "bdf2" ? bdf2(claim, euler) : generalised_alpha(claim, euler);
-  if (missed(euler, claim) < missed(own, claim)) return {};
-  return own.map;
+  own.map = map;
+  if (missed(euler, claim) < missed(own, claim)) map.reset();
+  return map;
 }
 
 void IntegratorMemory::follow(const StepClaim& claim) {
-  require_judged(claim.integrator);
-  if (claim.integrator == "implicit_euler") return;
-  RigidStep step = step_of(claim);
+  if (carries_nothing()) return;
+  RigidStep step = step_of(claim.scene, claim.start, claim.h);
   step.map = map_of(claim);
-  if (step.map && claim.integrator == "generalised_alpha") begun_ = acceleration_at(step);
+  if (step.map && carries_accelerations()) begun_ = step.map->acceleration;
   h_ = claim.h;
   ended_ = claim.end;
+  last_ = placement_of(claim.start);
   before_ = step.start_velocity();
   const Vector velocity = end_velocity(step, claim);
   moved_ = step.shift() + step.d() * velocity;
-  Vector gamma;
   pressed_ = Vector::Zero(step.model.unknowns);
-  if (!gather_forces(claim, step.model, gamma) || !gamma.allFinite()) return;
-  const RigidSystem system = system_at(step, velocity, gamma);
-  pressed_ = step.s() * system.force(gamma).cwiseQuotient(step.model.inertia);
-  if (claim.integrator == "generalised_alpha") follow_acceleration(step, velocity);
+  if (Vector gamma; touches(claim.scene) && gather_forces(claim, step.model, gamma) && gamma.allFinite())
+    pressed_ = step.s() * system_at(step, velocity, gamma).force(gamma).cwiseQuotient(step.model.inertia);
+  if (carries_accelerations()) follow_acceleration(step, velocity);
 }
 
 }  // namespace pbd::reference

@@ -15,52 +15,81 @@
 //   v_l+1 = v_l + h ((1 - gamma) a_l + gamma a_l+1)
 //   (1 - alpha_m) a_l+1 + alpha_m a_l = (1 - alpha_f) q_l+1 + alpha_f q_l
 //
-// solved for v_l+1: contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with
-// what they brought, so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in
-// the body's own axes. Impulses of contacts act over h. A step that is the first one, does not begin where
-// the last one ended or in which things strike is implicit Euler's. Whether something strikes the solver
-// decides; here it is read from the step's own places and velocities, which only one of both maps leads to
-// (where both do, nothing moves).
+// solved for v_l+1; Newmark's own family has alpha_m = alpha_f = 0. By alpha his rule is
+//
+//   x_l+1 = x_l + h ((1 - alpha) v_l + alpha v_l+1),  v_l+1 = v_l + h ((1 - alpha) q_l + alpha q_l+1)
+//
+// The midpoint rule is implicit Euler's step of h/2, carried on as far again; of a damped value's rate there
+//
+//   dc/dt = (c - c_l)/d + d/2 v_l^T c'' v_l,  d = h/2
+//
+// Contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with what they brought,
+// so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in the body's own axes.
+// Impulses of contacts act over h. A step that is the first one, or does not begin where the last one ended,
+// knows q and a by the compliant constraints' values. BDF2, all where a constraint is hard, and generalised
+// alpha in contact begin with implicit Euler, and so are steps of BDF2 and generalised alpha in which things
+// strike. Whether something strikes the solver decides; here it is read from the step's own places and
+// velocities, which only one of both maps leads to (where both do, nothing moves).
 #pragma once
 
 #include <array>
 #include <string_view>
 
+#include "method.h"
 #include "rigid_step.h"
 #include "step_claim.h"
 
 namespace pbd::reference {
 
 /// Whose steps the judges state.
-inline constexpr std::array<std::string_view, 3> judged_integrators{"implicit_euler", "bdf2",
-                                                                    "generalised_alpha"};
+inline constexpr std::array<std::string_view, 5> judged_integrators{"implicit_euler", "newmark", "bdf2",
+                                                                    "generalised_alpha", "midpoint"};
+
+/// Throws SetupError, which says `where`, for other integrators.
+void require_judged(std::string_view integrator, const std::string& where);
 
 /// Follows a motion step by step.
 class IntegratorMemory {
  public:
-  /// `rho` is generalised_alpha's spectral radius for fast oscillations.
-  explicit IntegratorMemory(double rho = 0) : rho_(rho) {}
-
-  /// The map that leads to a claim's end; none for implicit Euler's. Throws SetupError for integrators that
+  /// Of the method its integrator and what that one's parameters are. Throws SetupError for integrators that
   /// are not judged.
+  explicit IntegratorMemory(const Method& method = {});
+
+  /// The map that leads to a claim's end; none for implicit Euler's.
   std::optional<IntegratorMap> map_of(const StepClaim& claim) const;
+
+  /// The map of the step of h seconds from `start`, if nothing strikes in it; none for implicit Euler's.
+  std::optional<IntegratorMap> smooth_map(const Scene& scene, const State& start, double h) const;
 
   /// Takes what the next step needs to know of this one.
   void follow(const StepClaim& claim);
 
  private:
-  IntegratorMap bdf2(const StepClaim& claim, const RigidStep& step) const;
-  IntegratorMap generalised_alpha(const StepClaim& claim, const RigidStep& step) const;
-  Vector acceleration_at(const RigidStep& step) const;
+  /// Where a step begins: accelerations q by all forces and the a carried on, and the speed that contacts
+  /// brought over the time in which they did; m/s^2 and rad/s^2.
+  struct Begun {
+    Vector q, a, pushed;
+  };
+
+  bool goes_on(const State& start) const;
+  bool carries_nothing() const {
+    return method_.integrator == "implicit_euler" || method_.integrator == "midpoint";
+  }
+  bool carries_accelerations() const { return !carries_nothing() && method_.integrator != "bdf2"; }
+  Begun begun(const Scene& scene, const RigidStep& step) const;
+  IntegratorMap bdf2(const RigidStep& step) const;
+  IntegratorMap newmark(const RigidStep& step, const Begun& begun) const;
+  IntegratorMap by_accelerations(const RigidStep& step, const Begun& begun) const;
   void follow_acceleration(const RigidStep& step, const Vector& velocity);
 
+  Method method_;
   double h_ = 0;                 // of the last step, s; 0: none
   Vector before_;                // velocities where it began
+  Placement last_;               // and places
   Vector moved_;                 // its ways and arcs, m and rad
   Vector acceleration_, begun_;  // a at its end and its begin, m/s^2 and rad/s^2
   Vector by_constraints_;        // the part of q by constraints and gyroscopic torques at the end
-  double rho_ = 0;
-  Vector pressed_;  // what contacts brought, m/s and rad/s
+  Vector pressed_;               // what contacts brought, m/s and rad/s
   std::optional<State> ended_;
 };
 

@@ -72,10 +72,11 @@ Vector RigidStep::start_velocity() const {
 }
 
 State RigidStep::end(const Vector& velocity) const {
+  const double solved = h / extension();
   State state = start;
-  state.time += h;
+  state.time += solved;
   state.v = scatter(model.nodes, start.v, velocity.head(model.nodes.unknowns));
-  state.x += h * state.v;
+  state.x += solved * state.v;
   if (map)
     for (std::size_t i = 0; i < model.nodes.first.size(); ++i)
       if (const int u = model.nodes.first[i]; u >= 0) {
@@ -86,9 +87,26 @@ State RigidStep::end(const Vector& velocity) const {
     const auto column = static_cast<int>(b);
     if (const int i = model.rotors[b].unknown; i >= 0) state.spin.col(column) = velocity.segment<3>(i);
     const int unknown = model.rotors[b].unknown;
-    const Vec3 turned = unknown >= 0 ? arc(velocity, unknown) : Vec3(h * state.spin.col(column));
+    const Vec3 turned = unknown >= 0 ? arc(velocity, unknown) : Vec3(solved * state.spin.col(column));
     state.orientation[b] = turned_by(start.orientation[b], turned);
   }
+  return state;
+}
+
+State RigidStep::carried_on(const Vector& velocity) const {
+  State state = end(velocity);
+  const double on = extension() - 1;
+  if (on == 0) return state;
+  state.time = start.time + h;
+  for (std::size_t b = 0; b < model.rotors.size(); ++b) {
+    const int unknown = model.rotors[b].unknown;
+    const Vec3 turned = unknown >= 0 ? arc(velocity, unknown)
+                                     : Vec3(h / extension() * state.spin.col(static_cast<Eigen::Index>(b)));
+    state.orientation[b] = turned_by(state.orientation[b], on * turned);
+  }
+  state.x += on * (state.x - start.x);
+  state.v += on * (state.v - start.v);
+  state.spin += on * (state.spin - start.spin);
   return state;
 }
 
@@ -166,7 +184,7 @@ double displacement_of(const RigidStep& s, const Vector& velocity) {
 
 void report(const RigidStep& s, const Vector& velocity, const Vector& gamma, Judgement& j) {
   const RigidSystem system = system_at(s, velocity, gamma);
-  State end = s.end(velocity);
+  State end = s.carried_on(velocity);
   j.x = std::move(end.x), j.v = std::move(end.v);
   j.orientation = std::move(end.orientation), j.spin = std::move(end.spin);
   const Vector per_length = s.model.radius.cwiseInverse();

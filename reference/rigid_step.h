@@ -18,8 +18,8 @@
 
 namespace pbd::reference {
 
-/// Damping of a constraint, c1 + T (c1 - c0)/h + A gamma = 0, as c1 - offset + share A gamma = 0 with the
-/// share (1 + T/h)^-1 and the offset (1 - share) c0.
+/// Damping of a constraint, c1 + T (c1 - c0)/d + A gamma = 0, as c1 - offset + share A gamma = 0 with the
+/// share (1 + T/d)^-1 and the offset (1 - share) c0.
 struct Damping {
   RowMatrix share;
   RowVector offset;
@@ -27,10 +27,17 @@ struct Damping {
 
 /// What an integrator makes of a step in the place of implicit Euler (integrator_map.h): velocities v end at
 ///   x = x_l + shift + d v  (of rotations the arc shift + d w),   M (v - base)/s = f + J^T gamma
+/// and of the rate of a damped constraint (damping.h), whose value goes by the same rule as positions:
+///   c = c_l + along dc/dt_l + bend d2c/dt2_l + share (c_l - c_l-1) + d dc/dt
 struct IntegratorMap {
-  double d = 0, s = 0;  // s
-  Vector shift;         // per unknown, m or rad
-  Vector base;          // per unknown, m/s or rad/s
+  double d = 0, s = 0;              // s
+  Vector shift;                     // per unknown, m or rad
+  Vector base;                      // per unknown, m/s or rad/s
+  double along = 0, bend = 0;       // s, s^2
+  Vector acceleration{};            // per unknown, m/s^2 or rad/s^2, where the step begins: if bend is not 0
+  double share = 0;                 // 1
+  std::optional<Placement> last{};  // where the step before began: if share is not 0
+  double extension = 1;             // how many times as far as solved for the step goes on in the end
 };
 
 struct RigidStep {
@@ -41,6 +48,7 @@ struct RigidStep {
   std::optional<IntegratorMap> map{};  // none: implicit Euler
 
   double d() const { return map ? map->d : h; }
+  double extension() const { return map ? map->extension : 1; }
   double s() const { return map ? map->s : h; }
   /// Where the unknowns go by themselves, and the velocities that forces change.
   Vector shift() const { return map ? map->shift : Vector::Zero(model.unknowns); }
@@ -55,6 +63,8 @@ struct RigidStep {
   Vector start_velocity() const;
   Placement placement(const Vector& velocity) const;
   State end(const Vector& velocity) const;
+  /// Where the step ends that is solved by `velocity`, beyond its `end` by the map's extension.
+  State carried_on(const Vector& velocity) const;
 };
 
 /// The system at (velocity, gamma).

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "rim_points.h"
+
 namespace pbd::reference {
 namespace {
 
@@ -35,11 +37,9 @@ Places places_of(const ContactFeature& feature, const Placement& at) {
   return x;
 }
 
-/// Moves a rim's middle to its point that is farthest along `way`.
-void reach_out(const ContactFeature& feature, const Vec3& way, const Placement& at, Vec3& middle) {
-  const Vec3 axis = at.orientation[static_cast<std::size_t>(feature.corner[0].body)] * feature.axis;
-  const Vec3 across = way - axis.dot(way) * axis;
-  if (const double length = across.norm(); length > 0) middle += feature.rim / length * across;
+Circle circle_of(const ContactFeature& feature, const Placement& at) {
+  return {placed(feature.corner[0], at),
+          at.orientation[static_cast<std::size_t>(feature.corner[0].body)] * feature.axis, feature.rim};
 }
 
 Vec3 weighted(const Places& x, const std::array<double, 3>& weight, int count) {
@@ -65,6 +65,40 @@ Vec3 velocity_of(const ContactFeature& feature, const std::array<double, 3>& wei
   return sum;
 }
 
+/// The normal across two directions.
+void take_across(const Vec3& one, const Vec3& other, Nearest& found) {
+  const Vec3 across = one.cross(other);
+  found.normal = across.normalized();
+  found.crossing = across.norm() / (one.norm() * other.norm());
+}
+
+/// Of a rim and a line or rim: the normal, and where they are nearest to each other.
+void cross_rim(const FeaturePair& pair, const Placement& at, const Places& b, Nearest& found) {
+  const Circle rim = circle_of(pair.a, at);
+  const bool rims = pair.b.rim > 0;
+  const Circle other = rims ? circle_of(pair.b, at) : Circle{};
+  const auto nearest_of_other = [&](const Vec3& x) -> Vec3 {
+    if (rims) return other.nearest(x);
+    weigh_line(b, x, found.weight[1]);
+    return weighted(b, found.weight[1], 2);
+  };
+  const Vec3 split = rims ? rim.axis.cross(other.middle - rim.middle) : Vec3(b[1] - b[0]);
+  double farthest = -infinity;
+  for (const Vec3& x : nearest_points(rim, nearest_of_other)) {
+    const double along = pair.half * split.dot(x - rim.middle);
+    if (along > farthest) farthest = along, found.on_a = x;
+  }
+  found.on_b = nearest_of_other(found.on_a);
+  if (pair.a.radius + pair.b.radius > 0) {
+    found.normal = (found.on_a - found.on_b).normalized();
+    return;
+  }
+  const Vec3 outward = (found.on_a - rim.middle).normalized() + rim.axis;
+  const Vec3 along = rims ? Vec3(other.axis.cross(found.on_b - other.middle)) : split;
+  take_across(rim.axis.cross(outward), along, found);
+  if (found.normal.dot(outward) > 0) found.normal = -found.normal;
+}
+
 }  // namespace
 
 Vec3 placed(const Corner& corner, const Placement& at) {
@@ -73,31 +107,37 @@ Vec3 placed(const Corner& corner, const Placement& at) {
 }
 
 Nearest nearest(const FeaturePair& pair, const Placement& at) {
-  Places a = places_of(pair.a, at), b = places_of(pair.b, at);
+  const Places a = places_of(pair.a, at), b = places_of(pair.b, at);
+  const double radii = pair.a.radius + pair.b.radius;
   Nearest found;
   found.weight[0] = found.weight[1] = {1, 0, 0};
-  if (pair.b.rim > 0) reach_out(pair.b, a[0] - b[0], at, b[0]);
-  if (pair.b.count == 3) {
+  found.on_a = a[0], found.on_b = b[0];
+  if (pair.a.rim > 0 && pair.b.count < 3) {
+    cross_rim(pair, at, b, found);
+  } else if (pair.b.rim > 0) {
+    found.on_b = circle_of(pair.b, at).nearest(a[0]);
+    found.normal = (found.on_a - found.on_b).normalized();
+  } else if (pair.b.count == 3) {
     found.normal = pair.side * (b[1] - b[0]).cross(b[2] - b[0]).normalized();
-    if (pair.a.rim > 0) reach_out(pair.a, -found.normal, at, a[0]);
-    weigh_plane(b, a[0], found.weight[1]);
+    if (pair.a.rim > 0) found.on_a = circle_of(pair.a, at).nearest(a[0] - found.normal);
+    weigh_plane(b, found.on_a, found.weight[1]);
+    found.on_b = weighted(b, found.weight[1], 3);
   } else if (pair.a.count == 2) {
     weigh_lines(a, b, found.weight);
-    found.normal = pair.side * (a[1] - a[0]).cross(b[1] - b[0]).normalized();
-  } else if (pair.b.count == 2) {
-    weigh_line(b, a[0], found.weight[1]);
+    found.on_a = weighted(a, found.weight[0], 2), found.on_b = weighted(b, found.weight[1], 2);
+    take_across(pair.side * (a[1] - a[0]), b[1] - b[0], found);
+  } else {
+    if (pair.b.count == 2) weigh_line(b, a[0], found.weight[1]);
+    found.on_b = weighted(b, found.weight[1], pair.b.count);
+    found.normal = (found.on_a - found.on_b).normalized();
   }
-  const Vec3 at_a = weighted(a, found.weight[0], pair.a.count),
-             at_b = weighted(b, found.weight[1], pair.b.count);
-  const bool by_distance = pair.b.count == 1 || (pair.b.count == 2 && pair.a.count == 1);
-  if (by_distance) found.normal = (at_a - at_b).normalized();
-  found.gap = found.normal.dot(at_a - at_b) - pair.a.radius - pair.b.radius;
+  found.gap = found.normal.dot(found.on_a - found.on_b) - radii;
   if (pair.a.deformable || pair.b.deformable)
-    found.place = pair.a.deformable ? at_a : at_b;
+    found.place = pair.a.deformable ? found.on_a : found.on_b;
   else if (pair.b.count == 3)
-    found.place = at_a - pair.a.radius * found.normal;
+    found.place = found.on_a - pair.a.radius * found.normal;
   else
-    found.place = (at_a - pair.a.radius * found.normal + at_b + pair.b.radius * found.normal) / 2;
+    found.place = (found.on_a - pair.a.radius * found.normal + found.on_b + pair.b.radius * found.normal) / 2;
   return found;
 }
 

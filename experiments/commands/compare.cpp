@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "commands/commands.h"
 #include "commands/contender.h"
+#include "commands/way.h"
 #include "contact_newton.h"
 #include "error.h"
 #include "harness/contact_sums.h"
@@ -20,28 +20,10 @@
 #include "harness/measure.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
-#include "harness/stepper.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
 namespace {
-
-/// The state after `steps` steps of the scene's own method; `missed` counts those that missed their
-/// tolerance. Throws std::runtime_error if one diverged.
-pbd::State advanced(SceneFile& file, int steps, int& missed) {
-  pbd::State state = file.scene.initial;
-  pbd::Workspace workspace = file.workspace();
-  Stepper stepper(file, workspace);
-  for (int i = 1; i <= steps; ++i) {
-    const auto report = stepper.whole(state);
-    if (report.status == pbd::Status::diverged)
-      throw std::runtime_error(
-          fmt::format("step {} on the way to the compared one diverged: {}", i, report.reason));
-    if (report.status != pbd::Status::ok) ++missed;
-  }
-  stepper.begin(file.step_s, state);
-  return state;
-}
 
 /// compare.csv as it is written.
 class Comparison {
@@ -56,8 +38,9 @@ class Comparison {
                &totals_) {}
 
   /// The reference's own row, marked as in the experiments: outer `judge`, its name as the relaxation.
-  void add_judge(const std::string& name, const Judged& judged) {
+  void add_judge(const std::string& name, const std::string& integrator, const Judged& judged) {
     pbd::Method method;
+    method.integrator = integrator;
     method.outer = "judge";
     method.relaxation = name;
     add({name, method},
@@ -143,26 +126,42 @@ void require_comparable(const CompareOptions& options, const SceneFile& file, co
                           fmt::format("0 to {}: the scene has {} steps", file.steps - 1, file.steps));
 }
 
+/// The reference of steps by the integrator, `first` of implicit Euler's. Throws SetupError if the one asked
+/// for knows no others.
+std::string reference_of(const CompareOptions& options, const SceneFile& file, const std::string& integrator,
+                         const std::string& first) {
+  if (integrator == "implicit_euler") return first;
+  const std::string name = options.reference.empty() ? default_reference(file.scene, integrator) : first;
+  if (!knows_contact(name))
+    throw pbd::SetupError("--reference " + name, "steps of `" + integrator + "`",
+                          "cone_interior_point, cone_ipopt: this reference solves implicit Euler's alone");
+  require_comparable(options, file, name);
+  return name;
+}
+
 }  // namespace
 
 int compare(const CompareOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SceneFile file = read_scene_file(options.scene, options.settings);
-  const std::string name = options.reference.empty() ? default_reference(file.scene) : options.reference;
-  require_comparable(options, file, name);
+  const std::string first = options.reference.empty() ? default_reference(file.scene) : options.reference;
+  require_comparable(options, file, first);
   const auto contenders = parsed_contenders(options.methods, file);
+  const std::string integrator = contenders.front().method.integrator;
+  const std::string name = reference_of(options, file, integrator, first);
   require_writable(options.directory);
   Comparison comparison(options, file);
   PartialFile record(options.directory / "run.json");
 
-  int missed = 0;
-  const pbd::State state = advanced(file, options.at_step, missed);
-  if (missed > 0)
-    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", missed,
+  Way way(file, integrator);
+  way.go(options.at_step);
+  if (way.missed > 0)
+    warn(fmt::format("{} of {} steps on the way to the compared one missed their tolerance", way.missed,
                      options.at_step));
-  const Judged judged =
-      judge_step(name, file.scene, state, file.step_s, pbd::friction_by_name(file.method.friction));
-  comparison.add_judge(name, judged);
+  const auto map = way.map();
+  const Judged judged = judge_step(name, file.scene, way.state, file.step_s,
+                                   pbd::friction_by_name(file.method.friction), map ? &*map : nullptr);
+  comparison.add_judge(name, integrator, judged);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   if (judged.status != "ok") {
@@ -170,7 +169,7 @@ int compare(const CompareOptions& options) {
     reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
     error_message(reason);
   }
-  bool all_ok = outcome == RunOutcome::complete && missed == 0;
+  bool all_ok = outcome == RunOutcome::complete && way.missed == 0;
   ProgressBar progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
@@ -179,7 +178,8 @@ int compare(const CompareOptions& options) {
         continue;
       }
       throw_if_interrupted();
-      const Trace trace = measure([&] { return contender.measure_once(file, state, judged.x); });
+      const Trace trace =
+          measure([&] { return contender.measure_once(file, way.state, way.workspace, judged.x); });
       if (!comparison.add_trace(contender, trace)) {
         all_ok = false;
         warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));

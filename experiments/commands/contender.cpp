@@ -4,8 +4,10 @@
 
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "error.h"
+#include "integrator_map.h"
 #include "names.h"
 #include "scenes/builder.h"
 #include "scenes/choices.h"
@@ -54,9 +56,17 @@ void require_possible(const Contender& contender, const Words& words, const Scen
   const auto where = [&](const std::string& key) {
     return words.contains(key) ? "--method " + key : file.method_where.at(key);
   };
-  if (contender.method.integrator != "implicit_euler")
-    throw pbd::SetupError(where("integrator"), "`" + contender.method.integrator + "`",
-                          "implicit_euler, the step the references solve");
+  const auto& integrator = contender.method.integrator;
+  const auto rule = [](const pbd::Method& own) {
+    return std::tie(own.integrator, own.alpha, own.beta, own.gamma, own.rho);
+  };
+  if (integrator != "implicit_euler") {
+    pbd::reference::require_judged(integrator, where("integrator"));
+    if (rule(contender.method) != rule(file.method))
+      throw pbd::SetupError(where("integrator"), "`" + integrator + "`",
+                            "implicit_euler, or the integrator that leads to the step, `" +
+                                file.method.integrator + "`, with its parameters");
+  }
   if (contender.method.direction_blend != 1)
     throw pbd::SetupError(where("direction_blend"), fmt::format("{}", contender.method.direction_blend),
                           "1, the directions of the step the references solve");
@@ -68,8 +78,12 @@ void require_possible(const Contender& contender, const Words& words, const Scen
   });
 }
 
-/// Rows of the same method could not be told apart.
+/// Rows of the same method could not be told apart; those of different integrators are no answers to one
+/// question.
 void require_another(const Contender& contender, const std::vector<Contender>& earlier) {
+  if (!earlier.empty() && earlier.front().method.integrator != contender.method.integrator)
+    throw pbd::SetupError("--method", "`" + contender.text + "`",
+                          "the integrator of `" + earlier.front().text + "`: one step is compared");
   for (const auto& other : earlier)
     if (method_text(other.method) == method_text(contender.method))
       throw pbd::SetupError("--method", "`" + contender.text + "`, the same as `" + other.text + "`",
@@ -78,11 +92,13 @@ void require_another(const Contender& contender, const std::vector<Contender>& e
 
 }  // namespace
 
-Trace Contender::measure_once(const SceneFile& file, const pbd::State& state,
+Trace Contender::measure_once(const SceneFile& file, const pbd::State& state, const pbd::Workspace& before,
                               const pbd::Points& exact) const {
-  return rival ? pbdcheck::measure_once(file.scene, state, file.step_s, *rival,
-                                        {method.tolerance, method.max_outer}, exact)
-               : pbdcheck::measure_once(file.scene, state, file.step_s, method, exact);
+  if (rival)
+    return pbdcheck::measure_once(file.scene, state, file.step_s, *rival,
+                                  {method.tolerance, method.max_outer}, exact);
+  return pbdcheck::measure_once(file.scene, state, file.step_s, method, exact,
+                                method.integrator == "implicit_euler" ? nullptr : &before);
 }
 
 std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, const SceneFile& file) {

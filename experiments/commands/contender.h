@@ -16,12 +16,15 @@ struct Contender {
   pbd::Method method;
   const pbd::rivals::NamedRival* rival = nullptr;
 
-  /// The scene's step from `state`, watched.
-  Trace measure_once(const SceneFile& file, const pbd::State& state, const pbd::Points& exact) const;
+  /// The scene's step from `state`, watched; by another integrator than implicit Euler going on from
+  /// `before`.
+  Trace measure_once(const SceneFile& file, const pbd::State& state, const pbd::Workspace& before,
+                     const pbd::Points& exact) const;
 };
 
 /// Each text is "KEY=VALUE ..." on top of the file's method, or "rival=NAME" with tolerance and max_outer at
-/// most. Throws SetupError, also for what the scene does not allow and for a method that stands twice.
+/// most. Throws SetupError, also for what the scene does not allow, for a method that stands twice, and for
+/// integrators that differ, or are neither implicit Euler nor the file's own.
 std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, const SceneFile& file);
 
 }  // namespace pbdcheck

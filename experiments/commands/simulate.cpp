@@ -86,7 +86,9 @@ int simulate(const SimulateOptions& options) {
   Judges judges;
   auto& [checks, judge] = judges;
   if (options.check) checks.emplace();
-  if (every > 0) judge.emplace(options.directory, reference_of(file), every, file.method.rho);
+  if (every > 0)
+    judge.emplace(options.directory, default_reference(file.scene, file.method.integrator), every,
+                  file.method);
   RunOutcome outcome = RunOutcome::complete;
   std::string reason;
   try {

@@ -51,32 +51,15 @@ std::int64_t every_of(const std::string& text) {
   return every;
 }
 
-std::string reference_of(const SceneFile& file) {
-  if (file.method.integrator == "implicit_euler") return default_reference(file.scene);
-  return std::string(pbd::reference::contact_judges()[0].name);
-}
-
 void require_judgeable(const SceneFile& file, std::int64_t every) {
-  const std::string& integrator = file.method.integrator;
-  const bool euler = integrator == "implicit_euler";
-  constexpr auto& known = pbd::reference::judged_integrators;
-  if (std::find(known.begin(), known.end(), integrator) == known.end())
-    throw pbd::SetupError("--judge", "`" + integrator + "`",
-                          fmt::format("method.integrator {}", fmt::join(known, ", ")));
-  if (!euler && std::any_of(file.scene.effects.begin(), file.scene.effects.end(),
-                            [](const pbd::Effect& effect) { return pbd::damped(effect); }))
-    throw pbd::SetupError("--judge", "damping with `" + integrator + "`",
-                          "damping with method.integrator implicit_euler");
-  if (integrator == "generalised_alpha" && contact_of(file.scene) == nullptr)
-    throw pbd::SetupError("--judge", "`generalised_alpha` without contact",
-                          "a scene with contact, where its first step is implicit Euler's");
+  pbd::reference::require_judged(file.method.integrator, "--judge: method.integrator");
   if (file.method.direction_blend != 1)
     throw pbd::SetupError("--judge", fmt::format("method.direction_blend {}", file.method.direction_blend),
                           "1");
   if (every > file.steps)
     throw pbd::SetupError("--judge", fmt::format("every={}", every),
                           fmt::format("1 to {} steps", file.steps));
-  if (knows_contact(reference_of(file)))
+  if (knows_contact(default_reference(file.scene, file.method.integrator)))
     pbd::reference::require_judged(file.scene, file.scene.initial, file.step_s,
                                    pbd::friction_by_name(file.method.friction));
 }

@@ -19,10 +19,6 @@ nlohmann::ordered_json judged_json(const StepJudge& judge);
 /// N of "every=N"; throws SetupError.
 std::int64_t every_of(const std::string& text);
 
-/// Who solves the steps again: those of other integrators than implicit Euler are stated by the judges of
-/// contact alone.
-std::string reference_of(const SceneFile& file);
-
 /// Throws SetupError for what the judge does not solve, before anything is computed.
 void require_judgeable(const SceneFile& file, std::int64_t every);
 

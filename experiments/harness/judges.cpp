@@ -74,8 +74,9 @@ bool knows_contact(const std::string& reference) {
   return contact_judge(reference) != nullptr;
 }
 
-std::string default_reference(const pbd::Scene& scene) {
+std::string default_reference(const pbd::Scene& scene, const std::string& integrator) {
   const bool beyond_equations =
+      integrator != "implicit_euler" ||
       std::any_of(scene.effects.begin(), scene.effects.end(), [](const pbd::Effect& effect) {
         return std::holds_alternative<pbd::Contact>(effect) || pbd::damped(effect) || bounded(effect);
       });

@@ -17,9 +17,9 @@ std::vector<std::string> reference_names();
 
 bool knows_contact(const std::string& reference);
 
-/// The first of them that knows the scene's effects: with contact, damping or bounds of forces a judge of
-/// contact.
-std::string default_reference(const pbd::Scene& scene);
+/// The first of them that knows the scene's effects and the integrator: with contact, damping or bounds of
+/// forces, and of other steps than implicit Euler's, a judge of contact.
+std::string default_reference(const pbd::Scene& scene, const std::string& integrator = "implicit_euler");
 
 /// What a reference says about one step.
 struct Judged {

@@ -4,7 +4,9 @@
 #include <chrono>
 
 #include "harness/interrupt.h"
+#include "names.h"
 #include "rows/bodies.h"
+#include "step/integrators.h"
 
 namespace pbdcheck {
 
@@ -47,7 +49,7 @@ double relative_error(const pbd::Points& x, const pbd::Points& reference, const 
 }
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-                   const pbd::Points& exact) {
+                   const pbd::Points& exact, const pbd::Workspace* before) {
   Trace trace;
   const pbd::Points begin = places(scene, state.x, state.orientation);
   pbd::Bodies bodies(scene);
@@ -56,16 +58,22 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   const auto error_of = [&](const pbd::State& at) {
     return relative_error(places(scene, at.x, at.orientation), exact, begin);
   };
+  const pbd::Integrator& integrator = pbd::find_named(pbd::integrators(), "integrator", method.integrator);
+  const double extension = integrator.coefficients({method, h, pbd::infinity, true}).extension;
+  const auto carried_on = [&](const pbd::Points& from, const pbd::Points& to) {
+    return extension == 1 ? to : pbd::Points(from + extension * (to - from));
+  };
   pbd::State reached = state;
   Clock::duration watching{0};
   const auto start = Clock::now();
   pbd::Workspace workspace(scene, method);
+  if (before != nullptr) workspace.go_on_from(*before);
   pbd::State end = state;
   const auto observe = [&](const pbd::Iterate& iterate) {
     const auto entered = Clock::now();
     throw_if_interrupted();
     const double residual = std::max(iterate.primal, iterate.dual);
-    bodies.end(iterate.x, iterate.v, reached);
+    bodies.end(carried_on(x, iterate.x), carried_on(v, iterate.v), reached);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
                             seconds(entered - start - watching), error_of(reached),
                             iterate.scale > 0 ? residual / iterate.scale : residual});

@@ -86,9 +86,10 @@ pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 
 /// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the places at
-/// its end `exact`. Throws SetupError as Workspace does, and Interrupted.
+/// its end `exact`; one that goes on from the last step of `before`, if there is one. Throws SetupError as
+/// Workspace does, and Interrupted.
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
-                   const pbd::Points& exact);
+                   const pbd::Points& exact, const pbd::Workspace* before = nullptr);
 
 /// The same by a rival, of scenes without bodies. Throws SetupError as its making does.
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h,

@@ -53,10 +53,10 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
 }
 
 StepJudge::StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every,
-                     double rho)
+                     const pbd::Method& method)
     : reference_(std::move(reference)),
       every_(every),
-      memory_(rho),
+      memory_(method),
       table_(directory / "judged.csv",
              {"step", "time_s", "step_s", "solver_status", "tolerance", "error", "error_m", "error_of_scale",
               "nearest_start", "nearest_error_m", "nearest_error_of_scale", "reference", "status", "reason",

@@ -45,8 +45,9 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
 class StepJudge {
  public:
   /// Judges every step whose number `every` divides, each part of those that are made in parts, by the
-  /// reference of that name, into `directory`'s judged.csv. `rho` is that of generalised_alpha.
-  StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every, double rho);
+  /// reference of that name, into `directory`'s judged.csv. The steps are by the integrator of `method`.
+  StepJudge(const std::filesystem::path& directory, std::string reference, std::int64_t every,
+            const pbd::Method& method);
 
   bool due(std::int64_t step) const { return step % every_ == 0; }
 

@@ -40,10 +40,10 @@ bool Stepper::advance_in(int parts, const Judge& judge, pbd::State& state, pbd::
   return sum.status != pbd::Status::diverged;
 }
 
-pbd::Report Stepper::whole(pbd::State& state) {
+pbd::Report Stepper::whole(pbd::State& state, const Judge& judge) {
   pbd::Report report;
   parts_ = 1;
-  advance_in(parts_, {}, state, report);
+  advance_in(parts_, judge, state, report);
   return report;
 }
 

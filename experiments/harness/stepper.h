@@ -27,7 +27,7 @@ class Stepper {
   pbd::Report advance(pbd::State& state, const Judge& judge = {});
 
   /// One step of the file as it is, in one part.
-  pbd::Report whole(pbd::State& state);
+  pbd::Report whole(pbd::State& state, const Judge& judge = {});
 
   /// Of the last step.
   int parts() const { return parts_; }

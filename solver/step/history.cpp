@@ -22,11 +22,10 @@ bool History::is_where_it_ended(const State& state) const {
          std::equal(state.orientation.begin(), state.orientation.end(), ended_.orientation.begin(), same);
 }
 
-/// What impulses of contacts have brought as the last step ended.
-void History::find_pressed(bool goes_on, const StepSystem& system) {
+/// What impulses of contacts have brought as the step ends.
+void History::find_pressed(const StepSystem& system) {
   if (!system.rows.contacts || integrator_->keeps == Keeps::nothing) return;
   pressed_.setZero(3, system.problem.bodies.columns());
-  if (!goes_on) return;
   for (const Slot& slot : system.slots)
     if (slot.source->kind().contacts)
       apply_impulses(slot.view(system.rows), system.problem.inverse_mass, pressed_);
@@ -105,7 +104,7 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
     for (const Slot& slot : system.slots)
       slot.source->add_compliant_forces(problem.start(), problem.start_v, problem.inverse_mass,
                                         acceleration_);
-  find_pressed(goes_on, system);
+  if (!goes_on) pressed_.setZero();
   if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
   set_map(h, goes_on, system);
   bool others = begin_sources(system);
@@ -191,6 +190,7 @@ void History::end_step(double h, const StepSystem& system, bool missed, State& s
   }
   state.time += h;
   if (integrator_->keeps != Keeps::nothing) h_ = strikes(system) ? 0 : h;
+  find_pressed(system);
   keep_end(system, state);
 }
 

@@ -42,7 +42,7 @@ class History {
   bool goes_on(const StepSystem& system, const State& state) const;
   bool is_where_it_ended(const State& state) const;
   void keep_end(const StepSystem& system, const State& state);
-  void find_pressed(bool goes_on, const StepSystem& system);
+  void find_pressed(const StepSystem& system);
   void carry_on(double h, bool goes_on, StepSystem& system);
   void set_map(double h, bool goes_on, StepSystem& system);
   bool strikes(const StepSystem& system) const;
@@ -51,13 +51,13 @@ class History {
                        const Configuration& behind) const;
 
   const Integrator* integrator_;
-  double h_ = 0;            // s, of the last step; 0 if there is none
-  bool missed_ = false;     // the last step
-  bool continued_ = false;  // from where it ended
-  Points x_, v_;            // where the last step began
-  Points q_, a_;            // m/s^2, as in integrators.h; a_ has a meaning where a_v > 0
-  Points acceleration_;     // m/s^2, by given forces
-  Points pressed_;          // m/s, what impulses of contacts brought in the last step; empty without contact
+  double h_ = 0;               // s, of the last step; 0 if there is none
+  bool missed_ = false;        // the last step
+  bool continued_ = false;     // from where it ended
+  Points x_, v_;               // where the last step began
+  Points q_, a_;               // m/s^2, as in integrators.h; a_ has a meaning where a_v > 0
+  Points acceleration_;        // m/s^2, by given forces
+  Points pressed_;             // m/s, what impulses of contacts brought in the last step; empty without any
   Points ahead_x_, behind_x_;  // m, d further and back along v, where an effect is damped
   std::vector<Pose> ahead_poses_, behind_poses_;
   Points end_x_, end_v_;

@@ -50,6 +50,11 @@ class Workspace {
   /// be changed.
   void change(std::size_t index, const Effect& effect);
 
+  /// The next step goes on from the end of the other's last one, whose scene is the same: by what its
+  /// integrator carries from step to step. Impulses and contacts are not taken over, nor that what missed
+  /// steps left overlapping parts slowly. Throws SetupError for another integrator.
+  void go_on_from(const Workspace& other);
+
   /// What each effect with rows cost, in the scene's order.
   std::vector<EffectCost> costs() const;
 

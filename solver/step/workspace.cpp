@@ -96,6 +96,13 @@ bool same_rows(Source& source, bool hard_alone, ConstBlockSpan blocks) {
       });
 }
 
+/// Takes what constraints' values were where the last step began.
+void take_begin_values(ConstBlockSpan from, BlockSpan blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    std::visit([&]<class Block>(Block& own) { own.begin_value = std::get<Block>(from[i]).begin_value; },
+               blocks[i]);
+}
+
 }  // namespace
 
 WorkspaceData::WorkspaceData(Scene stated_scene, Method stated_method)
@@ -124,6 +131,21 @@ const Scene& Workspace::scene() const {
 
 const Method& Workspace::method() const {
   return data_->method;
+}
+
+void Workspace::go_on_from(const Workspace& other) {
+  const WorkspaceData& from = *other.data_;
+  if (&from.history.integrator() != &data_->history.integrator())
+    throw SetupError("integrator", data_->method.integrator,
+                     from.method.integrator + ", of the step that is gone on from");
+  data_->history = from.history;
+  StepSystem& system = data_->system;
+  system.at = from.system.at;
+  system.problem.map = from.system.problem.map;
+  system.problem.coefficients = from.system.problem.coefficients;
+  for (std::size_t i = 0; i < system.slots.size(); ++i)
+    if (!system.slots[i].source->kind().contacts)
+      take_begin_values(from.system.slots[i].view(from.system.rows), system.slots[i].blocks(system.rows));
 }
 
 void Workspace::change(std::size_t index, const Effect& effect) {

@@ -242,11 +242,5 @@ TEST_CASE("no end is ok with boxes in each other that came past each other's edg
 }
 
 TEST_CASE("the judge of contact refuses what it does not know") {
-  BodyScene scene(ContactLaw{}, gravity);
-  scene.ground();
-  scene.cylinder(0.1, 0.1, 1, {.position = {0, 0, 1}});
-  scene.box(Vec3::Ones(), 1, {.position = {0, 0, 3}});
-  const Scene with_cylinder = scene.finish();
-  CHECK_THROWS_WITH(judged(with_cylinder), Catch::Contains("a cylinder beside another shape"));
   CHECK_THROWS_WITH(judged(falling_ball({}, Vec3::Zero()), Friction::box), Catch::Contains("coulomb, cone"));
 }

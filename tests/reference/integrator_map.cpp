@@ -28,6 +28,13 @@ StepClaim claim_by_bdf2(const Scene& scene, const State& start, const State& end
   return claim;
 }
 
+Method by(const std::string& integrator, double rho = 0) {
+  Method method;
+  method.integrator = integrator;
+  method.rho = rho;
+  return method;
+}
+
 Scene box_on_ground(double friction, const Vec3& position, const Vec3& velocity) {
   BodyScene build({.friction = friction}, gravity);
   build.ground();
@@ -43,7 +50,7 @@ TEST_CASE("a fall by BDF2 is a step of implicit Euler and then by both last plac
   const double h = judged_step_s;
   const Vec3 v0(1, 0, 0), v1 = v0 + h * down, x1 = from + h * v1;
   const State first = later(scene.initial, x1, v1);
-  IntegratorMemory memory;
+  IntegratorMemory memory(by("bdf2"));
   const StepClaim start = claim_by_bdf2(scene, scene.initial, first);
   CHECK_FALSE(memory.map_of(start).has_value());
   memory.follow(start);
@@ -68,7 +75,7 @@ TEST_CASE("a box that slides by BDF2 loses the speed of friction in each step an
   const Scene scene = box_on_ground(mu, from, Vec3(1, 0, 0));
   const Vec3 v1(1 - lost, 0, 0), x1 = from + h * v1;
   const State first = later(scene.initial, x1, v1);
-  IntegratorMemory memory;
+  IntegratorMemory memory(by("bdf2"));
   memory.follow(claim_by_bdf2(scene, scene.initial, first));
   // Contacts' impulses act over h and are not carried on: base_x = v1, base_z = -g h/3, and gravity adds
   // -2/3 g h to it, so that the ground gives g h as ever.
@@ -89,7 +96,7 @@ TEST_CASE("a box comes down by BDF2 where its gap closes") {
   const Scene scene = box_on_ground(0, from, v0);
   const Vec3 v1 = v0 - h * gravity * Vec3::UnitZ(), x1 = from + h * v1;
   const State first = later(scene.initial, x1, v1);
-  IntegratorMemory memory;
+  IntegratorMemory memory(by("bdf2"));
   memory.follow(claim_by_bdf2(scene, scene.initial, first));
   // x2 = x1 + (x1 - x0)/3 + 2/3 h v2 is to be half the box's height.
   const double down = (0.05 - x1.z() - (x1.z() - from.z()) / 3) / (2.0 / 3 * h);
@@ -106,7 +113,7 @@ TEST_CASE("a box that slides by generalised alpha follows its parabola whatever 
   const Vec3 from(0, 0, 0.05), along = Vec3::UnitX();
   const Scene scene = box_on_ground(mu, from, along);
   for (const double rho : {0.0, 0.5, 0.8}) {
-    IntegratorMemory memory(rho);
+    IntegratorMemory memory(by("generalised_alpha", rho));
     const auto claim = [&](const State& start, const State& end) {
       StepClaim made = claim_by_bdf2(scene, start, end);
       made.integrator = "generalised_alpha";
@@ -133,8 +140,5 @@ TEST_CASE("a box that slides by generalised alpha follows its parabola whatever 
 }
 
 TEST_CASE("integrators that the judge does not state are refused by name") {
-  const Scene scene = box_on_ground(0.5, Vec3(0, 0, 1), Vec3::Zero());
-  StepClaim claim = claim_by_bdf2(scene, scene.initial, scene.initial);
-  claim.integrator = "midpoint";
-  CHECK_THROWS_WITH(IntegratorMemory().map_of(claim), Catch::Contains("midpoint"));
+  CHECK_THROWS_WITH(IntegratorMemory(by("symplectic_euler")), Catch::Contains("symplectic_euler"));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace pbd {
+
 const std::vector<std::array<int, 2>>& BroadPhase::pairs(const std::vector<MovingBox>& boxes) {
   const auto at = [&](int i) -> const MovingBox& { return boxes[i]; };
   boxes_.clear();
@@ -15,16 +16,20 @@ const std::vector<std::array<int, 2>>& BroadPhase::pairs(const std::vector<Movin
     (finite ? finite_ : infinite_).push_back(i);
     if (finite) boxes_.push_back(at(i).box);
   }
-  tree_.build(boxes_);
   const auto pair = [&](int i, int j) {
     if ((at(i).moves || at(j).moves) && at(i).group != at(j).group)
       pairs_.push_back({std::min(i, j), std::max(i, j)});
   };
-  for (const int i : finite_)
-    tree_.find(at(i).box, [&](int k) {
-      const int j = finite_[k];
-      if (i < j) pair(i, j);
-    });
+  const bool pairs_among_finite = std::any_of(
+      finite_.begin(), finite_.end(), [&](int i) { return at(i).group != at(finite_.front()).group; });
+  if (pairs_among_finite) {
+    tree_.build(boxes_);
+    for (const int i : finite_)
+      tree_.find(at(i).box, [&](int k) {
+        const int j = finite_[k];
+        if (i < j) pair(i, j);
+      });
+  }
   for (std::size_t n = 0; n < infinite_.size(); ++n) {
     const int i = infinite_[n];
     for (const int j : finite_)

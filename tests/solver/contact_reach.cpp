@@ -34,6 +34,25 @@ TEST_CASE("a node that falls far within a step is stopped at the ground") {
   CHECK(std::abs(end.x(2, node) - radius) <= 1e-9);
 }
 
+TEST_CASE("a ground that rises or tilts within a step meets what is far above it") {
+  // Its plane comes 1 m higher, or 0.3 rad of turning lift it by 0.9 m where the ball is.
+  constexpr double radius = 0.05, h = 0.01, side = 3;
+  const bool tilts = GENERATE(false, true);
+  BodyScene build({.friction = 0}, 0);
+  const int ground = build.ground();
+  const int ball = build.ball(radius, 1, {.position = {side, 0, 0.5}});
+  Scene scene = build.finish();
+  const int node = scene.bodies[static_cast<std::size_t>(ground)].node;
+  if (tilts)
+    scene.initial.spin.col(ground) = Vec3(0, -0.3 / h, 0);
+  else
+    scene.initial.v.col(node) = Vec3(0, 0, 1 / h);
+  const State end = run(scene, contact_method("direct"), h, 1);
+  const Vec3 normal = end.orientation[static_cast<std::size_t>(ground)] * Vec3::UnitZ();
+  const Vec3 apart = end.x.col(scene.bodies[static_cast<std::size_t>(ball)].node) - end.x.col(node);
+  CHECK(std::abs(normal.dot(apart) - radius) <= 1e-9);
+}
+
 TEST_CASE("what passes within reach and meets nothing is not thrown back") {
   // A ball flies 0.1 m a step along the ground, 50 mm above it, and comes down by 1 mm of them.
   const Vec3 velocity(10, 0, -0.1);

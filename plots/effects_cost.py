@@ -37,6 +37,25 @@ def scaling(frame):
     return fig
 
 
+@figure("effects_cost", "absent", table="absent")
+def absent(frame):
+    """Time of a step with an effect that nothing uses, over that of the scene without it, with the range of the repeats."""
+    rows = good(frame, "time_ratio")
+    fig, (ax,) = panels(1, height=0.2 * max(len(rows), 2) + 0.6)
+    names = rows["effect"] + ", " + rows["case"]
+    change, low, high = (100 * (rows[column] - 1) for column in ("time_ratio", "time_low", "time_high"))
+    ax.errorbar(change, names, xerr=[(change - low).clip(lower=0), (high - change).clip(lower=0)], fmt="o", color=BLUE, markersize=4, capsize=2)
+    ax.axvline(0, color="black", linewidth=0.8)
+    ax.invert_yaxis()
+    ax.set(xlabel="change of a step's time (%)")
+    empty, idle = change[rows["case"] == "empty"].abs(), change[rows["case"].str.startswith("never touches")]
+    told = [f"Each of {counted(len(empty), 'empty effect')} changes the time by {number(empty.max())} % at most"] if len(empty) else []
+    told += [f"contact that never touches takes {span(idle)} % of a light step more"] if len(idle) else []
+    finding(fig, "; ".join(told) or f"None of {counted(len(frame), 'effect')} has a number")
+    footnote(fig, "A sheet of 225 nodes falls, solved by two times ten sweeps a step. Dots: median of the repeats; bars: their range.")
+    return fig
+
+
 @figure("effects_cost", "bytes", table="costs")
 def bytes_per_row(frame):
     """Memory of an effect's rows."""

@@ -126,7 +126,7 @@ std::int64_t entries_that_differ(const State& a, const State& b) {
 void effects_absent(Context& context) {
   const Falling falling;
   const Run alone = run(falling.scene);
-  Table table = context.table("absent", {"effect", "state", "time_ratio", "time_low", "time_high",
+  Table table = context.table("absent", {"effect", "case", "time_ratio", "time_low", "time_high",
                                          "bytes_ratio", "entries_that_differ"});
   double differ = 0;
   WorstSpread empty, idle;

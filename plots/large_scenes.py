@@ -25,7 +25,7 @@ def costs(frame):
     fig.supxlabel("unknowns", fontsize=8)
     shared_legend(fig, axes)
     finding(fig, times_as_long(frame))
-    footnote(fig, f"To an error of {text_number(target)} of the step's displacement; of columns, which are at rest, to such a residual. Without "
+    footnote(fig, f"To an error of {text_number(target)} of the step's displacement; of columns of boxes to such a residual. Without "
              "what a scene's first step takes alone. " + reasons_note(failed(frame, "wall_s")))
     return fig
 

@@ -13,7 +13,8 @@ bool WorstStep::less(const pbd::Report& report) const {
 
 std::string WorstStep::text() const {
   if (std::isnan(residual)) return fmt::format("step {} without a finite residual", step);
-  const auto most = constraint.empty() ? "" : ", most of it of " + constraint;
+  const auto most =
+      (constraint.empty() ? "" : ", most of it of " + constraint) + (reason.empty() ? "" : ": " + reason);
   if (std::isinf(residual)) return fmt::format("the worst where nothing moves (step {}{})", step, most);
   return fmt::format("the worst with {:.3g} (step {}{})", residual, step, most);
 }
@@ -30,7 +31,7 @@ void SimulationTotals::add(const pbd::Report& report, int parts,
   const bool missed = report.status != pbd::Status::ok;
   for (WorstStep* each : {&worst, &worst_missed})
     if ((each == &worst || missed) && each->less(report))
-      *each = {report.residual(), steps, report.worst ? name(*report.worst) : ""};
+      *each = {report.residual(), steps, report.worst ? name(*report.worst) : "", std::string(report.reason)};
 }
 
 nlohmann::ordered_json report_json(const SimulationTotals& totals, const pbd::Workspace& workspace) {

@@ -16,6 +16,7 @@ struct WorstStep {
   double residual = 0;
   std::int64_t step = 0;
   std::string constraint{};  // most of it; empty where none is told
+  std::string reason{};      // why it is not ok; empty if it is
 
   bool less(const pbd::Report& report) const;
   /// For people.

@@ -41,6 +41,8 @@ std::string StepChecks::text() const {
   for (const auto& [reason, count] : left_out_)
     left_out += (left_out.empty() ? "; not judged: " : ", ") + reason;
   const std::string missed = missed_ > 0 ? fmt::format(" ({} missed their tolerance)", missed_) : "";
+  if (compared_ == 0 && judged_ > 0)
+    return fmt::format("checked: nothing of {} steps{}{}", judged_, missed, left_out);
   if (refuted_.empty())
     return fmt::format("checked: {} steps by {} numbers, none refuted{}{}", judged_, compared_, missed,
                        left_out);

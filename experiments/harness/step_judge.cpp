@@ -94,9 +94,9 @@ std::string StepJudge::text() const {
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
   if (judged_ > unsolved_ + missed_)
     text += fmt::format(
-        "; the others end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance "
-        "refers to (step {})",
-        worst_error_m_, worst_error_of_scale_, worst_step_);
+        "; {} end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance refers to "
+        "(step {})",
+        unsolved_ + missed_ > 0 ? "the others" : "they", worst_error_m_, worst_error_of_scale_, worst_step_);
   if (from_claim_alone_ > 0)
     text += fmt::format("; {} of them the reference solved from what is claimed alone", from_claim_alone_);
   if (ambiguous_ > 0) text += fmt::format("; {} at another one than the reference by itself", ambiguous_);

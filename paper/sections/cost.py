@@ -233,7 +233,7 @@ def large_scenes(results):
         "A cantilever of tetrahedra and a sheet let go, by `quasi_newton` and by `newton`, the rival: seconds of the second step from rest until the "
         "error first falls to a target, and the memory that each takes at most, the scene itself left out. Of a solid `quasi_newton` factors one "
         "constant matrix; of a sheet, whose stiffness across itself is its tension, that of the current shape, as Newton's method does. "
-        "Columns of boxes at rest are solved by `auto`, to tolerances of the residual.",
+        "Columns of boxes that slide are solved by `auto`, to tolerances of the residual, which stand for the error.",
         figures=[Figure("large_scenes_costs", "Time of a step and memory over the number of unknowns.")])
     return section.tell(results.table("large_scenes", "steps"), largest_text, large_table)
 

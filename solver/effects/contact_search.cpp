@@ -169,7 +169,8 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   const bool left = of_pair != left_.end() && of_pair->collider == pair.collider;
   const double depth = (left ? std::min(besides_, overlooked) : overlooked) * round;
   if (bounded && (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
-    far_.push_back({pair.collider, pair.nearest, deepest, depth, left});
+    far_.push_back({pair.collider, pair.nearest, deepest, depth, left,
+                    effect_.between(pair.collider[0], pair.collider[1]).compliance > 0});
 }
 
 void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,

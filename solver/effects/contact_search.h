@@ -129,6 +129,7 @@ class ContactSearch {
     double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
     double overlooked = 0;        // m, depth that is not looked at
     bool left = false;            // by a contact that had held it apart
+    bool gives_way = false;       // by its law's compliance
     double least_end = infinity;  // m, gap that its contacts tell of
   };
   struct NearPair {

@@ -1,5 +1,7 @@
 // What takes part in contact: all that meets within a step, by turning, falling or coming both ways, and
 // nothing that only passes.
+#include <numbers>
+
 #include "contact_runs.h"
 #include "mesh.h"
 #include "scenes/contacts.h"
@@ -54,11 +56,14 @@ TEST_CASE("a ground that rises or tilts within a step meets what is far above it
 }
 
 TEST_CASE("what passes within reach and meets nothing is not thrown back") {
-  // A ball flies 0.1 m a step along the ground, 50 mm above it, and comes down by 1 mm of them.
-  const Vec3 velocity(10, 0, -0.1);
+  // A ball flies 0.1 m a step along a slope, 20 mm above it, and comes down by 1 mm of them; the box about
+  // its course is cut by the slope.
+  const double slope = std::numbers::pi / 4;
+  const Vec3 normal(std::sin(slope), 0, std::cos(slope)), along(std::cos(slope), 0, -std::sin(slope));
+  const Vec3 velocity = 10 * along - 0.1 * normal;
   BodyScene build({.friction = 0, .restitution = 0.5}, 0);
-  build.ground();
-  build.ball(0.1, 1, {.position = {0, 0, 0.15}, .velocity = velocity});
+  build.ground(slope);
+  build.ball(0.1, 1, {.position = 0.12 * normal, .velocity = velocity});
   const Scene scene = build.finish();
   Workspace workspace(scene, contact_method("direct"));
   const State end = run(scene, contact_method("direct"), 0.01, 1, workspace);

@@ -121,7 +121,7 @@ TEST_CASE("a simulation whose steps are judged by a reference tells how near the
   const auto ran =
       run_program({"simulate", scenes / "incline.toml", "--judge", "every=40", "-o", folder.path});
   CHECK(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Catch::StartsWith("judged: 2 steps by cone_interior_point; the others end within "));
+  CHECK_THAT(ran.out, Catch::StartsWith("judged: 2 steps by cone_interior_point; they end within "));
   const auto judged = rows_of(folder.path / "judged.csv");
   REQUIRE(judged.size() == 3);
   CHECK(judged[0][10] == "nearest_error_of_scale");

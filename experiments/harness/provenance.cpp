@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <metis.h>
 #include <sys/utsname.h>
 #include <toml++/toml.h>
 
@@ -58,6 +59,7 @@ nlohmann::ordered_json libraries() {
                                     NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"cli11", CLI11_VERSION},
+      {"metis", fmt::format("{}.{}.{}", METIS_VER_MAJOR, METIS_VER_MINOR, METIS_VER_SUBMINOR)},
       {"qhull", qhull_version()}};
   for (const auto& [name, version] : pbd::reference::library_versions()) used[name] = version;
   used["blas"] = pbd::rivals::blas_library();

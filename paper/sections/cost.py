@@ -144,6 +144,7 @@ def effects_cost(results):
         figures=[
             Figure("effects_cost_scaling", "Wall time of one sweep and row over the number of rows: level where cost is in proportion."),
             Figure("effects_cost_absent", "Change of a step's time by an effect that is listed and that nothing uses."),
+            Figure("effects_cost_stripped", "A sweep over links beside the least loop that does the same."),
             Figure("effects_cost_bytes", "Memory of each effect's rows."),
             Figure("effects_cost_seconds", "Wall time of each effect per row and step, linearising and relaxing.")])
     scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")

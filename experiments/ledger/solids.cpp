@@ -152,8 +152,16 @@ State pulled(const Method& method, double stress) {
   return equilibrium(motion, large_h);
 }
 
-double extent(const State& state, int axis) {
-  return state.x.row(axis).maxCoeff() - state.x.row(axis).minCoeff();
+/// Length of the cube's edge from the origin along an axis: turned about the pull, which nothing resists, it
+/// stays as long.
+double edge_length(const State& state, int axis) {
+  const TetMesh mesh = kuhn_grid({2, 2, 2}, Vec3::Ones());
+  const auto node_at = [&](const Vec3& corner) {
+    Eigen::Index node = 0;
+    (mesh.x.colwise() - corner).colwise().squaredNorm().minCoeff(&node);
+    return node;
+  };
+  return (state.x.col(node_at(Vec3::Unit(axis))) - state.x.col(node_at(Vec3::Zero()))).norm();
 }
 
 void pulled_rows(Ledger& rows) {
@@ -176,7 +184,7 @@ void pulled_rows(Ledger& rows) {
            .run =
                [=](const Method& method) {
                  const double stress = reference::kirchhoff_uniaxial_stress(rubber.young, stretch);
-                 return extent(pulled(method, stress), axis);
+                 return edge_length(pulled(method, stress), axis);
                }});
 }
 

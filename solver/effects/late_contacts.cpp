@@ -104,7 +104,7 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double behind = std::min(pair.deepest, -slack) - rounded;
   // What its contacts tell of is theirs to hold, but not where their features lay behind the start: those ask
   // for no more than what they were then.
-  const double missing = std::max(besides_, overlooked) * (round + travel);  // by a solved step
+  const double missing = besides_ * (round + travel);  // by a solved step
   const double held = pair.gives_way ? -infinity : behind - missing;
   const double allowed = std::min(std::max(pair.least_end - rounded, held), behind);
   if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;

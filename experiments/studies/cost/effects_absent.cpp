@@ -138,7 +138,7 @@ void effects_absent(Context& context) {
     table.row({added.effect, added.state, ratio.value, ratio.low, ratio.high, bytes, apart});
     differ += static_cast<double>(apart);
     Measured change = std::abs(ratio.value - 1);
-    const auto [near, far] = std::minmax(std::abs(ratio.low - 1), std::abs(ratio.high - 1));
+    const auto [near, far] = std::minmax({std::abs(ratio.low - 1), std::abs(ratio.high - 1)});
     change.low = ratio.low < 1 && ratio.high > 1 ? 0 : near;
     change.high = far;
     if (added.state == "empty") empty.add(change, added.effect);

@@ -38,4 +38,4 @@ def times_as_long(frame):
         if set(CONTRASTED) <= set(both):
             ratio = (both["newton"] / both["quasi_newton"]).dropna()
             told.append(f"{kind} {span(ratio)}" if len(ratio) else f"{kind} 0 of {counted(len(both), 'size')} solved by both")
-    return "Newton takes times as long as quasi_newton: " + "; ".join(told)
+    return "Newton's time over quasi_newton's: " + "; ".join(told)

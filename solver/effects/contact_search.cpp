@@ -183,17 +183,6 @@ void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_
   for (ContactPoint& point : found_) point.swapped = !point.swapped;
 }
 
-/// True if the plane of a half space comes nowhere near the box of another collider.
-bool ContactSearch::beyond_plane(int plane, int other) const {
-  const Motion& ground = motions_[plane];
-  if (ground.kind != Carrier::body || !std::holds_alternative<HalfSpace>(*ground.shape) || ground.turn > 0)
-    return false;
-  const Vec3 normal = ground.frame.rotation.col(2);
-  const AxisBox& box = boxes_[other].box;
-  const double lowest = normal.dot(box.center()) - normal.cwiseAbs().dot(box.sizes()) / 2;
-  return lowest > normal.dot(ground.frame.origin) + ground.course.norm() + ground.travel;
-}
-
 /// Pairs are as they were found before in the step unless one of them goes farther now; so are surfaces.
 void ContactSearch::search(const Configuration& start) {
   near_before_.swap(near_);
@@ -214,7 +203,6 @@ void ContactSearch::search(const Configuration& start) {
   auto before = pairs_before_.begin();
   std::size_t begin = 0;  // of its contacts
   for (const auto& pair : broad_phase_.pairs(boxes_)) {
-    if (beyond_plane(pair[0], pair[1]) || beyond_plane(pair[1], pair[0])) continue;
     for (; before != pairs_before_.end() && before->collider < pair; ++before) begin = before->end;
     const bool known = before != pairs_before_.end() && before->collider == pair &&
                        !motions_[pair[0]].grown && !motions_[pair[1]].grown;

@@ -172,7 +172,6 @@ class ContactSearch {
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
   void search_pair(int first, int second, const Configuration& start);
-  bool beyond_plane(int plane, int other) const;
   void search_nodes(int first, int second, const Points& x);
   void add_pair(const NearPair& pair, std::span<const ActiveContact> near, ContactLists& contacts);
   ActiveContact active(const ContactPoint& point, int first, int second) const;

@@ -137,10 +137,17 @@ struct RowBlock : ConstraintShape<R, K> {
 
   /// J_i v + b_i + Sigma_i p
   typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
-    // Node by node: what is gathered in parts would be read as a whole before it is written.
-    typename Shape::Value r = bias[i] + compliance[i] * p;
-    for (int a = 0; a < K; ++a) r.noalias() += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
-    return r;
+    // Node by node: what is gathered in parts would be read as a whole before it is written. Apart from the
+    // bias, since what fast nodes do to a row may cancel. A single row has its shortest chain of sums by
+    // nodes, several rows by columns.
+    typename Shape::Value rate = Shape::Value::Zero();
+    for (int a = 0; a < K; ++a) {
+      if constexpr (R == 1)
+        rate += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
+      else
+        for (int axis = 0; axis < 3; ++axis) rate += jacobian[i].col(3 * a + axis) * v(axis, node[i][a]);
+    }
+    return bias[i] + compliance[i] * p + rate;
   }
 };
 

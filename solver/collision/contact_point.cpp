@@ -1,6 +1,7 @@
 #include "collision/contact_point.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace pbd {
@@ -55,31 +56,95 @@ Vector3d on_rim(const ContactPoint& contact, const Frame& a, const Vector3d& y, 
   return y + contact.rim_a * down;
 }
 
-/// The point of a's rim about y that is nearest to the line through `on_line`: where the derivative of its
-/// distance by the angle vanishes, by Newton's method from the point towards the line, which is off by the
-/// squared sine of the axes' angle at most: by rounding after three rounds where that is a hundredth
-/// (crossing_sine).
-Vector3d rim_at_line(const ContactPoint& contact, const Frame& a, const Vector3d& y, const Vector3d& on_line,
-                     const Vector3d& along) {
-  const Vector3d axis = a.rotation * contact.direction_a, apart = across(y - on_line, along);
-  const Vector3d towards = -contact.rim_a * unit_across(across(apart, axis), axis),
-                 aside = axis.cross(towards);
-  const Vector3d u = across(towards, along), w = across(aside, along);
-  constexpr int rounds = 3;
-  double angle = 0;
-  for (int k = 0; k < rounds; ++k) {
-    const Vector3d radial = std::cos(angle) * u + std::sin(angle) * w,
-                   tangential = std::cos(angle) * w - std::sin(angle) * u;
-    const double bend = tangential.squaredNorm() - (apart + radial).dot(radial);
-    if (bend > 0) angle -= (apart + radial).dot(tangential) / bend;
+/// The point of a's rim about y that is nearest to x.
+Vector3d rim_at_point(const ContactPoint& contact, const Frame& a, const Vector3d& y, const Vector3d& x) {
+  const Vector3d axis = a.rotation * contact.direction_a;
+  return y + contact.rim_a * unit_across(across(x - y, axis), axis);
+}
+
+/// The point of b's line or rim that is nearest to another one, x: q, and how it follows x,
+/// dq/dx = share * tangent tangent^T.
+struct NearestOfOther {
+  Vector3d point, tangent;
+  double share = 1;
+
+  NearestOfOther(const ContactPoint& contact, const Frame& b, const Vector3d& x) {
+    const Vector3d y = b.place(contact.point_b), direction = b.rotation * contact.direction_b;
+    if (!(contact.rim_b > 0)) {
+      tangent = direction;
+      point = y + direction.dot(x - y) * direction;
+      return;
+    }
+    const Vector3d aside = across(x - y, direction), out = unit_across(aside, direction);
+    tangent = direction.cross(out);
+    point = y + contact.rim_b * out;
+    share = contact.rim_b / std::max(aside.norm(), contact.rim_b);
   }
-  return y + std::cos(angle) * towards + std::sin(angle) * aside;
+};
+
+/// A point of a's rim and the other's nearest to it.
+struct RimPair {
+  Vector3d out, tangent;  // unit, of a's rim
+  Vector3d y;             // m
+  NearestOfOther other;
+
+  RimPair(const ContactPoint& contact, const Frame& a, const Frame& b, double angle)
+      : out(turned(contact, a, angle)),
+        tangent((a.rotation * contact.direction_a).cross(out)),
+        y(a.place(contact.point_a) + contact.rim_a * out),
+        other(contact, b, y) {}
+
+  Vector3d apart() const { return y - other.point; }
+
+  /// How the slope of their distance changes as the point goes along the rim, m: by how they cross, and by
+  /// its bend. Where they are in each other the point of no slope may be the farthest one; else it is the
+  /// nearest, and the change is kept above 0.
+  double bend(double rim, bool overlap) const {
+    const double crossing = tangent.dot(other.tangent), met = rim * (1 - other.share * crossing * crossing);
+    const double bend = met - apart().dot(out);
+    return overlap && bend < 0 ? std::min(bend, -met / 2) : std::max(bend, met / 2);
+  }
+
+  static Vector3d turned(const ContactPoint& contact, const Frame& a, double angle) {
+    return a.rotation * (std::cos(angle) * contact.across_a +
+                         std::sin(angle) * contact.direction_a.cross(contact.across_a));
+  }
+};
+
+/// a's rim against b's line or rim, at the pair of nearest points next to R_a across_a.
+Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
+  constexpr int most_rounds = 20, most_halvings = 8;
+  constexpr double longest = 0.5, enough = 1e-15, parallel = 1e-3;  // rad
+  double angle = 0;
+  RimPair pair(contact, a, b, angle);
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool overlap = contact.side * pair.tangent.cross(pair.other.tangent).dot(pair.apart()) < 0;
+    const double bend = pair.bend(contact.rim_a, overlap);
+    if (bend == 0) break;
+    double turn = std::clamp(-pair.apart().dot(pair.tangent) / bend, -longest, longest);
+    if (!(std::abs(turn) > enough)) break;
+    const double most = bend > 0 ? pair.apart().norm() + enough * contact.rim_a : infinity;
+    RimPair next(contact, a, b, angle + turn);
+    for (int halving = 0; halving < most_halvings && next.apart().norm() > most; ++halving) {
+      turn /= 2;
+      next = RimPair(contact, a, b, angle + turn);
+    }
+    angle += turn;
+    pair = next;
+  }
+  const Vector3d apart = pair.apart(), cross = contact.side * pair.tangent.cross(pair.other.tangent);
+  const double distance = apart.norm();
+  const bool as_points = !(cross.norm() > parallel) && distance > 0;
+  const double sign = apart.dot(pair.out) > 0 ? -1 : 1;  // the rim's own outward side is b's
+  const Vector3d normal = as_points ? Vector3d(sign / distance * apart) : unit_across(cross, pair.tangent);
+  return rounded(contact, normal.dot(apart), normal, pair.y, pair.other.point);
 }
 
 }  // namespace
 
 Touching touching(const ContactPoint& contact, const Frame& a, const Frame& b) {
   if (contact.kind == ContactPoint::Kind::edges) return at_edges(contact, a, b);
+  if (contact.kind == ContactPoint::Kind::rim) return at_rim(contact, a, b);
   Vector3d y_a = a.place(contact.point_a);
   const Vector3d y_b = b.place(contact.point_b), direction = b.rotation * contact.direction_b;
   if (contact.kind == ContactPoint::Kind::face) {
@@ -88,7 +153,7 @@ Touching touching(const ContactPoint& contact, const Frame& a, const Frame& b) {
     return rounded(contact, distance, direction, y_a, y_a - distance * direction);
   }
   const bool line = contact.kind == ContactPoint::Kind::line;
-  if (line && contact.rim_a > 0) y_a = rim_at_line(contact, a, y_a, y_b, direction);
+  if (contact.rim_a > 0) y_a = rim_at_point(contact, a, y_a, y_b);
   const Vector3d apart = line ? across(y_a - y_b, direction) : Vector3d(y_a - y_b);
   const double distance = apart.norm();
   Vector3d normal = Vector3d::UnitX();

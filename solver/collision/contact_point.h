@@ -5,14 +5,17 @@
 //   point  a's point against b's point:       n = (y_a - y_b)/|y_a - y_b|,    gap = |y_a - y_b| - radii
 //   line   a's point against b's line:        n = unit part of y_a - y_b across R_b direction_b, gap likewise
 //   edges  a's line against b's line:         n = +-(e_a x e_b)/|e_a x e_b|,  gap = n . (y_a - y_b) - radii
+//   rim    a's rim against b's line or rim:   n, gap as of edges, e being the tangents at y_a and y_b
 //
 // y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
 // are rounded by. A rim, the edge of a disc about a's point of radius rim_a across direction_a, is the point
 // of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis, n
-// of a line that at y_a itself (face and line alone). A rim that lies flat on a plane touches at the point
-// R_a across_a, which stays where it is. Normals point from b to a: the impulse of a
-// contact pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a - velocity of b)
-// at the touching points.
+// of a point that at y_a itself. A rim that lies flat on a plane touches at the point R_a across_a, which
+// stays where it is. A rim against a line or rim touches where it is nearest to it next to the point R_a
+// across_a; where the tangents are parallel n is as of points. Normals point from b to a:
+// the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is
+// n . (velocity of a - velocity of b) at the touching
+// points.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,17 +26,17 @@
 namespace pbd {
 
 struct ContactPoint {
-  enum class Kind : std::uint8_t { face, point, line, edges };
+  enum class Kind : std::uint8_t { face, point, line, edges, rim };
 
   Kind kind = Kind::face;
   bool swapped = false;              // a is the second shape asked for, b the first
   std::uint64_t key = 0;             // the features' names: the same contact has the same one in every step
   Eigen::Vector3d point_a, point_b;  // m
   Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or of its rim's axis
-  Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line
-  Eigen::Vector3d across_a = Eigen::Vector3d::Zero();     // unit: to the point of a rim that lies flat
+  Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line or rim
+  Eigen::Vector3d across_a = Eigen::Vector3d::Zero();     // unit: to a rim's point, see above
   double radius_a = 0, radius_b = 0;                      // m
-  double rim_a = 0;                                       // m
+  double rim_a = 0, rim_b = 0;                            // m; 0: no rim
   double side = 1;                                        // edges: the sign of e_a x e_b in n
 };
 

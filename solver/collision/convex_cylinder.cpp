@@ -94,8 +94,8 @@ struct CylinderPair {
     if (at.part == PlacedCylinder::Part::side && along.cross(b.axis).norm() >= crossing_sine)
       writer.write(on_edges(y, along, a.radius, b.centre, b.axis, b.radius, at.normal),
                    writer.key(Feature::edge, e, Feature::axis, 0), gap);
-    else if (at.part == PlacedCylinder::Part::rim && a.radius > 0)
-      writer.exchanged().write(on_line(at.nearest, 0, y, along, a.radius),
+    else if (at.part == PlacedCylinder::Part::rim)
+      writer.exchanged().write(rim_on_line(b, at.end, at.nearest, y, along, a.radius, -at.normal),
                                writer.key(Feature::edge, e, Feature::rim, at.end + 1), gap);
     else
       write_point(y, a.radius, Feature::edge, e, b, writer);
@@ -130,8 +130,10 @@ struct CylinderPair {
             best.of == CylinderAxis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
         const Vec3 y = point(e, s);
-        writer.write(on_face(y, a.radius, b.cap(at_end), at_end * b.axis, 0),
-                     writer.key(Feature::edge, e, Feature::cap, crossed_cap(at_end, sign)), above - a.radius);
+        write_beside_rim({a.node(a.edge(e).node[0]), along, length}, a.radius, y, at_end * b.axis, b, at_end,
+                         best.apart - a.radius - tiny,
+                         writer.key(Feature::edge, e, Feature::cap, crossed_cap(at_end, sign)), writer,
+                         [&](const Vec3& apart) { return faces_farther(e, apart); });
       }
     }
   }
@@ -176,6 +178,7 @@ struct CylinderPair {
     const Vec3 y = point(edge, arc), tangent = b.rim_tangent(y);
     const int node = end(edge, arc);
     const Vec3 on_rim = b.rim_at(y);
+    const int rim = b.end_at(y);
     CylinderAxis best{apart + tiny, CylinderAxis::Of::edge, -1, {}};
     for (int e = 0; e < a.edge_count(); ++e) {
       const Vec3 across = a.along[e].cross(tangent);
@@ -189,8 +192,15 @@ struct CylinderPair {
     if (best.i < 0) return false;
     const double gap = best.apart - a.radius;
     writer.drop_deeper(gap - tiny);
-    writer.rewrite(on_edges(y, a.along[best.i], a.radius, on_rim, tangent, 0, best.normal),
-                   writer.key(Feature::edge, best.i, Feature::rim, b.end_at(y) + 1), gap);
+    const Vec3& along = a.along[best.i];
+    const auto key = writer.key(Feature::edge, best.i, Feature::rim, rim + 1);
+    const ContactPoint contact = rim_on_line(b, rim, on_rim, y, along, a.radius, -best.normal);
+    const Touching found = touching(contact, {}, {});
+    const double proved = lowest(-found.normal) - b.support(-found.normal) - a.radius;
+    if (found.gap >= gap - tiny && std::abs(found.gap - proved) <= tiny)
+      writer.exchanged().rewrite(contact, key, found.gap);
+    else
+      writer.rewrite(on_edges(y, along, a.radius, on_rim, tangent, 0, best.normal), key, gap);
     return true;
   }
 

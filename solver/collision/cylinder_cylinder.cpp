@@ -9,6 +9,30 @@
 namespace pbd {
 namespace {
 
+/// a's rim at `end` at the angle where it is nearest to b, against b's nearest part that it is beside there,
+/// gaps at least `floor` (m).
+void write_rim_point(const PlacedCylinder& a, int end, double angle, int number, const PlacedCylinder& b,
+                     double floor, const ContactWriter& writer) {
+  const Vec3 y = a.on_rim(end, angle);
+  const PlacedCylinder::Place at = b.place(y);
+  if (at.distance < floor) return;
+  if (at.part == PlacedCylinder::Part::cap) return write_point(y, 0, Feature::rim, number, b, writer);
+  const auto write = [&](const ContactPoint& contact, FeatureName of_b) {
+    const Touching found = touching(contact, {}, {});
+    const bool beside = of_b.of == Feature::rim ? b.is_beside_rim(of_b.i - 1, found.point_b, found.normal)
+                                                : std::abs(b.axis.dot(found.point_b - b.centre)) <= b.half;
+    if (!beside || found.gap < floor || !a.is_beside_rim(end, found.point_a, -found.normal)) return false;
+    writer.write(contact, writer.key(Feature::rim, number, of_b.of, of_b.i), found.gap);
+    return true;
+  };
+  if (at.part == PlacedCylinder::Part::side &&
+      write(rim_on_line(a, end, y, b.centre, b.axis, b.radius, at.normal), {Feature::axis, 0}))
+    return;
+  const int end_b = b.end_at(y);
+  const Vec3 outward = (y - b.centre).cross(b.axis).cross(-b.axis).normalized() + end_b * b.axis;
+  write(rim_on_rim(a, end, y, b, end_b, outward), {Feature::rim, end_b + 1});
+}
+
 /// a's rims and the points of its caps against b's caps and sides.
 void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double floor,
                       const ContactWriter& writer) {
@@ -20,8 +44,7 @@ void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double f
     const NearestAngles angles = nearest_angles(a, end, b, writer.reach.margin);
     const bool side = (a.on_rim(end, angles.angle[0]) - a.cap(end)).dot(b.axis) > 0;
     for (int k = 0; k < angles.count; ++k)
-      write_point(a.on_rim(end, angles.angle[k]), 0, Feature::rim, nearest_of_rim(end, side == (k == 0)), b,
-                  writer);
+      write_rim_point(a, end, angles.angle[k], nearest_of_rim(end, side == (k == 0)), b, floor, writer);
   }
 }
 
@@ -90,17 +113,22 @@ void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
   }
 }
 
-/// What they overlap by along a normal that is no feature's own, at the deepest points of both.
-ContactPoint across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal) {
-  return on_plane_by_rim(a, a.axis.dot(normal) > 0 ? -1 : 1, b.farthest(normal), normal, 0);
+/// The rims that are deepest along the normal, along which they are `apart` (m); or one of them and a plane
+/// where they are not, as next to a side.
+void write_across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal, double apart,
+                       std::uint64_t key, const ContactWriter& writer) {
+  const int end_a = a.axis.dot(normal) > 0 ? -1 : 1, end_b = b.axis.dot(normal) > 0 ? 1 : -1;
+  const ContactPoint rims = rim_on_rim(a, end_a, a.farthest(-normal), b, end_b, normal);
+  const double gap = touching(rims, {}, {}).gap;
+  const bool deepest = std::abs(gap - apart) <= rounding * (a.size() + b.size());
+  writer.rewrite(deepest ? rims : on_plane_by_rim(a, end_a, b.farthest(normal), normal, 0), key, apart);
 }
 
 /// a's rim at `end`, its point nearest to b's axis, against b's side.
 ContactPoint on_side_by_rim(const PlacedCylinder& a, int end, const PlacedCylinder& b) {
-  ContactPoint contact = on_line(a.cap(end), 0, b.centre, b.axis, b.radius);
-  contact.direction_a = a.axis;
-  contact.rim_a = a.radius;
-  return contact;
+  const Vec3 apart = a.cap(end) - b.centre, across = apart - apart.dot(b.axis) * b.axis;
+  return rim_on_line(a, end, a.cap(end) + a.radius * (across.dot(a.axis) * a.axis - across).normalized(),
+                     b.centre, b.axis, b.radius, across);
 }
 
 /// Of sides along each other the ends of their common length, each a rim over the other's side; false, and
@@ -187,10 +215,10 @@ void cylinder_cylinder(const Cylinder& first, const Cylinder& second, const Cont
     return other.place(axis.at(nearest_arc(axis, other))).distance <= tiny;
   };
   const bool crossing = (inside && along_line < 0) || goes_through(a, b) || goes_through(b, a);
-  if (most > 0 || least <= most + tiny || (least > 0 && !crossing)) return;
+  if (most > 0 || least <= most + tiny || (least > 0 && least < infinity && !crossing)) return;
   if (most == along_both) return writer.write(edges, sides_key, most);
   if (most == beside.apart || by_rims)
-    return writer.rewrite(across_rims(a, b, by_rims ? rims.normal : beside.normal), sides_key, most);
+    return write_across_rims(a, b, by_rims ? rims.normal : beside.normal, most, sides_key, writer);
   if (most == over_b) {
     const int end = apart.dot(b.axis) < 0 ? -1 : 1;
     return write_deepest_rim(a, b.cap(end), end * b.axis, Feature::cap, end + 1, writer);

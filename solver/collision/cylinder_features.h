@@ -1,6 +1,6 @@
-// How cylinders' features are written down: points on caps, sides and rims, rims on planes, and edges that
-// leave a side. What asks whether a point is over a face is a template's argument: it is called for every
-// point.
+// How cylinders' features are written down: points on caps, sides and rims, rims on planes, lines and rims,
+// and edges that leave a side. What asks whether a point is over a face is a template's argument: it is
+// called for every point.
 #pragma once
 
 #include <cmath>
@@ -37,6 +37,30 @@ constexpr int crossed_cap(int end, int sign) {
 /// Writes a's point y (rounded by `radius`, feature i of its kind) against the cylinder's nearest part.
 void write_point(const Vec3& y, double radius, Feature feature, int i, const PlacedCylinder& b,
                  const ContactWriter& writer);
+
+/// Cylinder a's rim at `end` against a point, or next to a point `on_rim` against a line or b's rim, as
+/// `normal` tells, from b to a.
+ContactPoint rim_on_point(const PlacedCylinder& a, int end, const Vec3& point_b, double radius_b);
+ContactPoint rim_on_line(const PlacedCylinder& a, int end, const Vec3& on_rim, const Vec3& on_line,
+                         const Vec3& along, double radius_b, const Vec3& normal);
+ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, const PlacedCylinder& b,
+                        int end_b, const Vec3& normal);
+
+/// Writes an edge rounded by `radius` against b's rim at `end` where it is nearest to it next to the edge's
+/// point y, `normal` outwards of b; false, and nothing is written, unless that is on the edge and beside the
+/// rim, its outward normal `minimum`, and the gap at least `floor` (m).
+template <class Minimum>
+bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const Vec3& normal,
+                      const PlacedCylinder& b, int end, double floor, std::uint64_t key,
+                      const ContactWriter& writer, Minimum&& minimum) {
+  const ContactPoint contact = rim_on_line(b, end, b.rim_at(y), y, edge.along, radius, -normal);
+  const Touching found = touching(contact, {}, {});
+  const double arc = edge.along.dot(found.point_b - edge.from);
+  if (!(found.gap >= floor && arc >= 0 && arc <= edge.length)) return false;
+  if (!b.is_beside_rim(end, found.point_a, -found.normal) || !minimum(Vec3(-found.normal))) return false;
+  writer.exchanged().write(contact, key, found.gap);
+  return true;
+}
 
 /// Cylinder a's rim at `end`, about its deepest point along the plane's normal, against that plane.
 ContactPoint on_plane_by_rim(const PlacedCylinder& a, int end, const Vec3& on_plane, const Vec3& normal,
@@ -80,10 +104,9 @@ void write_where_it_leaves(const Segment& edge, double radius, int e, const Plac
     const double s = (end * b.half - from) / cosine;
     if (s <= 0 || s >= edge.length) continue;
     const Vec3 y = edge.at(s), apart = y - b.cap(end);
-    const double outside = apart.norm() - b.radius;
-    if (outside >= 0 && minimum(apart))
-      writer.write(on_line(y, radius, b.centre, b.axis, b.radius),
-                   writer.key(Feature::edge, e, Feature::rim, left_over(end)), outside - radius);
+    if (apart.norm() < b.radius || !minimum(apart)) continue;
+    write_beside_rim(edge, radius, y, apart.normalized(), b, end, -infinity,
+                     writer.key(Feature::edge, e, Feature::rim, left_over(end)), writer, minimum);
   }
 }
 

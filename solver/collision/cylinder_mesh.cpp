@@ -9,18 +9,19 @@ namespace pbd {
 namespace {
 
 /// Of an edge whose point y is in the cylinder: across it and the rim next to y, if both are lowest along
-/// that.
+/// that. As lines where they are nearest to each other elsewhere, as in one plane.
 template <class Lowest>
-bool write_across_rim(const Vec3& y, const Vec3& along, int edge, const PlacedCylinder& cylinder,
+bool write_across_rim(const Segment& edge, const Vec3& y, int number, const PlacedCylinder& cylinder,
                       const ContactWriter& writer, Lowest&& lowest) {
   const Vec3 tangent = cylinder.rim_tangent(y), on_rim = cylinder.rim_at(y);
   const int end = cylinder.end_at(y);
-  Vec3 normal = along.cross(tangent);
+  Vec3 normal = edge.along.cross(tangent);
   if (!(normal.norm() > rounding)) return false;
   normal = (normal.dot(tangent.cross(cylinder.axis)) < 0 ? -1 : 1) * normal.normalized();
   if (end * normal.dot(cylinder.axis) < 0 || !lowest(normal)) return false;
-  writer.write(on_edges(y, along, 0, on_rim, tangent, 0, normal),
-               writer.key(Feature::edge, edge, Feature::rim, end + 1), normal.dot(y - on_rim));
+  const auto key = writer.key(Feature::edge, number, Feature::rim, end + 1);
+  if (!write_beside_rim(edge, 0, y, normal, cylinder, end, -infinity, key, writer, lowest))
+    writer.write(on_edges(y, edge.along, 0, on_rim, tangent, 0, normal), key, normal.dot(y - on_rim));
   return true;
 }
 
@@ -39,12 +40,13 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
   if (at.distance <= 0) {
-    const bool told = write_across_rim(all.at(arc), along, j, cylinder, writer, lowest);
+    const bool told = write_across_rim(all, all.at(arc), j, cylinder, writer, lowest);
     return !told && at.distance <= -rounding * cylinder.size();
   }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
-    write_point(all.at(arc), 0, Feature::edge, j, cylinder, writer);
+    writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0, -at.normal),
+                             writer.key(Feature::edge, j, Feature::rim, at.end + 1), at.distance);
   return false;
 }
 

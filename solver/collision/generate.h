@@ -13,11 +13,10 @@
 // crossing edges below the faces nearest to them, without any of these along the normal of a face that is
 // cut: not the shortest translation that parts them.
 //
-// What is not exact as bodies move, to first order only: what touches a rim without being a plane (kind
-// `point` at the rim's nearest point, or the plane between the nearest points), edges that are nearly
-// parallel (a point on one against the other's line), and nodes against edges or nodes without a radius (the
-// plane between them, fixed to b: a distance of points has no sign by which to see that one passed the
-// other). A cylinder that stands on a face has eight points on its rim beside the deepest one.
+// What is not exact as bodies move, to first order only: edges that are nearly parallel (a point on one
+// against the other's line), and nodes against edges, rims or nodes without a radius (the plane between them,
+// fixed to b: a distance of points has no sign by which to see that one passed the other). A cylinder that
+// stands on a face has eight points on its rim beside the deepest one.
 #pragma once
 
 #include <vector>

@@ -38,6 +38,11 @@ PlacedCylinder::Place PlacedCylinder::place(const Vec3& x) const {
   return {outside, Part::side, x - outside * radial, radial, end};
 }
 
+bool PlacedCylinder::is_beside_rim(int end, const Vec3& on_rim, const Vec3& outward) const {
+  constexpr double leaning = 0.2;  // sine
+  return end * outward.dot(axis) >= -leaning && outward.dot(on_rim - cap(end)) >= -leaning * radius;
+}
+
 double nearest_arc(const Segment& edge, const PlacedCylinder& b) {
   const auto slope = [&](double s) { return edge.along.dot(b.place(edge.at(s)).normal); };
   double low = 0, high = edge.length;

@@ -39,6 +39,9 @@ struct PlacedCylinder {
   /// Of that rim, the point nearest to x; the cap's middle if x is on the axis.
   Vec3 rim_at(const Vec3& x) const { return cap(end_at(x)) + radius * rim_tangent(x).cross(axis); }
   Place place(const Vec3& x) const;
+  /// True if the outward normal of a point of the rim at `end` is between those of side and cap, or leans out
+  /// of them by no more than 0.2 rad: a turn in one step may bring it there.
+  bool is_beside_rim(int end, const Vec3& on_rim, const Vec3& outward) const;
   /// The farthest point along the unit vector n.
   Vec3 farthest(const Vec3& n) const;
   /// How far that is from the centre along n, m.

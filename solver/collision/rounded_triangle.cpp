@@ -50,7 +50,8 @@ TriangleFeature feature_of(const ContactPoint& contact, int side, const RoundedT
   const Points& x = triangle.solid.x;
   TriangleFeature feature;
   feature.node = node;
-  const bool line = contact.kind == Kind::edges || (contact.kind == Kind::line && side == 1);
+  const bool lines_b = contact.kind == Kind::line || contact.kind == Kind::rim;
+  const bool line = contact.kind == Kind::edges || (lines_b && side == 1);
   if (contact.kind == Kind::face && side == 1) {
     feature.kind = TriangleFeature::Kind::plane;
     feature.side = contact.direction_b.dot(triangle.solid.faces[0].normal) < 0 ? -1 : 1;

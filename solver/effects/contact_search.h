@@ -26,11 +26,12 @@
 // features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
-// one of its shapes, by more than the tolerance's share of r there (of cylinders by what a plane is off their
-// side, too), leaves the step, unless the shapes have it there, as those that lie corner on corner do; its
-// pair is looked at again from then on, along the way from the start, too, so that nothing thin is passed for
-// it. What takes its place is as far apart there as it is: what slides under the convex law hovers. A contact
-// of two edges that is stated as a plane is stated as the edges.
+// one of its shapes, by more than the tolerance's share of r there, leaves the step, unless the shapes have
+// it there, as those that lie corner on corner do; and so does one of what is round where convex shapes have
+// come to be in each other by other features. Its pair is looked at again from then on, along the way from
+// the start, too, so that nothing thin is passed for it. What takes its place is as far apart there as it is:
+// what slides under the convex law hovers. A contact of two edges that is stated as a plane is stated as the
+// edges.
 #pragma once
 
 #include <array>
@@ -200,6 +201,7 @@ class ContactSearch {
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
   bool begins_cut(const Pair& pair) const;
+  bool is_round(int collider) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
@@ -215,10 +217,10 @@ class ContactSearch {
   bool see_overlaps(const Configuration& start, const Configuration& end, const ContactLists& contacts);
 
   // Contacts that leave their features: left_contacts.cpp.
-  bool is_cylinder(int collider) const;
   double beside(const std::array<int, 2>& pair) const;
   bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
+  bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;
   std::optional<ActiveContact> as_edges(const ActiveContact& contact, const Configuration& start,
                                         const Configuration& end);

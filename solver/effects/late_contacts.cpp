@@ -58,6 +58,13 @@ bool ContactSearch::begins_cut(const Pair& pair) const {
   return pair.deepest < -pair.overlooked && motions_[pair.collider[1]].kind == Carrier::triangle;
 }
 
+bool ContactSearch::is_round(int collider) const {
+  const Motion& own = motions_[collider];
+  if (own.kind != Carrier::body) return own.kind == Carrier::node;
+  return std::holds_alternative<Sphere>(*own.shape) || std::holds_alternative<Capsule>(*own.shape) ||
+         std::holds_alternative<Cylinder>(*own.shape);
+}
+
 /// Sets `overlapping_` to what of `found_` overlaps at `end` by more than `allowed`, and by more than at
 /// `start`: what ends less deep is on its way out, though other features were nearest there.
 void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end,
@@ -120,15 +127,21 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   double overlapping = 1;
   const double apart = entering(pair, start, end, behind, last_apart(pair, start, end, behind), overlapping);
   const double left = (overlapping - apart) * travel;
-  // What touches as they come to overlap is how they met, wherever its planes and lines lie at the start, but
-  // for the planes that stand for rims; of triangles they may lie far behind.
-  const bool rims = is_cylinder(pair.collider[0]) || is_cylinder(pair.collider[1]);
-  const double least_met = rims || two.kind == Carrier::triangle ? behind : -infinity;
-  for (const auto& [at, least] : {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}}) {
-    generate_between(pair, start, end, at, slack + left);
-    keep_overlapping(pair, start, end, allowed, least);
-    if (!overlapping_.empty()) return true;
-  }
+  // What touches as they come to overlap is how they met, wherever its planes and lines lie at the start; of
+  // triangles they may lie far behind.
+  const double least_met = two.kind == Carrier::triangle ? behind : -infinity;
+  // What is round goes round the features that its contacts have left: these tell if nothing else does.
+  const bool goes_round = is_round(pair.collider[0]) || is_round(pair.collider[1]);
+  for (const bool left_too : {!goes_round, true})
+    for (const auto& [at, least] : {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}}) {
+      generate_between(pair, start, end, at, slack + left);
+      keep_overlapping(pair, start, end, allowed, least);
+      if (!left_too)
+        std::erase_if(overlapping_, [&](const ActiveContact& contact) {
+          return is_left({contact.pair(), contact.features.key});
+        });
+      if (!overlapping_.empty()) return true;
+    }
   if (!begins_cut(pair)) return true;
   keep_deepening(pair, start, end, allowed);
   return !overlapping_.empty();

@@ -5,19 +5,9 @@
 
 namespace pbd {
 
-bool ContactSearch::is_cylinder(int collider) const {
-  const Motion& own = motions_[collider];
-  return own.kind == Carrier::body && std::holds_alternative<Cylinder>(*own.shape);
-}
-
-/// How far beside a shape its contacts may touch it, m: of cylinders by what lies between them and the planes
-/// that stand for their sides where they have moved along these, too.
+/// How far beside a shape its contacts may touch it, m.
 double ContactSearch::beside(const std::array<int, 2>& pair) const {
-  const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
-  const double round = round_radius_of(one, two);
-  if (!is_cylinder(pair[0]) && !is_cylinder(pair[1])) return besides_ * round;
-  const double travel = travel_between(one, two);
-  return besides_ * round + travel * travel / (2 * round);
+  return besides_ * round_radius_of(motions_[pair[0]], motions_[pair[1]]);
 }
 
 /// True if a collider is no farther from a point than `slack`, m.
@@ -32,15 +22,34 @@ bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuratio
   return !found_.empty();
 }
 
-/// True of what is endless, or two cylinders, too: the planes that stand for their rims are on neither.
+/// True of what is endless, too.
 bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at) {
   if (contact.of_surfaces) return true;
   const auto& [a, b] = contact.collider;
   if (std::isinf(motions_[a].radius) || std::isinf(motions_[b].radius)) return true;
-  if (is_cylinder(a) && is_cylinder(b)) return true;
   const Touching found = touching_at(contact, at);
   const double slack = beside(contact.pair());
   return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
+}
+
+/// False of a contact of what is round, whose normal turns as it moves, where its convex shapes have come to
+/// be in each other by other features, as where a ball has rolled from an edge over a face.
+bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration& start,
+                               const Configuration& end) {
+  using Kind = ContactPoint::Kind;
+  const Kind kind = contact.features.kind;
+  const auto convex = [&](int collider) {
+    const Motion& own = motions_[collider];
+    return own.kind == Carrier::body && !std::holds_alternative<ClosedMesh>(*own.shape);
+  };
+  if (kind == Kind::face || kind == Kind::edges) return true;
+  if (!convex(contact.collider[0]) || !convex(contact.collider[1])) return true;
+  const double gap = touching_at(contact, end).gap, slack = beside(contact.pair());
+  if (!(generate_between({contact.pair()}, start, end, 1, gap) < gap - slack)) return true;
+  const Pair pair = begun(contact.pair(), start);
+  generate_between(pair, start, end, 1, gap);
+  keep_overlapping(pair, start, end, std::min(gap, pair.deepest) - slack, pair.deepest - pair.overlooked);
+  return overlapping_.empty();
 }
 
 bool ContactSearch::is_left(const PairFeatures& features) const {
@@ -131,13 +140,11 @@ double ContactSearch::hovering(const std::vector<ActiveContact>& contacts, const
 }
 
 /// Of contacts of a pair that act beside their shapes at `end`, those that the shapes do not have there: what
-/// lies corner on corner is beside its shapes by rounding, or by what a solved step misses, and stays. Of
-/// cylinders all: the planes that stand for their rims are not on them.
+/// lies corner on corner is beside its shapes by rounding, or by what a solved step misses, and stays.
 void ContactSearch::keep_parted(const Configuration& start, const Configuration& end,
                                 std::vector<ActiveContact>& contacts) {
   const Pair pair{contacts.front().pair()};
-  if (is_cylinder(pair.collider[0]) || is_cylinder(pair.collider[1])) return;
-  const double slack = besides_ * round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
+  const double slack = beside(pair.collider);
   generate_between(pair, start, end, 1, slack + hovering(contacts, end));
   std::erase_if(contacts, [&](const ActiveContact& contact) {
     return std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
@@ -193,7 +200,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
         add_late(*edges, contact.target);
         continue;
       }
-      if (contact.restitution > 0 || on_shapes(contact, end)) continue;
+      if (contact.restitution > 0 || (on_shapes(contact, end) && is_nearest(contact, start, end))) continue;
       if (left.empty() || left.back().front().pair() != features.collider) left.emplace_back();
       left.back().push_back(contact);
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "polyhedron.h"
+#include "ways_apart.h"
 
 using namespace pbd;
 using reference::DistanceBounds;

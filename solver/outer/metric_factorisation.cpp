@@ -10,7 +10,7 @@ namespace {
 /// The lower triangle of M + s d K in the pattern of L.
 template <int B>
 void assemble(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
-              const std::vector<MetricEntry>& entries, std::vector<double>& number) {
+              const std::vector<MetricEntry>& entries, PanelNumbers<double>& number) {
   using Block = Eigen::Matrix<double, B, B>;
   number.assign(pattern.place.back() * B * B, 0.0);
   const auto add = [&](int row, int column, const Block& block) {
@@ -36,7 +36,7 @@ void assemble(const FactorPattern& pattern, const std::vector<double>& inverse_m
 template <int B>
 class Factorisation {
  public:
-  Factorisation(const FactorPattern& pattern, std::vector<double>& number)
+  Factorisation(const FactorPattern& pattern, PanelNumbers<double>& number)
       : pattern_(pattern),
         number_(number),
         waiting_(pattern.panels(), -1),
@@ -127,7 +127,7 @@ class Factorisation {
   }
 
   const FactorPattern& pattern_;
-  std::vector<double>& number_;
+  PanelNumbers<double>& number_;
   std::vector<int> waiting_, next_, at_;  // by panels
   std::vector<int> slot_;                 // in the panel, of each row that it has
   Eigen::VectorXd stiffness_;
@@ -137,18 +137,18 @@ class Factorisation {
 }  // namespace
 
 template <int B>
-std::vector<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
-                               const std::vector<MetricEntry>& entries, std::vector<double> number) {
+PanelNumbers<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
+                                const std::vector<MetricEntry>& entries, PanelNumbers<double> number) {
   assemble<B>(pattern, inverse_mass, entries, number);
   Factorisation<B>(pattern, number).run();
   return number;
 }
-template std::vector<double> factorised<1>(const FactorPattern&, const std::vector<double>&,
-                                           const std::vector<MetricEntry>&, std::vector<double>);
-template std::vector<double> factorised<3>(const FactorPattern&, const std::vector<double>&,
-                                           const std::vector<MetricEntry>&, std::vector<double>);
+template PanelNumbers<double> factorised<1>(const FactorPattern&, const std::vector<double>&,
+                                            const std::vector<MetricEntry>&, PanelNumbers<double>);
+template PanelNumbers<double> factorised<3>(const FactorPattern&, const std::vector<double>&,
+                                            const std::vector<MetricEntry>&, PanelNumbers<double>);
 
-double pivot_ratio(const FactorPattern& pattern, const std::vector<double>& number) {
+double pivot_ratio(const FactorPattern& pattern, const PanelNumbers<double>& number) {
   double least = infinity, largest = 0;
   for (int s = 0; s < pattern.panels(); ++s) {
     const auto diagonal = panel_of<3>(pattern, number, s).diagonal();

@@ -43,6 +43,11 @@ struct FactorPattern {
   double products() const;
 };
 
+/// The numbers of all panels. Where they begin is aligned, since products are rounded by where their rows
+/// lie.
+template <class Real>
+using PanelNumbers = std::vector<Real, Eigen::aligned_allocator<Real>>;
+
 /// The matrix of panel s, of B x B blocks, in the numbers of all panels.
 template <int B, class Numbers>
 auto panel_of(const FactorPattern& pattern, Numbers& number, int s) {

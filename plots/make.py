@@ -24,13 +24,13 @@ import generated_scenes  # noqa: F401
 import inexact  # noqa: F401
 import inner_convergence  # noqa: F401
 import joints  # noqa: F401
+import large_scenes  # noqa: F401
 import late_friction  # noqa: F401
 import judges  # noqa: F401
 import mesh_refinement  # noqa: F401
 import outer_convergence  # noqa: F401
 import point_hard_cases  # noqa: F401
 import redundant  # noqa: F401
-import large_scenes  # noqa: F401
 import rival_newton  # noqa: F401
 import rotation  # noqa: F401
 import scenes  # noqa: F401

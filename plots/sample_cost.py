@@ -130,8 +130,7 @@ def large_scenes(directory):
             for scene, unit in (("solid", "tetrahedra"), ("cloth", "cells")) for size in (1e4, 9e4, 3e5)
             for method, factor in (("quasi_newton", 1), ("newton", 5)) for target in (1e-3, 1e-6)]
     rows += [("columns", "boxes", 1e4, 6e4, "auto", target, 1, 0.1, 0.2, 50, target / 2, "ok", "") for target in (1e-3, 1e-6)]
-    write(directory, "large_scenes", "steps", "scene unit size unknowns method error_target iterations setup_s wall_s memory_mb error status reason",
-          rows)
+    write(directory, "large_scenes", "steps", tables.TABLES["large_scenes", "steps"], rows)
 
 
 def frame_scaling(directory):

@@ -14,6 +14,15 @@ const Vec3& end_of(const PlacedSurface& own, std::size_t edge, std::size_t which
   return own.x[static_cast<std::size_t>(own.surface.edge[edge][which])];
 }
 
+/// Whether features of both have a node in common.
+bool share_corner(const FeaturePair& pair) {
+  for (int i = 0; i < pair.a.count; ++i)
+    for (int k = 0; k < pair.b.count; ++k)
+      if (pair.a.corner[static_cast<std::size_t>(i)].node == pair.b.corner[static_cast<std::size_t>(k)].node)
+        return true;
+  return false;
+}
+
 /// What all of a surface's points may touch of another, but for what is beside edges and corners.
 void all_over_faces(const PlacedSurface& a, const PlacedSurface& b, const Between& both) {
   if (a.surface.plane) return;  // it has none
@@ -30,14 +39,6 @@ FeaturePair Between::pair_of(const PlacedSurface& a, int kind_a, std::size_t i, 
   pair.surface = {a.surface.side, b.surface.side};
   pair.name = {a.surface.side, kind_a, static_cast<int>(i), b.surface.side, kind_b, static_cast<int>(k)};
   return pair;
-}
-
-bool share_corner(const FeaturePair& pair) {
-  for (int i = 0; i < pair.a.count; ++i)
-    for (int k = 0; k < pair.b.count; ++k)
-      if (pair.a.corner[static_cast<std::size_t>(i)].node == pair.b.corner[static_cast<std::size_t>(k)].node)
-        return true;
-  return false;
 }
 
 /// Turns the normal so that the gap was positive where the step began.

@@ -60,7 +60,4 @@ void Between::each_near(const PlacedSurface& a, int kind_a, const PlacedSurface&
       if (b.surface.plane || boxes_a[i].near(boxes_b[k], apart)) f(i, k);
 }
 
-/// Whether two of the nodes or bodies' corners are the same node.
-bool share_corner(const FeaturePair& pair);
-
 }  // namespace pbd::reference

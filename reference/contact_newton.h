@@ -12,11 +12,11 @@
 // the faster the less the bodies turn in a step. Features are searched at every iterate, near the solution by
 // its own pose alone.
 //
-// With a map of ContactStart it is that integrator's step. Limits: no damped point joints or attachments, and
-// not the laws box and disc.
-// After the work of ContactStart it gives up. Overlaps that a missed step has left part as `recovery` says,
-// not by a tenth. Coulomb's law may have several solutions, and where it leaves velocities open other solvers
-// find others.
+// With a map of ContactStart it is that integrator's step. After the work of ContactStart it gives up.
+//
+// Limits: no damped point joints or attachments, and not the laws box and disc. Overlaps that a missed step
+// has left part as `recovery` says, not by a tenth. Coulomb's law may have several solutions, and where it
+// leaves velocities open other solvers find others.
 #pragma once
 
 #include "contact_linear.h"

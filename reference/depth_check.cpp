@@ -3,6 +3,7 @@
 
 #include "contact_check.h"
 #include "touching_sides.h"
+#include "ways_apart.h"
 
 namespace pbd::reference {
 namespace {
@@ -61,17 +62,15 @@ void Depths::check(int i, int j) {
   const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
   if (far(i, j, a, b) || !(sides_.inverse_mass(i, 1) + sides_.inverse_mass(j, 1) > 0)) return;
   if (!may_touch(claim_.scene, contact_, sides_.side(i), sides_.side(j))) return;
-  const auto half_space = [](const PlacedShape& own) {
-    return std::holds_alternative<HalfSpace>(*own.shape);
-  };
-  if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space(a) && !half_space(b))
+  const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
+  if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space)
     return findings_.leave_out("depth: closed meshes");
   const ContactLaw& law = sides_.law(i, j);
   if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
   if (law.restitution > 0 && !is_euler_step(claim_))
     return findings_.leave_out("depth: where shapes bounce, by this integrator");
   std::vector<Vec3> ways;
-  if (!half_space(a) && !half_space(b))
+  if (!half_space)
     for (const ClaimedContact& claimed : claim_.contacts) {
       if (claimed.collider == std::array{i, j}) ways.push_back(claimed.normal);
       if (claimed.collider == std::array{j, i}) ways.emplace_back(-claimed.normal);
@@ -90,7 +89,7 @@ DistanceBounds Depths::over_triangle(int i, const std::array<int, 3>& nodes, con
   const PlacedShape shape = sides_.placed(i, state);
   std::array<Vec3, 3> corner;
   for (const std::size_t k : {0, 1, 2}) corner[k] = state.x.col(nodes[k]);
-  if (!std::holds_alternative<HalfSpace>(*shape.shape)) return distance(shape, corner);
+  if (!is_half_space(*shape.shape)) return distance(shape, corner);
   double least = infinity;
   for (const Vec3& x : corner)
     least = std::min(least, shape.frame.rotation.col(2).dot(x - shape.frame.origin));

@@ -26,13 +26,13 @@
 // Contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with what they brought,
 // so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in the body's own axes.
 // Impulses of contacts act over h. A step that is the first one, or does not begin where the last one ended,
-// knows q and a by the compliant constraints' values. BDF2, all where a constraint is hard, and generalised
-// alpha in contact begin with implicit Euler, and so are steps of BDF2 and generalised alpha in which things
-// strike. Whether something strikes the solver decides; here it is read from the step's own places and
-// velocities, which only one of both maps leads to (where both do, nothing moves).
+// knows q and a by the compliant constraints' values. BDF2, generalised alpha in contact, and where a
+// constraint is hard all but the midpoint rule, begin with a step of implicit Euler. So are steps of BDF2 and
+// generalised alpha in which things strike. Whether something strikes the solver decides; here it is read
+// from the step's own places and velocities, which only one of both maps leads to (where both do, nothing
+// moves).
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "method.h"
@@ -41,11 +41,7 @@
 
 namespace pbd::reference {
 
-/// Whose steps the judges state.
-inline constexpr std::array<std::string_view, 5> judged_integrators{"implicit_euler", "newmark", "bdf2",
-                                                                    "generalised_alpha", "midpoint"};
-
-/// Throws SetupError, which says `where`, for other integrators.
+/// Throws SetupError, which says `where`, for an integrator whose steps the judges do not state.
 void require_judged(std::string_view integrator, const std::string& where);
 
 /// Follows a motion step by step.

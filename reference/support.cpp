@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "polyhedron.h"
-
 namespace pbd::reference {
 namespace {
 
@@ -36,12 +34,8 @@ struct Farthest {
   Vec3 end(double length) const { return Vec3::UnitZ() * std::copysign(length / 2, u.z()); }
 };
 
-bool is_half_space(const PlacedShape& placed) {
-  return std::holds_alternative<HalfSpace>(*placed.shape);
-}
-
 double support(const PlacedShape& placed, const Vec3& u) {
-  if (!is_half_space(placed)) return u.dot(farthest_point(placed, u));
+  if (!is_half_space(*placed.shape)) return u.dot(farthest_point(placed, u));
   constexpr double same = 1e-9;  // of a unit vector that is the normal but for rounding
   const Vec3 normal = placed.frame.rotation.col(2);
   return (u - normal).norm() <= same ? u.dot(placed.frame.origin) : infinity;
@@ -142,74 +136,6 @@ Vec3 farthest_corner(const std::array<Vec3, 3>& triangle, const Vec3& u) {
                            [&](const Vec3& x, const Vec3& y) { return u.dot(x) < u.dot(y); });
 }
 
-void add_normals(const PlacedShape& placed, double sign, std::vector<Vec3>& ways) {
-  const Eigen::Matrix3d& turn = placed.frame.rotation;
-  if (const auto* hull = std::get_if<ConvexHull>(placed.shape)) {
-    for (const auto& face : hull->solid.faces) ways.emplace_back(sign * (turn * face.normal));
-    return;
-  }
-  if (std::holds_alternative<Sphere>(*placed.shape)) return;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {1.0, -1.0}) ways.emplace_back(side * turn.col(axis));
-}
-
-/// The corners of what a shape is rounded about; of a cylinder the ends of its axis. In the world.
-struct CoreOf {
-  Points operator()(std::monostate) const { return Vec3::Zero(); }
-  Points operator()(const Sphere&) const { return Vec3::Zero(); }
-  Points operator()(const Box& shape) const { return box_surface(shape.size).x; }
-  Points operator()(const Cylinder& shape) const { return axis(shape.length); }
-  Points operator()(const Capsule& shape) const { return axis(shape.length); }
-  Points operator()(const ClosedMesh& shape) const { return shape.surface.x; }
-  Points operator()(const ConvexHull& shape) const { return shape.surface.x; }
-  Points operator()(const HalfSpace&) const { return Vec3::Zero(); }
-
-  static Points axis(double length) {
-    Points ends = Points::Zero(3, 2);
-    ends.row(2) << -length / 2, length / 2;
-    return ends;
-  }
-};
-
-Points core_of(const PlacedShape& placed) {
-  return (placed.frame.rotation * std::visit(CoreOf{}, *placed.shape)).colwise() + placed.frame.origin;
-}
-
-/// The directions of a polyhedron's edges, and of the axes of what is round, in the world; parallel ones
-/// once.
-std::vector<Vec3> edge_directions(const PlacedShape& placed) {
-  const Eigen::Matrix3d& turn = placed.frame.rotation;
-  std::vector<Vec3> directions;
-  if (const auto* hull = std::get_if<ConvexHull>(placed.shape)) {
-    constexpr double parallel = 1e-12;  // sine: of directions that make no other normal
-    for (const auto& edge : hull->solid.edges) {
-      const Vec3 along =
-          turn * (hull->solid.x.col(edge.node[1]) - hull->solid.x.col(edge.node[0])).normalized();
-      const bool known = std::any_of(directions.begin(), directions.end(), [&](const Vec3& other) {
-        return along.cross(other).norm() <= parallel;
-      });
-      if (!known) directions.push_back(along);
-    }
-  } else if (std::holds_alternative<Box>(*placed.shape)) {
-    for (int axis = 0; axis < 3; ++axis) directions.push_back(turn.col(axis));
-  } else if (!std::holds_alternative<Sphere>(*placed.shape)) {
-    directions.push_back(turn.col(2));
-  }
-  return directions;
-}
-
-/// The unit vectors across an edge of each.
-void add_across_edges(const PlacedShape& a, const PlacedShape& b, std::vector<Vec3>& ways) {
-  const std::vector<Vec3> of_b = edge_directions(b);
-  for (const Vec3& one : edge_directions(a))
-    for (const Vec3& two : of_b) {
-      const Vec3 across = one.cross(two);
-      if (!(across.norm() > 0)) continue;
-      ways.push_back(across.normalized());
-      ways.push_back(-ways.back());
-    }
-}
-
 struct SizeOf {
   Size operator()(std::monostate) const { return {0, 0}; }
   Size operator()(const Sphere& shape) const { return {shape.radius, shape.radius}; }
@@ -239,23 +165,6 @@ double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n) {
   return -support(a, -n) - support(b, n);
 }
 
-std::vector<Vec3> ways_apart(const PlacedShape& a, const PlacedShape& b) {
-  if (is_half_space(b)) return {b.frame.rotation.col(2)};
-  if (is_half_space(a)) return {-a.frame.rotation.col(2)};
-  std::vector<Vec3> ways;
-  const Vec3 between = a.frame.origin - b.frame.origin;
-  if (between.norm() > 0) ways.push_back(between.normalized());
-  add_normals(a, -1, ways);
-  add_normals(b, 1, ways);
-  // What is apart along one of these is not in each other: the others are not needed.
-  if (!(separation(a, b, ways) < 0)) return ways;
-  if (const DistanceBounds cores = distance(core_of(a), core_of(b)); cores.proved > 0)
-    ways.push_back(cores.along);
-  else
-    add_across_edges(a, b, ways);
-  return ways;
-}
-
 double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways) {
   double largest = -infinity;
   for (const Vec3& n : ways) largest = std::max(largest, separation(a, b, n));
@@ -266,7 +175,7 @@ bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const
                  double& nearest) {
   nearest = separation(a, b, ways);
   if (nearest >= -depth) return false;
-  if (is_half_space(a) || is_half_space(b)) return true;
+  if (is_half_space(*a.shape) || is_half_space(*b.shape)) return true;
   for (const Vec3& way : ways) {
     Vec3 n = way;
     const bool apart = parts(a, b, depth * way, n);
@@ -287,6 +196,10 @@ DistanceBounds distance(const Points& a, const Points& b) {
 
 Size size_of(const Shape& shape) {
   return std::visit(SizeOf{}, shape);
+}
+
+bool is_half_space(const Shape& shape) {
+  return std::holds_alternative<HalfSpace>(shape);
 }
 
 bool is_convex(const Shape& shape) {

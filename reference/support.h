@@ -8,13 +8,8 @@
 // nearest to the origin (gilbert1988fast): its direction is the n of the proof, a simplex around the origin
 // the witness that there is none.
 //
-// What is rounded about a polyhedron, a segment or a point is as deep in another such shape as the radii make
-// it along the line between what they are rounded about, or, where these meet, along a face's normal or
-// across an edge of each (gottschalk1996obbtree): all of these are tried.
-//
-// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. Of cylinders
-// `deeper_than` tries these ways and those it finds from them, so that its yes is sure of them alone; its no
-// is a proof.
+// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. `deeper_than`
+// tries the ways it is given and those it finds from them: its no is a proof, its yes is sure of these alone.
 #pragma once
 
 #include <array>
@@ -37,11 +32,7 @@ Vec3 farthest_point(const PlacedShape& placed, const Vec3& direction);
 /// sep(n), m.
 double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n);
 
-/// Unit vectors along which the shapes may well part: a half space's normal, else the line of the centres,
-/// the normals of faces and, if none of these parts them, those above.
-std::vector<Vec3> ways_apart(const PlacedShape& a, const PlacedShape& b);
-
-/// The largest sep(n) over the ways, m.
+/// The largest sep(n) over unit vectors, m; -infinity without any.
 double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways);
 
 /// Whether no shift of a by `depth` (m) along one of the ways makes the shapes disjoint. `nearest` is the
@@ -69,6 +60,8 @@ struct Size {
   double outer, round;
 };
 Size size_of(const Shape& shape);
+
+bool is_half_space(const Shape& shape);
 
 /// False of a closed mesh and of no shape.
 bool is_convex(const Shape& shape);

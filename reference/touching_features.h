@@ -38,8 +38,8 @@ struct Nearest {
   Vec3 place = Vec3::Zero();                      // m, where a force acts on both
   Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();  // m, of what is rounded
   std::array<std::array<double, 3>, 2> weight{};  // of the corners of a and b
-  double crossing =
-      1;  // sine of the angle at which two lines, or a rim and a line or rim, without radii cross
+  /// Sine of the angle at which two lines, or a rim and a line or rim, without radii cross.
+  double crossing = 1;
 };
 
 Vec3 placed(const Corner& corner, const Placement& at);

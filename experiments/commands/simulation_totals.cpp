@@ -7,7 +7,7 @@
 
 namespace pbdcheck {
 
-bool WorstStep::less(const pbd::Report& report) const {
+bool WorstStep::is_less_than(const pbd::Report& report) const {
   return !std::isnan(residual) && !(report.residual() <= residual);
 }
 
@@ -28,10 +28,12 @@ void SimulationTotals::add(const pbd::Report& report, int parts,
   outer_iterations += report.outer_iterations;
   sweeps += report.sweeps;
   row_updates += report.row_updates;
-  const bool missed = report.status != pbd::Status::ok;
-  for (WorstStep* each : {&worst, &worst_missed})
-    if ((each == &worst || missed) && each->less(report))
-      *each = {report.residual(), steps, report.worst ? name(*report.worst) : "", std::string(report.reason)};
+  const auto take = [&](WorstStep& own) {
+    if (own.is_less_than(report))
+      own = {report.residual(), steps, report.worst ? name(*report.worst) : "", std::string(report.reason)};
+  };
+  take(worst);
+  if (report.status != pbd::Status::ok) take(worst_missed);
 }
 
 nlohmann::ordered_json report_json(const SimulationTotals& totals, const pbd::Workspace& workspace) {

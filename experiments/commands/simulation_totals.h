@@ -18,7 +18,8 @@ struct WorstStep {
   std::string constraint{};  // most of it; empty where none is told
   std::string reason{};      // why it is not ok; empty if it is
 
-  bool less(const pbd::Report& report) const;
+  /// True if the report's residual is larger, or NaN where this one is not.
+  bool is_less_than(const pbd::Report& report) const;
   /// For people.
   std::string text() const;
 };

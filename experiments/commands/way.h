@@ -16,7 +16,7 @@ struct Way {
   pbd::Workspace workspace;
   pbd::State state;
   pbd::reference::IntegratorMemory memory;
-  int missed = 0;  // that missed their tolerance
+  int missed = 0;  // steps that missed their tolerance
 
   /// `integrator` is that of the compared step. The file is to stay where it is.
   Way(SceneFile& own, const std::string& integrator);
@@ -24,8 +24,8 @@ struct Way {
   /// Makes `steps` steps. Throws std::runtime_error if one diverged.
   void go(int steps);
 
-  /// The compared step's, none of implicit Euler. Whether something strikes in it the scene's own method
-  /// says.
+  /// The compared step's; none if that is implicit Euler's. The scene's own method says whether something
+  /// strikes in it.
   std::optional<pbd::reference::IntegratorMap> map() const;
 };
 

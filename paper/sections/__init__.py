@@ -9,13 +9,15 @@ from sections.bodies import joints, redundant, rotation
 from sections.bench import contact_hard_cases, simbenchmark
 from sections.cones import cone_problems, friction_cone
 from sections.contacts import convex_gap, coupling, friction_isotropy, incline, restitution, stack, stopping
-from sections.cost import effects_cost, frame_scaling, large_scenes, rival_newton, threads, work_precision
+from sections.cost import frame_scaling, threads, work_precision
+from sections.effects import effects_cost
 from sections.elements import fem_vs_springs
 from sections.energy import energy
 from sections.motion import damping, direction
 from sections.outer import contact_contraction, contraction, outer_convergence, stability_map
 from sections.relaxations import conditioning, inexact, inner_convergence
 from sections.sweeps import contact_convergence, late_friction, softness
+from sections.rivals import large_scenes, rival_newton
 from sections.robustness import generated_scenes, generated_worlds, point_hard_cases, tunnelling
 from sections.scenes import contact_scenes, figure_1, judged_frames
 from sections.time import time_order

@@ -1,4 +1,4 @@
-"""What accuracy and effects cost."""
+"""What accuracy, threads and larger scenes cost."""
 
 import pandas as pd
 
@@ -85,104 +85,6 @@ def fastest_table(frame):
                  ["scene", "step", *(f"error {number(level)}" for level in SHOWN)], rows, first=True)
 
 
-def rival_newton(results):
-    section = Section(
-        "When is the constraint solver faster than Newton's method?",
-        "Where every constraint is compliant, Newton's method on the incremental potential does the same step. `newton` is one "
-        "written for speed that shares no code with the solver or the judges: it factors the stiffness at each of its few "
-        "iterates. `quasi_newton` factors one constant matrix a scene [@liu2017quasi] and does many cheap iterations. One step "
-        "of a falling cantilever, as in a running simulation: what only a scene's first step takes is listed as set-up.",
-        figures=[
-            Figure("rival_newton_elements", "Wall time of a step until the error first falls to a target, over the size of "
-                   "the mesh. Crossed: not reached."),
-            Figure("rival_newton_seconds", "Error over wall time on the largest mesh.")])
-    frame = results.table("rival_newton", "times")
-    if frame is not None:
-        section.paragraphs.append(
-            "Small and middle meshes are judged by `primal_newton`. On the largest mesh of a run the reference is `newton` itself, "
-            "converged as far as rounding allows: it and `quasi_newton` share no code, so that the error `quasi_newton` ends "
-            "with there is a check of both.")
-        section.paragraphs.append(ratios_text(frame))
-        section.tables.append(rival_table(frame))
-    return section
-
-
-def paired(frame):
-    """One row a problem and target that both methods reached: wall times side by side, and their ratio."""
-    keys = ["elements", "young_pa", "poisson", "error_target"]
-    both = good(frame, "wall_s").pivot_table(index=keys, columns="method", values="wall_s", sort=False).reset_index()
-    if not {"newton", "quasi_newton"} <= set(both):
-        return both.iloc[:0].assign(ratio=[])
-    both = both.dropna()
-    return both.assign(ratio=both["quasi_newton"] / both["newton"])
-
-
-def ratios_text(frame):
-    """Ratio of the times on the largest mesh, by target and Poisson's ratio."""
-    both = paired(frame)
-    both = both[both["elements"] == both["elements"].max()]
-    parts = [f"{span(rows['ratio'])} to {number(target)} at nu = {poisson:g}"
-             for (poisson, target), rows in both.groupby(["poisson", "error_target"], sort=False)]
-    return (f"On {both['elements'].iloc[0]:.0f} tetrahedra, the time of `quasi_newton` over that of `newton` is "
-            + "; ".join(parts) + ". Below 1 the constraint solver is the faster one.") if parts else \
-        "No problem was solved by both methods."
-
-
-def rival_table(frame):
-    largest = frame[frame["elements"] == frame["elements"].max()]
-    return Table("Time to an error on the largest mesh.",
-                 ["tetrahedra", "E (Pa)", "nu", "method", "to", "iterations", "set-up (s)", "wall time (s)", "status"],
-                 [[f"{r['elements']:.0f}", number(r["young_pa"]), f"{r['poisson']:g}", f"`{r['method']}`",
-                   number(r["error_target"]), f"{r['iterations']:.0f}", number(r["setup_s"]), number(r["wall_s"]),
-                   f"`{r['status']}`"] for _, r in largest.iterrows()])
-
-
-def effects_cost(results):
-    section = Section(
-        "What does each effect cost?",
-        "Does an effect that a scene does not use cost nothing? Does one that it uses cost time in proportion to its rows?",
-        figures=[
-            Figure("effects_cost_scaling", "Wall time of one sweep and row over the number of rows: level where cost is in proportion."),
-            Figure("effects_cost_absent", "Change of a step's time by an effect that is listed and that nothing uses."),
-            Figure("effects_cost_stripped", "A sweep over links beside the least loop that does the same."),
-            Figure("effects_cost_bytes", "Memory of each effect's rows."),
-            Figure("effects_cost_seconds", "Wall time of each effect per row and step, linearising and relaxing.")])
-    scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")
-    section.tell(results.table("effects_cost", "absent"), absent_text)
-    section.tell(results.table("effects_cost", "stripped"), stripped_text)
-    if scaling is not None:
-        section.paragraphs.append("Exponents of the time per sweep over the rows: " + "; ".join(
-            f"`{name}` {span(group['exponent'])}" for name, group in scaling.groupby("relaxation", sort=False))
-            + ". An exponent of 1 is cost in proportion to the rows.")
-    if costs is not None:
-        section.tables.append(Table(
-            "Cost of each effect.", ["scene", "effect", "rows", "bytes per row", "wall time (s)"],
-            [[f"`{r['scene']}`", f"`{r['effect']}`", f"{r['rows']:.0f}",
-              number(r["bytes"] / r["rows"]) if r["rows"] else "", number(r["wall_s"])] for _, r in costs.iterrows()], first=True))
-    return section
-
-
-def absent_text(absent):
-    """What effects cost that nothing uses."""
-    change = (absent["time_ratio"] - 1).abs().where(absent["case"] == "empty")
-    idle = absent[absent["case"].str.startswith("never touches")]
-    noise = absent[absent["effect"] == "none"]
-    control = f" The same scene measured against itself differs by {number(100 * (noise['time_ratio'] - 1).abs().max())} %." if len(noise) else ""
-    told = (f"Each effect that is listed and empty changes the time of a step by {number(100 * change.max())} % at most." + control +
-            f" Together they change {absent['entries_that_differ'].sum():.0f} numbers of the result.")
-    if len(idle):
-        told += (f" Contact of nodes that never touch the ground takes {span(100 * (idle['time_ratio'] - 1))} % more of a step that does little "
-                 "else: boxes are made and compared.")
-    return told
-
-
-def stripped_text(stripped):
-    """What a sweep takes beside the least loop over one kind of rows."""
-    return ("A sweep of Gauss-Seidel over links, beside a loop that knows links alone: " + "; ".join(
-        f"{r['scene']} {number(1e9 * r['wall_s_per_sweep'] / r['rows'])} ns a link beside {number(1e9 * r['stripped_s_per_sweep'] / r['rows'])} ns, "
-        f"{number(r['ratio'])} times as long" for _, r in stripped.iterrows()) + ".")
-
-
 def threads(results):
     section = Section(
         "What do threads gain?",
@@ -226,37 +128,6 @@ def steps_table(steps):
 
 def yes(flag):
     return "yes" if flag == 1 else "no"
-
-
-def large_scenes(results):
-    section = Section(
-        "What does a step of a large scene cost in time and memory, beside Newton's method?",
-        "A cantilever of tetrahedra and a sheet let go, by `quasi_newton` and by `newton`, the rival: seconds of the second step from rest until the "
-        "error first falls to a target, and the memory that each takes at most, the scene itself left out. Of a solid `quasi_newton` factors one "
-        "constant matrix; of a sheet, whose stiffness across itself is its tension, that of the current shape, as Newton's method does. "
-        "Columns of boxes that slide are solved by `auto`, to tolerances of the residual, which stand for the error.",
-        figures=[Figure("large_scenes_costs", "Time of a step and memory over the number of unknowns.")])
-    return section.tell(results.table("large_scenes", "steps"), largest_text, large_table)
-
-
-def largest_text(steps):
-    """On which scenes quasi_newton takes more than half of Newton's time, and whether one of the two fails."""
-    times = good(steps, "wall_s").pivot_table("wall_s", ["scene", "size", "error_target"], "method", sort=False)
-    if not {"newton", "quasi_newton"} <= set(times):
-        return ""
-    ratio = (times["quasi_newton"] / times["newton"]).dropna()
-    told = [f"`{scene}`: `quasi_newton` takes {span(rows)} of Newton's time" for scene, rows in ratio.groupby(level="scene", sort=False)]
-    lost = steps[(steps["status"] != "ok")]
-    told += [f"`{r['method']}` does not reach {number(r['error_target'])} on {r['size']:.0f} {r['unit']} ({r['reason']})"
-             for _, r in lost.iterrows()]
-    return "; ".join(told) + "."
-
-
-def large_table(steps):
-    return Table("Steps of large scenes.", ["scene", "size", "unknowns", "method", "to", "iterations", "set-up (s)", "a step (s)", "MB"],
-                 [[f"`{r['scene']}`", f"{r['size']:.0f} {r['unit']}", f"{r['unknowns']:.0f}", f"`{r['method']}`", number(r["error_target"]),
-                   f"{r['iterations']:.0f}", number(r["setup_s"]), number(r["wall_s"]) if r["status"] == "ok" else r["reason"],
-                   number(r["memory_mb"])] for _, r in steps.iterrows()], first=True)
 
 
 def frame_scaling(results):

@@ -7,26 +7,21 @@
 namespace pbd {
 namespace {
 
-/// Solves constraint i alone, whose impulse is free, and adds its squared residual to `squared`.
-template <class Block>
-void solve_free_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
-                           double& squared) {
-  const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-  const typename Block::Value change = -block.inverse_diagonal[i] * r;
-  squared -= r.dot(change);
-  block.impulse[i] += change;
-  block.apply(inverse_mass, i, change, v);
-}
-
-/// Solves constraint i alone, and adds its squared residual to `squared`.
-template <class Block>
+/// Solves constraint i alone, and adds its squared residual to `squared`. `bounded` may be false of a block
+/// whose impulses have no bounds: it is quicker so.
+template <bool bounded, class Block>
 void solve_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
                       double& squared) {
   const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-  typename Block::Value change = allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
-  squared += squared_residual(block, i, r, change);  // all that this change is for with friction
-  if constexpr (Block::rows == 3)
-    if (block.frictional()) change = solved_impulse(block, i, r) - block.impulse[i];
+  typename Block::Value change = -block.inverse_diagonal[i] * r;
+  if constexpr (bounded) {
+    change = allowed(block, i, block.impulse[i], change);
+    squared += squared_residual(block, i, r, change);  // all that this change is for with friction
+    if constexpr (Block::rows == 3)
+      if (block.frictional()) change = solved_impulse(block, i, r) - block.impulse[i];
+  } else {
+    squared -= r.dot(change);
+  }
   block.impulse[i] += change;
   block.apply(inverse_mass, i, change, v);
 }
@@ -38,10 +33,10 @@ Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) PBD_FLATTEN {
     if (block.bounded())
       for (std::size_t i = 0; i < block.size(); ++i)
-        solve_constraint(rows.inverse_mass, block, i, v, squared);
+        solve_constraint<true>(rows.inverse_mass, block, i, v, squared);
     else
       for (std::size_t i = 0; i < block.size(); ++i)
-        solve_free_constraint(rows.inverse_mass, block, i, v, squared);
+        solve_constraint<false>(rows.inverse_mass, block, i, v, squared);
   });
   return {std::sqrt(squared)};
 }
@@ -49,8 +44,9 @@ Sweep GaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
 Sweep ColouredGaussSeidel::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   double squared = 0;
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t) {
-    add_scattered(block, squared,
-                  [&](std::size_t i, double& sum) { solve_constraint(rows.inverse_mass, block, i, v, sum); });
+    add_scattered(block, squared, [&](std::size_t i, double& sum) {
+      solve_constraint<true>(rows.inverse_mass, block, i, v, sum);
+    });
   });
   return {std::sqrt(squared)};
 }

@@ -24,8 +24,8 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
     factor_ = MetricFactor<1, double>{factorised<1>(pattern_, inverse_mass, entries, {})};
   } else {
     auto* last = std::get_if<MetricFactor<3, double>>(&factor_);
-    std::vector<double> number = factorised<3>(pattern_, inverse_mass, entries,
-                                               last ? std::move(last->number) : std::vector<double>());
+    PanelNumbers<double> number = factorised<3>(pattern_, inverse_mass, entries,
+                                                last ? std::move(last->number) : PanelNumbers<double>());
     if (shape == MetricShape::rest && pivot_ratio(pattern_, number) >= single_precision)
       factor_ = MetricFactor<3, float>{{number.begin(), number.end()}};
     else

@@ -19,8 +19,8 @@ struct FactorReach {
 /// L of B x B blocks. With B = 1 the same L serves x, y and z.
 template <int B, class Real>
 struct MetricFactor {
-  std::vector<Real> number;  // of the panels; the inverse in the place of diagonal blocks
-  Points part = {};          // of x, that belongs to a panel's rows
+  PanelNumbers<Real> number;  // of the panels; the inverse in the place of diagonal blocks
+  Points part = {};           // of x, that belongs to a panel's rows
 
   /// Solves L L^T x = b in place, one column a block column of L.
   void solve(const FactorPattern& pattern, Points& x);
@@ -31,11 +31,11 @@ struct MetricFactor {
 /// The factor of M + the entries (B = 1: one number a block, their mean diagonal), in the memory of `number`.
 /// A pivot lost to rounding counts as stiff.
 template <int B>
-std::vector<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
-                               const std::vector<MetricEntry>& entries, std::vector<double> number);
+PanelNumbers<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
+                                const std::vector<MetricEntry>& entries, PanelNumbers<double> number);
 
 /// Smallest over largest pivot of a factor of 3 x 3 blocks, squared: of the order of the matrix's smallest
 /// over largest eigenvalue.
-double pivot_ratio(const FactorPattern& pattern, const std::vector<double>& number);
+double pivot_ratio(const FactorPattern& pattern, const PanelNumbers<double>& number);
 
 }  // namespace pbd

@@ -5,8 +5,10 @@
 // multiplied as one dense matrix; panels of few columns take in the next one where that stores few zeros.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "rows/source.h"
@@ -28,13 +30,31 @@ struct FactorPattern {
   int panels() const { return static_cast<int>(place.size()) - 1; }
   int width(int s) const { return first[s + 1] - first[s]; }
   int height(int s) const { return width(s) + start[s + 1] - start[s]; }
-  /// The row of a panel's matrix that block row i of L has in it; it is there.
+  /// The row of L that row k of a panel's matrix is of; both counted in blocks.
+  int row_at(int s, int k) const {
+    const int below = k - width(s);
+    return below < 0 ? first[s] + k : row[start[s] + below];
+  }
+  /// The row of a panel's matrix that row i of L, which it has, is in it.
   int row_in(int s, int i) const;
 
   bool is_of(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries) const;
   /// Multiplications of blocks that the factorisation takes.
   double products() const;
 };
+
+/// The numbers of all panels. Where they begin is aligned, since products are rounded by where their rows
+/// lie.
+template <class Real>
+using PanelNumbers = std::vector<Real, Eigen::aligned_allocator<Real>>;
+
+/// The matrix of panel s, of B x B blocks, in the numbers of all panels.
+template <int B, class Numbers>
+auto panel_of(const FactorPattern& pattern, Numbers& number, int s) {
+  using Panel = Eigen::Matrix<typename Numbers::value_type, Eigen::Dynamic, Eigen::Dynamic>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Numbers>, const Panel, Panel>>(
+      number.data() + pattern.place[s] * B * B, B * pattern.height(s), B * pattern.width(s));
+}
 
 /// From the blocks of a matrix. Throws std::bad_alloc where METIS finds no memory.
 FactorPattern analyse(const std::vector<double>& inverse_mass, const std::vector<MetricEntry>& entries);

@@ -74,8 +74,7 @@ void QuasiNewton::begin(StepSystem& system) {
   lbfgs_.forget();
   evaluated_ = false;
   potential_.since_factor = 0;
-  lowest_ = infinity;
-  without_fall_ = 0;
+  fall_ = {};
   last_residual_ = 0;
   potential_.begin_metric(system);
 }
@@ -112,12 +111,10 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   const bool refuted =
       follows_ ? acceleration_.refuted(system, progress, 1) : acceleration_.refuted(system, progress);
   if (refuted) evaluate(system);
-  without_fall_ = progress.residual() < lowest_ ? 0 : without_fall_ + 1;
-  lowest_ = std::min(lowest_, progress.residual());
-  if (without_fall_ > patience) {
+  fall_.note(progress.residual());
+  if (fall_.iterations_since > patience) {
     acceleration_.forget();
-    without_fall_ = 0;
-    lowest_ = progress.residual();
+    fall_ = {.lowest = progress.residual()};
   }
   acceleration_.note(system);
   constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
@@ -230,13 +227,12 @@ bool QuasiNewton::arrived(const StepSystem& system, const Progress& progress) {
   if (!descends(system)) {
     constexpr int patience = 5;
     constexpr double near = 10;  // times the tolerance
-    return without_fall_ >= patience && progress.change <= near * tolerance * progress.scale;
+    return fall_.iterations_since >= patience && progress.change <= near * tolerance * progress.scale;
   }
   constexpr double well = 0.5;
-  without_fall_ = progress.primal < well * lowest_ ? 0 : without_fall_ + 1;
-  lowest_ = std::min(lowest_, progress.primal);
+  fall_.note(progress.primal, well);
   // Settling is a step of Newton's method: it leaves of an error about its square.
-  return find_direction() <= std::sqrt(tolerance) * progress.scale && without_fall_ > 0;
+  return find_direction() <= std::sqrt(tolerance) * progress.scale && fall_.iterations_since > 0;
 }
 
 /// Where nothing changes any velocity no impulse may be needed at all: what the eliminated rows answer is
@@ -268,7 +264,7 @@ std::optional<RowResidual> QuasiNewton::settle(StepSystem& system, const Progres
 
 void QuasiNewton::unsettle(StepSystem& system) {
   constexpr int wait = 5;  // iterations, until it is tried again
-  without_fall_ = descends(system) ? -wait : 0;
+  fall_.iterations_since = descends(system) ? -wait : 0;
   system.at.v = search_from_;
   evaluate(system);
 }

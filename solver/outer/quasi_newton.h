@@ -14,6 +14,7 @@
 // pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "outer/acceleration.h"
@@ -57,9 +58,8 @@ class QuasiNewton {
   void forget() {
     evaluated_ = false;
     acceleration_.forget();
-    lowest_ = infinity;
     last_residual_ = 0;
-    without_fall_ = 0;
+    fall_ = {};
   }
 
   /// The stiffness of an effect is another now.
@@ -83,6 +83,17 @@ class QuasiNewton {
 
   enum class Dual : std::uint8_t { none, hard_rows, contacts };  // besides what is eliminated
 
+  /// The lowest residual, sqrt(J), and iterations since one was below a share of the lowest before it.
+  struct Fall {
+    double lowest = infinity;
+    int iterations_since = 0;
+
+    void note(double residual, double share = 1) {
+      iterations_since = residual < share * lowest ? 0 : iterations_since + 1;
+      lowest = std::min(lowest, residual);
+    }
+  };
+
   Dual dual_ = Dual::none;
   bool bodies_move_ = false;
   bool follows_ = false;  // the metric is that of the current shape
@@ -94,8 +105,7 @@ class QuasiNewton {
   bool evaluated_ = false;    // the potential and the impulses are those of v
   double slope_ = 0;          // of the potential along `direction`, J
   Points last_gradient_, direction_, search_from_, zero_;
-  double lowest_ = infinity;  // residual of this step, primal where it descends,
-  int without_fall_ = 0;      // and iterations since
+  Fall fall_;  // of this step's residual, where it descends the primal one
 
   // Where rows are left dual.
   HardRows hard_rows_;

@@ -1,4 +1,4 @@
-// Steps with contact that have a by_hand form, and agreement of the two cone solvers where there is none.
+// Steps with contact that have a closed form, and agreement of the two cone solvers where there is none.
 #include "contact_newton.h"
 
 #include <catch2/catch.hpp>

@@ -74,13 +74,13 @@ TEST_CASE("a cylinder stands on boxes that its centre is over, wherever their ed
   // Turned so that of the points on its rim that stand on the box none is on its centre's side of the edge.
   const Eigen::Quaterniond away = turned(pi / 8, Vec3::UnitZ());
   for (const Shape& box : boxes({0.4, 0.5, 0.2})) {
-    BodyScene build({.friction = 0.5}, pbdcheck::gravity);
+    BodyScene build({.friction = 0.5}, gravity);
     build.fixed(box, {.position = {-0.2 + 0.02, 0, -0.1}});
     build.cylinder(tube_radius, tube_length, 2, {.position = {0, 0, tube_length / 2}, .orientation = away});
     check_at_rest(build);
   }
   for (const Shape& narrow : boxes({0.05, 0.06, 0.2})) {
-    BodyScene build({.friction = 0.5}, pbdcheck::gravity);
+    BodyScene build({.friction = 0.5}, gravity);
     build.fixed(narrow, {.position = {0.02, 0, -0.1}});
     build.cylinder(tube_radius, tube_length, 2, {.position = {0, 0, tube_length / 2}});
     check_at_rest(build);
@@ -89,7 +89,7 @@ TEST_CASE("a cylinder stands on boxes that its centre is over, wherever their ed
 
 TEST_CASE("a cylinder stands on rails") {
   const Shape rail = Capsule{0.02, 1};
-  BodyScene on_rails({.friction = 0.5}, pbdcheck::gravity);
+  BodyScene on_rails({.friction = 0.5}, gravity);
   for (const double x : {-0.03, 0.05})
     on_rails.fixed(rail, {.position = {x, 0.1, -0.02}, .orientation = along_y});
   on_rails.cylinder(tube_radius, tube_length, 2, {.position = {0, 0, tube_length / 2}});
@@ -97,10 +97,10 @@ TEST_CASE("a cylinder stands on rails") {
 }
 
 TEST_CASE("a cylinder that lies on a wide or a narrow box slips and turns as by hand") {
-  const double friction = 0.2, slowed = friction * pbdcheck::gravity * judged_step_s;
+  const double friction = 0.2, slowed = friction * gravity * judged_step_s;
   for (const double width : {1.0, 0.2})
     for (const Shape& box : boxes({1, width, 0.2})) {
-      BodyScene build({.friction = friction}, pbdcheck::gravity);
+      BodyScene build({.friction = friction}, gravity);
       build.fixed(box, {.position = {0, 0, -0.1}});
       build.cylinder(tube_radius, tube_length, 2,
                      {.position = {0, 0.03, tube_radius}, .orientation = along_y, .velocity = {1, 0, 0}});
@@ -130,7 +130,7 @@ TEST_CASE("cylinders end on each other's sides where their axes are both radii a
 }
 
 TEST_CASE("a cylinder's rim ends on another's side at its radius from the axis") {
-  BodyScene build({.friction = 0.3}, pbdcheck::gravity);
+  BodyScene build({.friction = 0.3}, gravity);
   build.fixed(Cylinder{0.2, 1}, {.position = Vec3::Zero(), .orientation = along_y});
   build.cylinder(tube_radius, tube_length, 2, falling_on({0.08, 0, 0.2}, {0.5, 0.4, 0}, 0.21));
   const auto j = judged(build.finish());
@@ -150,14 +150,14 @@ TEST_CASE("an upright cylinder's rim ends on the side of one that lies along it"
 }
 
 TEST_CASE("a cylinder's rim ends on a box's edge and on another's rim") {
-  BodyScene on_edge({.friction = 0.3}, pbdcheck::gravity);
+  BodyScene on_edge({.friction = 0.3}, gravity);
   on_edge.fixed(Box{{0.4, 1, 0.2}}, {.position = {-0.2, 0, -0.1}});
   on_edge.cylinder(tube_radius, tube_length, 2, falling_on({0.03, 0, 0}, {0.3, 0.4, 0}, 0.18));
   const auto edge = judged(on_edge.finish());
   CHECK(edge.contacts == 1);
   CHECK(least_of_rim(edge, 1, [](const Vec3& x) { return std::hypot(x.x(), x.z()); }) <= rounding);
 
-  BodyScene on_rim({.friction = 0.3}, pbdcheck::gravity);
+  BodyScene on_rim({.friction = 0.3}, gravity);
   on_rim.fixed(Cylinder{0.2, 0.5}, {.position = {-0.2, 0, -0.25}});
   on_rim.cylinder(tube_radius, tube_length, 2, falling_on({0.03, 0.08, 0}, {0.3, 0.4, 0}, 0.18));
   const auto rims = judged(on_rim.finish());
@@ -168,11 +168,11 @@ TEST_CASE("a cylinder's rim ends on a box's edge and on another's rim") {
 
 TEST_CASE("a cylinder stands on another's cap, and falls freely beyond its rim") {
   for (const double offset : {0.05, 2 * tube_radius + 0.001}) {
-    BodyScene build({.friction = 0.5}, pbdcheck::gravity);
+    BodyScene build({.friction = 0.5}, gravity);
     build.fixed(Cylinder{tube_radius, tube_length}, {.position = {0, 0, -tube_length / 2}});
     build.cylinder(tube_radius, tube_length, 2, {.position = {offset, 0, tube_length / 2}});
     const auto j = judged(build.finish());
-    const double falls = offset > 2 * tube_radius ? pbdcheck::gravity * judged_step_s : 0;
+    const double falls = offset > 2 * tube_radius ? gravity * judged_step_s : 0;
     CHECK((j.v.col(1) + falls * Vec3::UnitZ()).norm() <= by_hand);
     CHECK(j.spin.cwiseAbs().maxCoeff() <= by_hand / tube_radius);
   }

@@ -1,4 +1,4 @@
-// Steps of deformable surfaces in contact with each other that have a by_hand form.
+// Steps of deformable surfaces in contact with each other that have a closed form.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "polyhedron.h"
+#include "ways_apart.h"
 
 using namespace pbd;
 using reference::DistanceBounds;
@@ -47,6 +48,7 @@ TEST_CASE("hulls of points are as far apart as their nearest faces, edges or cor
   }
   CHECK(reference::distance(corners({0.9, 0.9, 0.9}, {2, 2, 2}), box).proved == 0);
 }
+
 TEST_CASE("shapes in each other are as deep as the least way that parts them") {
   // Boxes that cross edge on edge 0.05 m deep, and hulls of the same corners.
   const Shape box = Box{{1, 1, 1}}, hull = ConvexHull(box_surface({1, 1, 1}));

@@ -1,7 +1,6 @@
 #include "studies/cost/effects_absent.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -9,13 +8,12 @@
 #include "harness/measure.h"
 #include "scenes/contacts.h"
 #include "scenes/standard.h"
-#include "step/step.h"
+#include "studies/cost/fixed_work.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-using SteadyClock = std::chrono::steady_clock;
 
 /// A sheet that falls far above a ground; nothing but its links and gravity, and the ground's body.
 struct Falling {
@@ -77,44 +75,10 @@ std::vector<Added> added_scenes(const Falling& falling) {
   return all;
 }
 
-struct Run {
-  State end;
-  double seconds = 0;
-  std::int64_t bytes = 0;  // of rows
-};
-
-Run run(const Scene& scene) {
-  Method method;
-  method.relaxation = "gauss_seidel";
-  method.outer = "plain";
-  method.tolerance = 0;  // never met: every run does the same work
-  method.max_outer = 2;
-  method.max_sweeps = 10;
-  Workspace workspace(scene, method);
-  Run result{scene.initial};
-  constexpr int frames = 20;
-  const auto start = SteadyClock::now();
-  for (int k = 0; k < frames; ++k) step(workspace, 1.0 / 240, result.end);
-  result.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
-  for (const EffectCost& cost : workspace.costs()) result.bytes += cost.bytes;
-  return result;
-}
-
-/// time of a / time of b: of each repeat, from the smallest times of runs in turns, after a discarded pair.
-std::vector<double> time_ratios(const Scene& a, const Scene& b) {
-  constexpr int repeats = 5, turns = 12;
-  run(a);
-  run(b);
-  std::vector<double> all;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    double first = infinity, second = infinity;
-    for (int turn = 0; turn < turns; ++turn) {
-      first = std::min(first, run(a).seconds);
-      second = std::min(second, run(b).seconds);
-    }
-    all.push_back(first / second);
-  }
-  return all;
+std::int64_t bytes_of_rows(const FixedRun& run) {
+  std::int64_t bytes = 0;
+  for (const EffectCost& cost : run.costs) bytes += cost.bytes;
+  return bytes;
 }
 
 std::int64_t entries_that_differ(const State& a, const State& b) {
@@ -124,17 +88,18 @@ std::int64_t entries_that_differ(const State& a, const State& b) {
 }  // namespace
 
 void effects_absent(Context& context) {
+  constexpr FixedWork timed_runs{"plain", 12};
   const Falling falling;
-  const Run alone = run(falling.scene);
+  const FixedRun alone = timed_runs.run(falling.scene);
   Table table = context.table("absent", {"effect", "case", "time_ratio", "time_low", "time_high",
                                          "bytes_ratio", "entries_that_differ"});
   double differ = 0;
   WorstSpread empty, idle;
   for (const Added& added : added_scenes(falling)) {
-    const Run with = run(added.scene);
-    const Measured ratio(time_ratios(added.scene, falling.scene));
+    const FixedRun with = timed_runs.run(added.scene);
+    const Measured ratio(timed_runs.time_ratios(added.scene, falling.scene));
     const std::int64_t apart = entries_that_differ(with.end, alone.end);
-    const double bytes = static_cast<double>(with.bytes) / static_cast<double>(alone.bytes);
+    const double bytes = static_cast<double>(bytes_of_rows(with)) / static_cast<double>(bytes_of_rows(alone));
     table.row({added.effect, added.state, ratio.value, ratio.low, ratio.high, bytes, apart});
     differ += static_cast<double>(apart);
     Measured change = std::abs(ratio.value - 1);

@@ -1,23 +1,20 @@
 // What does each effect cost in rows, bytes and seconds? Is an effect that is absent, or present and empty,
 // free? Does the cost grow linearly with the scene?
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "harness/measure.h"
-#include "harness/rows_of_step.h"
 #include "scenes/contacts.h"
 #include "scenes/standard.h"
-#include "step/step.h"
 #include "studies/cost/effects_absent.h"
 #include "studies/cost/effects_scaling.h"
+#include "studies/cost/fixed_work.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
-using SteadyClock = std::chrono::steady_clock;
 
 /// Everything at once: a solid, a sheet with links, strain and bending held by anchors, and a loaded chain.
 Scene mixed() {
@@ -38,61 +35,19 @@ Scene mixed() {
   return scene;
 }
 
-constexpr int frames = 20;
-
-Method fixed_work(std::string_view relaxation = "gauss_seidel") {
-  Method method;
-  method.relaxation = relaxation;
-  method.tolerance = 0;  // never met: every run does the same work
-  method.max_outer = 2;
-  method.max_sweeps = 10;
-  return method;
-}
-
-struct RunScene {
-  State state;
-  double seconds;
-  std::vector<EffectCost> costs;
-};
-
-RunScene run_scene(const Scene& scene) {
-  const Method method = fixed_work();
-  Workspace workspace(scene, method);
-  State state = scene.initial;
-  const auto start = SteadyClock::now();
-  for (int k = 0; k < frames; ++k) step(workspace, 1.0 / 240, state);
-  const double seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
-  return {state, seconds, workspace.costs()};
-}
-
-/// time of a / time of b: of each repeat, from the smallest times of three runs in turns, after a discarded
-/// pair.
-std::vector<double> ratios(const Scene& a, const Scene& b) {
-  run_scene(a);
-  run_scene(b);
-  std::vector<double> all;
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    double first = infinity, second = infinity;
-    for (int turn = 0; turn < 3; ++turn) {
-      first = std::min(first, run_scene(a).seconds);
-      second = std::min(second, run_scene(b).seconds);
-    }
-    all.push_back(first / second);
-  }
-  return all;
-}
+constexpr FixedWork timed_runs{"auto", 3};
 
 void costs_per_effect(Context& context, Table& table) {
   const Scene scene = mixed();
-  const RunScene run = run_scene(scene);
+  const FixedRun run = timed_runs.run(scene);
   double attributed = 0;
   for (const auto& cost : run.costs) {
     attributed += cost.seconds;
-    table.row(
-        {"mixed", std::string(cost.effect), cost.rows, cost.bytes, cost.seconds, cost.seconds / frames});
+    table.row({"mixed", std::string(cost.effect), cost.rows, cost.bytes, cost.seconds,
+               cost.seconds / FixedWork::steps});
   }
   table.row({"mixed", "outside effects", std::int64_t{0}, std::int64_t{0}, run.seconds - attributed,
-             (run.seconds - attributed) / frames});
+             (run.seconds - attributed) / FixedWork::steps});
   context.advance("costs");
 }
 
@@ -102,7 +57,7 @@ void removed_is_cheaper(Context& context) {
                 [](const Effect& effect) { return std::holds_alternative<TetStrain>(effect); });
   // Its rows are no longer swept, its nodes stay.
   context.verdict(Basis::theory, "effects.removed.cheaper", "without the solid's strain a scene costs less",
-                  "time without / time with", Measured(ratios(removed, mixed())), 1);
+                  "time without / time with", Measured(timed_runs.time_ratios(removed, mixed())), 1);
   context.advance("an effect removed");
 }
 
@@ -122,18 +77,19 @@ void frictionless_is_cheap(Context& context, Table& table) {
   std::vector<double> rows;
   for (const Scene& scene : scenes) {
     const std::string name = rows.empty() ? "balls, no friction" : "balls, friction 0.5";
-    const auto costs = run_scene(scene).costs;
+    const auto costs = timed_runs.run(scene).costs;
     const auto contact = std::find_if(costs.begin(), costs.end(),
                                       [](const EffectCost& cost) { return cost.effect == Contact::name; });
     table.row({name, std::string(contact->effect), contact->rows, contact->bytes, contact->seconds,
-               contact->seconds / frames});
+               contact->seconds / FixedWork::steps});
     rows.push_back(static_cast<double>(contact->rows));
   }
   context.verdict(Basis::theory, "effects.frictionless.rows",
                   "contacts without friction have one row, not three",
                   "|rows without / rows with friction - 1/3|", std::abs(rows[0] / rows[1] - 1.0 / 3), 1e-15);
   context.verdict(Basis::theory, "effects.frictionless.cheaper", "and cost less",
-                  "time without / time with friction", Measured(ratios(scenes[0], scenes[1])), 1);
+                  "time without / time with friction", Measured(timed_runs.time_ratios(scenes[0], scenes[1])),
+                  1);
   context.advance("friction");
 }
 

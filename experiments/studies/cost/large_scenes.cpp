@@ -3,8 +3,8 @@
 // no rival there. What only a scene's first step takes stands apart, as setup_s.
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -126,8 +126,8 @@ class Costing {
     context_.advance(fmt::format("{} {}", large.size, large.unit));
   }
 
-  /// Largest ratio of quasi_newton's time to newton's, of scenes of a kind at least so large; NaN if one of
-  /// them did not reach it.
+  /// Largest ratio of quasi_newton's time to newton's, of scenes of a kind from `least` to `most` in size;
+  /// NaN if the target was not reached in one of them.
   double ratio(std::string_view kind, std::int64_t least, std::int64_t most, double target) const {
     Worst worst;
     for (const auto& [key, seconds] : seconds_)

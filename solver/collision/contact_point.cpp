@@ -129,6 +129,7 @@ Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
       turn /= 2;
       next = RimPair(contact, a, b, angle + turn);
     }
+    if (next.apart().norm() > most) break;  // it is there but for rounding
     angle += turn;
     pair = next;
   }

@@ -8,14 +8,13 @@
 //   rim    a's rim against b's line or rim:   n, gap as of edges, e being the tangents at y_a and y_b
 //
 // y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
-// are rounded by. A rim, the edge of a disc about a's point of radius rim_a across direction_a, is the point
-// of the disc that lies deepest: y_a = x_a + R_a point_a - rim_a t, t the unit part of n across the axis, n
-// of a point that at y_a itself. A rim that lies flat on a plane touches at the point R_a across_a, which
-// stays where it is. A rim against a line or rim touches where it is nearest to it next to the point R_a
-// across_a; where the tangents are parallel n is as of points. Normals point from b to a:
-// the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is
-// n . (velocity of a - velocity of b) at the touching
-// points.
+// are rounded by. A rim is the edge of a disc about a's point, x_a + R_a point_a, of radius rim_a across
+// direction_a: y_a = x_a + R_a point_a - rim_a t. Against a plane it is the deepest point, t the unit part of
+// n across the axis; if it lies flat the point R_a across_a, which stays where it is. Against a point it is the
+// nearest one; against a line or rim the one, next to R_a across_a, that is nearest to it or, where they are in
+// each other, as far as any beside it. Where the tangents are parallel n is along y_a - y_b. Normals point from
+// b to a: the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is n .
+// (velocity of a - velocity of b) at the touching points.
 #pragma once
 
 #include <Eigen/Core>

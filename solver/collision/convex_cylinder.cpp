@@ -71,6 +71,8 @@ struct CylinderPair {
     }
   }
 
+  Segment segment(int e) const { return {a.node(a.edge(e).node[0]), a.along[e], a.length[e]}; }
+
   Vec3 point(int e, double s) const { return a.node(a.edge(e).node[0]) + s * a.along[e]; }
 
   int end(int e, double s) const {
@@ -110,7 +112,7 @@ struct CylinderPair {
                  along_across = along - cosine * b.axis;
       const double sine_squared = along_across.squaredNorm();
       const auto inside = [&](double s) { return s > 0 && s < length; };
-      write_where_it_leaves({a.node(a.edge(e).node[0]), along, length}, a.radius, e, b, writer,
+      write_where_it_leaves(segment(e), a.radius, e, b, writer,
                             [&](const Vec3& apart) { return faces_farther(e, apart); });
       if (!(sine_squared > parallel)) continue;
       const double middle = -across.dot(along_across) / sine_squared;
@@ -130,17 +132,12 @@ struct CylinderPair {
             best.of == CylinderAxis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
         const Vec3 y = point(e, s);
-        write_beside_rim({a.node(a.edge(e).node[0]), along, length}, a.radius, y, at_end * b.axis, b, at_end,
+        write_beside_rim(segment(e), a.radius, y, at_end * b.axis, b, at_end,
                          best.apart - a.radius - tiny,
                          writer.key(Feature::edge, e, Feature::cap, crossed_cap(at_end, sign)), writer,
                          [&](const Vec3& apart) { return faces_farther(e, apart); });
       }
     }
-  }
-
-  double nearest_arc_of(int e) const {
-    const auto i = e;
-    return nearest_arc({a.node(a.edge(e).node[0]), a.along[i], a.length[i]}, b);
   }
 
   void rims(int f, double floor) const {
@@ -220,7 +217,7 @@ struct CylinderPair {
     double nearest = infinity, arc = 0;
     int edge = 0;
     for (int e = 0; e < a.edge_count(); ++e) {
-      const double s = nearest_arc_of(e);
+      const double s = nearest_arc(segment(e), b);
       const double distance = b.place(point(e, s)).distance;
       if (distance >= nearest) continue;
       nearest = distance;

@@ -13,6 +13,8 @@ namespace {
 /// gaps at least `floor` (m).
 void write_rim_point(const PlacedCylinder& a, int end, double angle, int number, const PlacedCylinder& b,
                      double floor, const ContactWriter& writer) {
+  constexpr double parallel = 1e-3;  // rad
+  const double tiny = rounding * (a.size() + b.size());
   const Vec3 y = a.on_rim(end, angle);
   const PlacedCylinder::Place at = b.place(y);
   if (at.distance < floor) return;
@@ -22,6 +24,10 @@ void write_rim_point(const PlacedCylinder& a, int end, double angle, int number,
     const bool beside = of_b.of == Feature::rim ? b.is_beside_rim(of_b.i - 1, found.point_b, found.normal)
                                                 : std::abs(b.axis.dot(found.point_b - b.centre)) <= b.half;
     if (!beside || found.gap < floor || !a.is_beside_rim(end, found.point_a, -found.normal)) return false;
+    // Rims on each other all along say nothing that caps and sides do not.
+    if (of_b.of == Feature::rim && found.gap < tiny &&
+        a.rim_tangent(found.point_a).cross(b.rim_tangent(found.point_b)).norm() < parallel)
+      return false;
     writer.write(contact, writer.key(Feature::rim, number, of_b.of, of_b.i), found.gap);
     return true;
   };
@@ -29,7 +35,7 @@ void write_rim_point(const PlacedCylinder& a, int end, double angle, int number,
       write(rim_on_line(a, end, y, b.centre, b.axis, b.radius, at.normal), {Feature::axis, 0}))
     return;
   const int end_b = b.end_at(y);
-  const Vec3 outward = (y - b.centre).cross(b.axis).cross(-b.axis).normalized() + end_b * b.axis;
+  const Vec3 outward = b.rim_at(y) - b.cap(end_b) + end_b * b.radius * b.axis;  // its sign alone counts
   write(rim_on_rim(a, end, y, b, end_b, outward), {Feature::rim, end_b + 1});
 }
 

@@ -201,6 +201,8 @@ class ContactSearch {
   void keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                         double allowed, double behind);
   bool begins_cut(const Pair& pair) const;
+  bool goes_round_apart(const Pair& pair, double slack) const;
+  bool is_convex(int collider) const;
   bool is_round(int collider) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);

@@ -58,6 +58,20 @@ bool ContactSearch::begins_cut(const Pair& pair) const {
   return pair.deepest < -pair.overlooked && motions_[pair.collider[1]].kind == Carrier::triangle;
 }
 
+/// True of convex shapes that go round each other, and began apart but for `slack` (m): the features by which
+/// they are in each other where the step ends hold, wherever these lay where it began.
+bool ContactSearch::goes_round_apart(const Pair& pair, double slack) const {
+  const auto& [first, second] = pair.collider;
+  return (is_round(first) || is_round(second)) && is_convex(first) && is_convex(second) &&
+         !(pair.nearest < -slack);
+}
+
+/// True of a body's shape without dents.
+bool ContactSearch::is_convex(int collider) const {
+  const Motion& own = motions_[collider];
+  return own.kind == Carrier::body && !std::holds_alternative<ClosedMesh>(*own.shape);
+}
+
 bool ContactSearch::is_round(int collider) const {
   const Motion& own = motions_[collider];
   if (own.kind != Carrier::body) return own.kind == Carrier::node;
@@ -132,8 +146,10 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double least_met = two.kind == Carrier::triangle ? behind : -infinity;
   // What is round goes round the features that its contacts have left: these tell if nothing else does.
   const bool goes_round = is_round(pair.collider[0]) || is_round(pair.collider[1]);
+  const double least_end = goes_round_apart(pair, slack) ? -infinity : behind;
   for (const bool left_too : {!goes_round, true})
-    for (const auto& [at, least] : {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}}) {
+    for (const auto& [at, least] :
+         {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}, {1.0, least_end}}) {
       generate_between(pair, start, end, at, slack + left);
       keep_overlapping(pair, start, end, allowed, least);
       if (!left_too)

@@ -22,7 +22,7 @@ bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuratio
   return !found_.empty();
 }
 
-/// True of what is endless, too.
+/// True of what is endless and of surfaces, too.
 bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at) {
   if (contact.of_surfaces) return true;
   const auto& [a, b] = contact.collider;
@@ -32,24 +32,17 @@ bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration&
   return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
 }
 
-/// False of a contact of what is round, whose normal turns as it moves, where its convex shapes have come to
-/// be in each other by other features, as where a ball has rolled from an edge over a face.
+/// False of a contact of what goes round, whose normal turns as it moves, where its shapes are in each other by
+/// other features, as where a ball has rolled from an edge over a face.
 bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration& start,
                                const Configuration& end) {
   using Kind = ContactPoint::Kind;
   const Kind kind = contact.features.kind;
-  const auto convex = [&](int collider) {
-    const Motion& own = motions_[collider];
-    return own.kind == Carrier::body && !std::holds_alternative<ClosedMesh>(*own.shape);
-  };
   if (kind == Kind::face || kind == Kind::edges) return true;
-  if (!convex(contact.collider[0]) || !convex(contact.collider[1])) return true;
-  const double gap = touching_at(contact, end).gap, slack = beside(contact.pair());
-  if (!(generate_between({contact.pair()}, start, end, 1, gap) < gap - slack)) return true;
-  const Pair pair = begun(contact.pair(), start);
-  generate_between(pair, start, end, 1, gap);
-  keep_overlapping(pair, start, end, std::min(gap, pair.deepest) - slack, pair.deepest - pair.overlooked);
-  return overlapping_.empty();
+  const double slack = beside(contact.pair()), deep = std::min(touching_at(contact, end).gap, 0.0) - slack;
+  if (!goes_round_apart({contact.pair()}, 0)) return true;
+  if (!(generate_between({contact.pair()}, start, end, 1, slack) < deep)) return true;
+  return !goes_round_apart(begun(contact.pair(), start), slack);
 }
 
 bool ContactSearch::is_left(const PairFeatures& features) const {
@@ -165,7 +158,8 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
   } else {
     const double reach = pair.overlooked + hovering(left, end);
     generate_between(pair, start, end, 1, reach);
-    keep_overlapping(pair, start, end, reach, pair.deepest - pair.overlooked);
+    const double least = goes_round_apart(pair, pair.overlooked) ? -infinity : pair.deepest - pair.overlooked;
+    keep_overlapping(pair, start, end, reach, least);
   }
   const auto place = [&](const ActiveContact& own) { return touching_at(own, end).point_a; };
   for (ActiveContact& found : overlapping_) {

@@ -10,11 +10,11 @@
 // y are the features' points in the world, e the lines' directions, and `radii` the sum of what the features
 // are rounded by. A rim is the edge of a disc about a's point, x_a + R_a point_a, of radius rim_a across
 // direction_a: y_a = x_a + R_a point_a - rim_a t. Against a plane it is the deepest point, t the unit part of
-// n across the axis; if it lies flat the point R_a across_a, which stays where it is. Against a point it is the
-// nearest one; against a line or rim the one, next to R_a across_a, that is nearest to it or, where they are in
-// each other, as far as any beside it. Where the tangents are parallel n is along y_a - y_b. Normals point from
-// b to a: the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is n .
-// (velocity of a - velocity of b) at the touching points.
+// n across the axis; if it lies flat the point R_a across_a, which stays where it is. Against a point it is
+// the nearest one; against a line or rim the one, next to R_a across_a, that is nearest to it or, where they
+// are in each other, as far as any beside it. Where the tangents are parallel n is along y_a - y_b. Normals
+// point from b to a: the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is
+// n . (velocity of a - velocity of b) at the touching points.
 #pragma once
 
 #include <Eigen/Core>

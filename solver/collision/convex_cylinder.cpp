@@ -132,8 +132,7 @@ struct CylinderPair {
             best.of == CylinderAxis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
         const Vec3 y = point(e, s);
-        write_beside_rim(segment(e), a.radius, y, at_end * b.axis, b, at_end,
-                         best.apart - a.radius - tiny,
+        write_beside_rim(segment(e), a.radius, y, at_end * b.axis, b, at_end, best.apart - a.radius - tiny,
                          writer.key(Feature::edge, e, Feature::cap, crossed_cap(at_end, sign)), writer,
                          [&](const Vec3& apart) { return faces_farther(e, apart); });
       }

@@ -32,8 +32,8 @@ bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration&
   return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
 }
 
-/// False of a contact of what goes round, whose normal turns as it moves, where its shapes are in each other by
-/// other features, as where a ball has rolled from an edge over a face.
+/// False of a contact of what goes round, whose normal turns as it moves, where its shapes are in each other
+/// by other features, as where a ball has rolled from an edge over a face.
 bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration& start,
                                const Configuration& end) {
   using Kind = ContactPoint::Kind;

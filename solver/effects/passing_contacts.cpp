@@ -64,7 +64,7 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
   apart_ = 0;
   for (int k = 0; k < most; ++k) {
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
-    share += std::max({gap, touching_for, overlooked * round / 2}) / travel;
+    share += std::max(gap, touching_for) / travel;
     if (!(share < 1)) return false;
     gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
     if (gap > slack) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/tolerances.h"
+
 namespace pbd {
 namespace {
 
@@ -114,7 +116,7 @@ struct RimPair {
 /// a's rim against b's line or rim, at the pair of nearest points next to R_a across_a.
 Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
   constexpr int most_rounds = 20, most_halvings = 8;
-  constexpr double longest = 0.5, enough = 1e-15, parallel = 1e-3;  // rad
+  constexpr double longest = 0.5, enough = 1e-15;  // rad
   double angle = 0;
   RimPair pair(contact, a, b, angle);
   for (int round = 0; round < most_rounds; ++round) {
@@ -135,7 +137,7 @@ Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
   }
   const Vector3d apart = pair.apart(), cross = contact.side * pair.tangent.cross(pair.other.tangent);
   const double distance = apart.norm();
-  const bool as_points = !(cross.norm() > parallel) && distance > 0;
+  const bool as_points = !(cross.norm() > parallel_to_rim) && distance > 0;
   const double sign = apart.dot(pair.out) > 0 ? -1 : 1;  // the rim's own outward side is b's
   const Vector3d normal = as_points ? Vector3d(sign / distance * apart) : unit_across(cross, pair.tangent);
   return rounded(contact, normal.dot(apart), normal, pair.y, pair.other.point);

@@ -13,7 +13,6 @@ namespace {
 /// gaps at least `floor` (m).
 void write_rim_point(const PlacedCylinder& a, int end, double angle, int number, const PlacedCylinder& b,
                      double floor, const ContactWriter& writer) {
-  constexpr double parallel = 1e-3;  // rad
   const double tiny = rounding * (a.size() + b.size());
   const Vec3 y = a.on_rim(end, angle);
   const PlacedCylinder::Place at = b.place(y);
@@ -26,7 +25,7 @@ void write_rim_point(const PlacedCylinder& a, int end, double angle, int number,
     if (!beside || found.gap < floor || !a.is_beside_rim(end, found.point_a, -found.normal)) return false;
     // Rims on each other all along say nothing that caps and sides do not.
     if (of_b.of == Feature::rim && found.gap < tiny &&
-        a.rim_tangent(found.point_a).cross(b.rim_tangent(found.point_b)).norm() < parallel)
+        a.rim_tangent(found.point_a).cross(b.rim_tangent(found.point_b)).norm() < parallel_to_rim)
       return false;
     writer.write(contact, writer.key(Feature::rim, number, of_b.of, of_b.i), found.gap);
     return true;

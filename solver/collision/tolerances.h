@@ -13,6 +13,10 @@ inline constexpr double rounding = 1e-9;
 /// the angle ten times as much as on the edges' places.
 inline constexpr double crossing_sine = 0.1;
 
+/// The sine of the angle of a rim's tangent and an edge or another rim's up to which they are parallel: their
+/// product tells no normal of them.
+inline constexpr double parallel_to_rim = 1e-3;
+
 /// Up to this part of the sizes a node lies on a face of a closed mesh, also where it is beside the face or
 /// an edge of it by that much: it touches the face that its own surface lies above. A hundredth of the depth
 /// that a search of contacts may overlook, and more than a step's tolerance leaves open.

@@ -146,18 +146,21 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double least_met = two.kind == Carrier::triangle ? behind : -infinity;
   // What is round goes round the features that its contacts have left: these tell if nothing else does.
   const bool goes_round = is_round(pair.collider[0]) || is_round(pair.collider[1]);
-  const double least_end = goes_round_apart(pair, slack) ? -infinity : behind;
-  for (const bool left_too : {!goes_round, true})
-    for (const auto& [at, least] :
-         {std::pair{apart, behind}, {1.0, behind}, {apart, least_met}, {1.0, least_end}}) {
-      generate_between(pair, start, end, at, slack + left);
-      keep_overlapping(pair, start, end, allowed, least);
-      if (!left_too)
-        std::erase_if(overlapping_, [&](const ActiveContact& contact) {
-          return is_left({contact.pair(), contact.features.key});
-        });
-      if (!overlapping_.empty()) return true;
-    }
+  const auto told = [&](double at, double least, bool left_too) {
+    generate_between(pair, start, end, at, slack + left);
+    keep_overlapping(pair, start, end, allowed, least);
+    if (!left_too)
+      std::erase_if(overlapping_, [&](const ActiveContact& contact) {
+        return is_left({contact.pair(), contact.features.key});
+      });
+    return !overlapping_.empty();
+  };
+  for (const bool left_too : {false, true}) {
+    if (!left_too && !goes_round) continue;
+    if (told(apart, behind, left_too) || told(1, behind, left_too) || told(apart, least_met, left_too))
+      return true;
+    if (goes_round_apart(pair, slack) && told(1, -infinity, left_too)) return true;
+  }
   if (!begins_cut(pair)) return true;
   keep_deepening(pair, start, end, allowed);
   return !overlapping_.empty();

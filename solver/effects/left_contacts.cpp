@@ -39,8 +39,8 @@ bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration
   using Kind = ContactPoint::Kind;
   const Kind kind = contact.features.kind;
   if (kind == Kind::face || kind == Kind::edges) return true;
-  const double slack = beside(contact.pair()), deep = std::min(touching_at(contact, end).gap, 0.0) - slack;
   if (!goes_round_apart({contact.pair()}, 0)) return true;
+  const double slack = beside(contact.pair()), deep = std::min(touching_at(contact, end).gap, 0.0) - slack;
   if (!(generate_between({contact.pair()}, start, end, 1, slack) < deep)) return true;
   return !goes_round_apart(begun(contact.pair(), start), slack);
 }

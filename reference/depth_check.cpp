@@ -24,7 +24,8 @@ class Depths {
   void check_triangle(int i, const std::array<int, 3>& nodes);
   DistanceBounds over_triangle(int i, const std::array<int, 3>& nodes, const State& state) const;
   bool far(int i, int j, const PlacedShape& a, const PlacedShape& b) const;
-  double allowed(int i, int j, const std::vector<Vec3>& ways) const;
+  double allowed(int i, int j, double before) const;
+  double depth(int i, int j, const State& state, double enough) const;
 
   const StepClaim& claim_;
   const Contact& contact_;
@@ -41,12 +42,10 @@ bool Depths::far(int i, int j, const PlacedShape& a, const PlacedShape& b) const
   return i == j;
 }
 
-double Depths::allowed(int i, int j, const std::vector<Vec3>& ways) const {
-  const PlacedShape a = sides_.placed(i, claim_.start), b = sides_.placed(j, claim_.start);
-  std::vector<Vec3> all = ways;
-  for (const Vec3& way : ways_apart(a, b)) all.push_back(way);
-  const double before = std::max(0.0, -separation(a, b, all));
-  const Size one = size_of(*a.shape), two = size_of(*b.shape);
+/// What a pair may be deep, `before` where the step begins.
+double Depths::allowed(int i, int j, double before) const {
+  const Size one = size_of(*sides_.placed(i, claim_.end).shape),
+             two = size_of(*sides_.placed(j, claim_.end).shape);
   const double round =
       std::min(sides_.is_node(i) ? infinity : one.round, sides_.is_node(j) ? infinity : two.round);
   const auto reach = [](const Size& size) { return std::isfinite(size.outer) ? size.outer : 0.0; };
@@ -56,6 +55,20 @@ double Depths::allowed(int i, int j, const std::vector<Vec3>& ways) const {
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + reach(one) + reach(two);
   return std::max(before, std::isfinite(round) ? overlooked * round : 0.0) +
          (1 + sides_.law(i, j).friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;
+}
+
+/// How deep a pair is in each other, m, and negative if it is apart; `enough` needs no better answer.
+double Depths::depth(int i, int j, const State& state, double enough) const {
+  const PlacedShape a = sides_.placed(i, state), b = sides_.placed(j, state);
+  std::vector<Vec3> ways;
+  if (!is_half_space(*a.shape) && !is_half_space(*b.shape))
+    for (const ClaimedContact& claimed : claim_.contacts) {
+      if (claimed.collider == std::array{i, j}) ways.push_back(claimed.normal);
+      if (claimed.collider == std::array{j, i}) ways.emplace_back(-claimed.normal);
+    }
+  if (const double told = -separation(a, b, ways); told <= enough) return told;
+  for (const Vec3& way : ways_apart(a, b)) ways.push_back(way);
+  return -least_parting(a, b, ways).apart;
 }
 
 void Depths::check(int i, int j) {
@@ -69,19 +82,10 @@ void Depths::check(int i, int j) {
   if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
   if (law.restitution > 0 && !is_euler_step(claim_))
     return findings_.leave_out("depth: where shapes bounce, by this integrator");
-  std::vector<Vec3> ways;
-  if (!half_space)
-    for (const ClaimedContact& claimed : claim_.contacts) {
-      if (claimed.collider == std::array{i, j}) ways.push_back(claimed.normal);
-      if (claimed.collider == std::array{j, i}) ways.emplace_back(-claimed.normal);
-    }
-  const double most = allowed(i, j, ways);
-  double apart = separation(a, b, ways);
-  if (!(apart >= -most)) {
-    for (const Vec3& way : ways_apart(a, b)) ways.push_back(way);
-    if (!deeper_than(a, b, most, ways, apart)) apart = std::max(apart, -most);
-  }
-  findings_.require("depth", name_of(i, j) + ", m", -apart, most);
+  double most = allowed(i, j, 0);
+  const double end = depth(i, j, claim_.end, most);
+  if (end > most) most = allowed(i, j, depth(i, j, claim_.start, 0));
+  findings_.require("depth", name_of(i, j) + ", m", end, most);
 }
 
 /// Of collider i over the triangle's middle plane; of a half space the least of its nodes.

@@ -89,27 +89,6 @@ Vec3 reduce(Simplex& simplex) {
   return best;
 }
 
-/// True where some n has sep(n) > 0 with a shifted by `shift`; the last n tried, unit, is returned as well.
-bool parts(const PlacedShape& a, const PlacedShape& b, const Vec3& shift, Vec3& n) {
-  Simplex simplex;
-  simplex.point[0] = farthest_point(a, -n) - farthest_point(b, n) + shift;
-  simplex.count = 1;
-  Vec3 nearest = simplex.point[0];
-  constexpr int most = 100;  // of polyhedra it ends; round shapes' steps fall off geometrically
-  for (int step = 0; step < most; ++step) {
-    const double length = nearest.norm();
-    if (!(length > 0)) return false;
-    n = nearest / length;
-    const Vec3 next = farthest_point(a, -n) - farthest_point(b, n) + shift;
-    if (n.dot(next) > 0) return true;
-    if (simplex.count == 4) return false;
-    simplex.point[simplex.count++] = next;
-    nearest = reduce(simplex);
-    if (simplex.count == 4 || !(nearest.norm() < length)) return false;
-  }
-  return false;
-}
-
 /// How far the origin is from a convex set of which `point(n)` is the least along n.
 template <class Point>
 DistanceBounds distance_of(const Point& point) {
@@ -171,18 +150,28 @@ double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<
   return largest;
 }
 
-bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
-                 double& nearest) {
-  nearest = separation(a, b, ways);
-  if (nearest >= -depth) return false;
-  if (is_half_space(*a.shape) || is_half_space(*b.shape)) return true;
+Parting least_parting(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways) {
+  Parting best;
+  const auto better = [&](const Vec3& n) {
+    if (const double apart = separation(a, b, n); apart > best.apart) best = {apart, n};
+  };
+  for (const Vec3& way : ways) better(way);
+  if (best.apart >= 0 || is_half_space(*a.shape) || is_half_space(*b.shape)) return best;
+  const double beyond = std::min(size_of(*a.shape).outer, size_of(*b.shape).outer) / 100;
+  constexpr double still = 1e-12;  // of `beyond`: a step forward that is none
   for (const Vec3& way : ways) {
     Vec3 n = way;
-    const bool apart = parts(a, b, depth * way, n);
-    nearest = std::max(nearest, separation(a, b, n));
-    if (apart) return false;
+    for (double apart = -infinity; separation(a, b, n) > apart + still * beyond;) {
+      apart = separation(a, b, n);
+      const Vec3 shift = (beyond - apart) * n;
+      const DistanceBounds shifted = distance_of(
+          [&](const Vec3& u) -> Vec3 { return farthest_point(a, -u) - farthest_point(b, u) + shift; });
+      if (!(shifted.proved > 0)) break;
+      n = shifted.along;
+      better(n);
+    }
   }
-  return true;
+  return best;
 }
 
 DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle) {

@@ -4,12 +4,12 @@
 //   sep(n) = min over a of n . x - max over b of n . x = -s_a(-n) - s_b(n)
 //
 // Shapes are at least sep(n) apart and, where that is negative, at most -sep(n) deep in each other, for each
-// unit vector n: each n is a proof. Whether a and b are disjoint is decided by the point of a - b that is
-// nearest to the origin (gilbert1988fast): its direction is the n of the proof, a simplex around the origin
-// the witness that there is none.
+// unit vector n: each n is a proof. The point of a - b that is nearest to the origin (gilbert1988fast) tells
+// how far shapes are apart, and along which n; of shapes in each other once a is shifted out of b along some
+// n, after which the shift along the n found is the shorter one, unless both are the same.
 //
-// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. `deeper_than`
-// tries the ways it is given and those it finds from them: its no is a proof, its yes is sure of these alone.
+// Limits: of a closed mesh s is that of its hull, which is right beside a half space alone. `least_parting`
+// is sure of the ways that it was given and of those beside where these lead.
 #pragma once
 
 #include <array>
@@ -35,10 +35,15 @@ double separation(const PlacedShape& a, const PlacedShape& b, const Vec3& n);
 /// The largest sep(n) over unit vectors, m; -infinity without any.
 double separation(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways);
 
-/// Whether no shift of a by `depth` (m) along one of the ways makes the shapes disjoint. `nearest` is the
-/// largest sep(n) that was seen.
-bool deeper_than(const PlacedShape& a, const PlacedShape& b, double depth, const std::vector<Vec3>& ways,
-                 double& nearest);
+/// A unit vector n and its sep(n), m.
+struct Parting {
+  double apart = -infinity;
+  Vec3 along = Vec3::Zero();
+};
+
+/// The largest sep(n) that is found from the ways: of shapes in each other each way is followed to one than
+/// which none beside it parts them sooner.
+Parting least_parting(const PlacedShape& a, const PlacedShape& b, const std::vector<Vec3>& ways);
 
 /// Two bounds of how far convex sets a and b are from each other (m): both 0 where they meet. `proved` is
 /// what they are apart along the unit vector `along`, from b to a; there is none where nothing is proved.

@@ -136,3 +136,24 @@ TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carri
   stopped.contacts[0].force *= 1.001;
   CHECK(refuted(stopped) == Names{"momentum"});
 }
+
+TEST_CASE("contacts: a box's edge that comes down across a cylinder's rim is deep by what it went on") {
+  // The edge leads along (-1, 2, 1) through the rim's (radius, 0, half), whose tangent is y: n is across
+  // both.
+  constexpr double radius = 0.1, half = 0.15, side = 0.1, above = 1e-4;  // m
+  const Vec3 n = Vec3(1, 0, 1).normalized(), along = Vec3(-1, 2, 1).normalized();
+  Eigen::Matrix3d turned;
+  turned << along, (n + along.cross(n)).normalized(), (along.cross(n) - n).normalized();
+  const Vec3 middle = Vec3(radius, 0, half) + (above + side / std::sqrt(2.0)) * n;
+  for (const double deep : {-1e-5, 5e-4}) {
+    pbdcheck::BodyScene scene(ContactLaw{.friction = 0}, 0);
+    scene.fixed(Cylinder{radius, 2 * half}, {.position = Vec3::Zero()});
+    scene.box(Vec3::Constant(side), 1,
+              {.position = middle,
+               .orientation = Eigen::Quaterniond(turned),
+               .velocity = -(above + deep) / Step::h * n});
+    Step step(scene.finish());
+    step.move();
+    CHECK(refuted(step) == (deep > 0 ? Names{"depth"} : Names{}));
+  }
+}

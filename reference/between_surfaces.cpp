@@ -50,12 +50,12 @@ void Between::take_side_of_start(FeaturePair& pair) const {
 void Between::add_if(const FeaturePair& pair, double deepest) const {
   const double gap = nearest(pair, at).gap;
   if (gap > reach() || gap < -deepest - moved) return;
-  if (gap >= -deepest || nearest(pair, start).gap >= -deepest) found.push_back(pair);
+  if (deep || gap >= -deepest || nearest(pair, start).gap >= -deepest) found.push_back(pair);
 }
 
 /// True of a point that was below a rigid face's plane, but not below the face: it has slid down a side.
 bool Between::came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const {
-  if (of_face.deformable || of_face.plane) return false;
+  if (deep || of_face.deformable || of_face.plane) return false;
   std::vector<Vec3> corners;
   for (const int corner : of_face.face[k])
     corners.push_back(placed(of_face.corner[static_cast<std::size_t>(corner)], start));

@@ -12,8 +12,9 @@ struct Between {
   const Placement& start;
   const Placement& at;
   std::vector<FeaturePair>& found;
-  double moved = 0;  // m, by both since the start
-  double depth = 0;  // m, overlaps that count anyway
+  double moved = 0;   // m, by both since the start
+  double depth = 0;   // m, overlaps that count anyway
+  bool deep = false;  // whatever came of its features since the start, it is in each other by those of `at`
 
   double reach() const { return moved + depth; }
 

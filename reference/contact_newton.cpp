@@ -36,7 +36,17 @@ double scale_of(const ContactStep& own, const Vector& velocity, const Vector& ga
   return std::max(displacement_of(own.step, velocity), step_rounding * std::max(places, by_forces) / allowed);
 }
 
+/// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
+/// functions: the features may all have been overlooked.
+SidePairs depths_of(const ContactStep& own, const Scene& scene, const Vector& velocity, Findings& findings) {
+  if (own.contact.collider.empty() && own.contact.triangle.empty() && !own.contact.nodes_touch) return {};
+  const State end = own.step.end(velocity);
+  const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
+  return check_depths(claim, own.contact, 0, findings);
+}
+
 struct StepSearch {
+  const Scene& scene;
   ContactStep step;
   Cones cones;
   Vector velocity, gamma;
@@ -64,7 +74,7 @@ struct StepSearch {
       if (!std::isfinite(correction)) return false;
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
         // What is near at the start alone lets nothing collide.
-        if ((came_near || features_kept) && !step.collide(velocity)) return true;
+        if ((came_near || features_kept) && !step.collide(velocity) && !look_closer()) return true;
         came_near = true;
         correction = infinity;
       }
@@ -72,18 +82,15 @@ struct StepSearch {
     }
     return false;
   }
-};
 
-/// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
-/// functions: the features may all have been overlooked.
-Findings depths_of(const Scene& scene, const ContactStep& own, const Vector& velocity) {
-  const State end = own.step.end(velocity);
-  const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
-  Findings findings;
-  if (!own.contact.collider.empty() || !own.contact.triangle.empty() || own.contact.nodes_touch)
-    check_depths(claim, own.contact, 0, findings);
-  return findings;
-}
+  /// Whether pairs are in each other where it ends that were searched by their features' way there alone.
+  bool look_closer() {
+    Findings findings;
+    const std::size_t known = step.deep.size();
+    step.deep.merge(depths_of(step, scene, velocity, findings));
+    return step.deep.size() > known;
+  }
+};
 
 }  // namespace
 
@@ -96,7 +103,8 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
                                 ConeSolver solver, const ContactStart& start) {
   const FrictionLaw law = law_of(friction);
   Clock clock;
-  StepSearch search{{scene, state, h, start.map ? std::optional(*start.map) : std::nullopt},
+  StepSearch search{scene,
+                    {scene, state, h, start.map ? std::optional(*start.map) : std::nullopt},
                     {law, solver, {start.work, start.poll}},
                     {},
                     {}};
@@ -144,9 +152,10 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   for (const auto& [name, off] :
        {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})
     if (converged && !(off <= allowed)) say() << name << " off by " << off << ", allowed " << allowed;
-  if (converged)
-    if (const Findings deep = depths_of(scene, own, search.velocity); !deep.refuted.empty())
-      say() << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
+  Findings deep;
+  depths_of(own, scene, search.velocity, deep);
+  if (converged && !deep.refuted.empty())
+    say() << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
   j.reason = reason.str();
   j.outcome = j.reason.empty() ? Outcome::ok : Outcome::not_converged;
   j.seconds = clock.seconds();

@@ -93,8 +93,8 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
 void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
   std::vector<FeaturePair> found;
   const Placement end = step.placement(velocity);
-  search.find(start_, end, found);
-  if (also_start) search.find(end, start_, found);
+  search.find(start_, end, deep, found);
+  if (also_start) search.find(end, start_, {}, found);
   for (const JudgedContact& own : contacts)
     if (own.collides) found.push_back(own.pair);  // by now it may have left
   const auto by_name = [](const FeaturePair& one, const FeaturePair& two) { return one.name < two.name; };

@@ -17,6 +17,7 @@ class Depths {
       : claim_(claim), contact_(contact), sides_(claim, contact), level_(level), findings_(findings) {}
 
   void check_all();
+  const SidePairs& refuted() const { return refuted_; }
 
  private:
   void check(int i, int j);
@@ -32,6 +33,7 @@ class Depths {
   Sides sides_;
   double level_;
   Findings& findings_;
+  SidePairs refuted_;
 };
 
 /// Quick: the balls around both do not touch.
@@ -86,6 +88,7 @@ void Depths::check(int i, int j) {
   const double end = depth(i, j, claim_.end, most);
   if (end > most) most = allowed(i, j, depth(i, j, claim_.start, 0));
   findings_.require("depth", name_of(i, j) + ", m", end, most);
+  if (!(end <= most)) refuted_.insert({i, j});
 }
 
 /// Of collider i over the triangle's middle plane; of a half space the least of its nodes.
@@ -130,6 +133,7 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
                         std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
                         std::to_string(nodes[2]) + ", m",
                     radius - end.found, most);
+  if (!(radius - end.found <= most)) refuted_.insert({i, sides_.count()});
 }
 
 void Depths::check_triangles() {
@@ -158,8 +162,10 @@ void Depths::check_all() {
 
 }  // namespace
 
-void check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
-  Depths(claim, contact, level, findings).check_all();
+SidePairs check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
+  Depths depths(claim, contact, level, findings);
+  depths.check_all();
+  return depths.refuted();
 }
 
 }  // namespace pbd::reference

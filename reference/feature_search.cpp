@@ -51,7 +51,8 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
     }
 }
 
-void FeatureSearch::find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const {
+void FeatureSearch::find(const Placement& start, const Placement& at, const SidePairs& deep,
+                         std::vector<FeaturePair>& found) const {
   std::vector<PlacedSurface> placed;
   placed.reserve(surfaces_.size());
   Bounds all;
@@ -63,7 +64,9 @@ void FeatureSearch::find(const Placement& start, const Placement& at, std::vecto
   for (const auto& [i, k] : pairs_) {
     const PlacedSurface &a = placed[i], &b = placed[k];
     const double depth = std::min({a.size(), b.size(), extent}) / 50;
-    find_between(a, b, {start, at, found, a.moved + b.moved, depth});
+    find_between(a, b,
+                 {start, at, found, a.moved + b.moved, depth,
+                  deep.contains(side_pair(a.surface.side, b.surface.side))});
   }
 }
 

@@ -27,7 +27,8 @@ class FeatureSearch {
   /// fiftieth of the smaller one (at most a thousandth of all together), and not deeper in each other than
   /// that fiftieth, or than they have moved where they were not so deep at `start`. Sides of what is
   /// deformable are those of `start`.
-  void find(const Placement& start, const Placement& at, std::vector<FeaturePair>& found) const;
+  void find(const Placement& start, const Placement& at, const SidePairs& deep,
+            std::vector<FeaturePair>& found) const;
 
   /// True if what touches of a pair at `at` is on both of its features.
   bool on_both(const FeaturePair& pair, const Placement& at) const;

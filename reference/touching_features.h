@@ -9,6 +9,7 @@
 #pragma once
 
 #include "rigid_rows.h"
+#include "step_claim.h"
 #include "touching_surface.h"
 
 namespace pbd::reference {

@@ -72,7 +72,8 @@ struct PlacedSurface {
   ContactFeature feature(int kind, std::size_t i) const;
 
   /// True if the corners next to a feature, of which `from` is a point, lie along n (or across it), but for a
-  /// slope; of a rim if its cylinder does. Deformable surfaces may bend as they like.
+  /// slope; of a point on a rim if its cylinder does, and the rim there. Deformable surfaces may bend as they
+  /// like.
   bool lies_along(const Vec3& n, const Vec3& from, int kind, std::size_t i, double slope) const;
 
   bool within_face(std::size_t i, const Vec3& point, const Vec3& n) const {

@@ -111,6 +111,16 @@ TEST_CASE("a cylinder that lies on a wide or a narrow box slips and turns as by 
     }
 }
 
+TEST_CASE("a cylinder that lies on a box beside a parallel edge stays where it is") {
+  for (const double beside : {5e-4, 3e-3})
+    for (const Shape& box : boxes({0.4, 0.5, 0.2})) {
+      BodyScene build({.friction = 0.5}, gravity);
+      build.fixed(box, {.position = {-0.2 + beside, 0, -0.1}});
+      build.cylinder(tube_radius, tube_length, 2, {.position = {0, 0, tube_radius}, .orientation = along_y});
+      check_at_rest(build);
+    }
+}
+
 TEST_CASE("cylinders end on each other's sides where their axes are both radii apart") {
   const double other_radius = 0.06;
   for (const double skew : {0.0, 0.7, pi / 2}) {

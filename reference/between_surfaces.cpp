@@ -47,15 +47,25 @@ void Between::take_side_of_start(FeaturePair& pair) const {
   if (nearest(pair, start).gap + radii < 0) pair.side = -pair.side;
 }
 
+/// Whether a pair of features parts surfaces about as soon as any does.
+bool Between::leads_out(const FeaturePair& pair, const Vec3& normal) const {
+  constexpr double same = 0.9;  // cosine: half a radian
+  const double sign = pair.surface[0] < pair.surface[1] ? 1 : -1;
+  return ways_out != nullptr && std::any_of(ways_out->begin(), ways_out->end(),
+                                            [&](const Vec3& way) { return sign * way.dot(normal) > same; });
+}
+
 void Between::add_if(const FeaturePair& pair, double deepest) const {
-  const double gap = nearest(pair, at).gap;
+  const Nearest found_at = nearest(pair, at);
+  const double gap = found_at.gap;
   if (gap > reach() || gap < -deepest - moved) return;
-  if (deep || gap >= -deepest || nearest(pair, start).gap >= -deepest) found.push_back(pair);
+  if (gap >= -deepest || leads_out(pair, found_at.normal) || nearest(pair, start).gap >= -deepest)
+    found.push_back(pair);
 }
 
 /// True of a point that was below a rigid face's plane, but not below the face: it has slid down a side.
 bool Between::came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const {
-  if (deep || of_face.deformable || of_face.plane) return false;
+  if (of_face.deformable || of_face.plane) return false;
   std::vector<Vec3> corners;
   for (const int corner : of_face.face[k])
     corners.push_back(placed(of_face.corner[static_cast<std::size_t>(corner)], start));
@@ -90,7 +100,7 @@ void Between::points_over_faces(const PlacedSurface& a, int kind, const PlacedSu
     };
     if (std::any_of(over.begin(), over.end(), same)) return;
     if (!b.surface.plane && !a.lies_along(n, x, kind, i, leaning)) return;
-    if (came_from_beside(pair, b.surface, k)) return;
+    if (came_from_beside(pair, b.surface, k) && !leads_out(pair, n)) return;
     if (!b.surface.deformable) over.push_back({i, n, height});
     add_if(pair, b.surface.plane ? infinity : depth);
   });

@@ -12,9 +12,9 @@ struct Between {
   const Placement& start;
   const Placement& at;
   std::vector<FeaturePair>& found;
-  double moved = 0;   // m, by both since the start
-  double depth = 0;   // m, overlaps that count anyway
-  bool deep = false;  // whatever came of its features since the start, it is in each other by those of `at`
+  double moved = 0;                             // m, by both since the start
+  double depth = 0;                             // m, overlaps that count anyway
+  const std::vector<Vec3>* ways_out = nullptr;  // of surfaces in each other, from the one of higher number
 
   double reach() const { return moved + depth; }
 
@@ -39,6 +39,7 @@ struct Between {
 
  private:
   void take_side_of_start(FeaturePair& pair) const;
+  bool leads_out(const FeaturePair& pair, const Vec3& normal) const;
   bool came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const;
 };
 

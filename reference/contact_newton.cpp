@@ -38,7 +38,7 @@ double scale_of(const ContactStep& own, const Vector& velocity, const Vector& ga
 
 /// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
 /// functions: the features may all have been overlooked.
-SidePairs depths_of(const ContactStep& own, const Scene& scene, const Vector& velocity, Findings& findings) {
+WaysOut depths_of(const ContactStep& own, const Scene& scene, const Vector& velocity, Findings& findings) {
   if (own.contact.collider.empty() && own.contact.triangle.empty() && !own.contact.nodes_touch) return {};
   const State end = own.step.end(velocity);
   const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
@@ -83,12 +83,19 @@ struct StepSearch {
     return false;
   }
 
-  /// Whether pairs are in each other where it ends that were searched by their features' way there alone.
+  /// Whether shapes are in each other where it ends, and part by ways that it did not know.
   bool look_closer() {
     Findings findings;
-    const std::size_t known = step.deep.size();
-    step.deep.merge(depths_of(step, scene, velocity, findings));
-    return step.deep.size() > known;
+    bool any = false;
+    for (const auto& [sides, ways] : depths_of(step, scene, velocity, findings)) {
+      std::vector<Vec3>& known = step.deep[sides];
+      constexpr double same = 0.98;  // cosine: a fifth of a radian
+      if (std::any_of(known.begin(), known.end(), [&](const Vec3& way) { return way.dot(ways[0]) > same; }))
+        continue;
+      known.push_back(ways[0]);
+      any = true;
+    }
+    return any;
   }
 };
 

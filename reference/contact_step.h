@@ -66,7 +66,7 @@ struct ContactStep {
   FeatureSearch search;
   std::vector<JudgedContact> contacts;
   std::vector<BoundedRow> bounded;
-  SidePairs deep;  // whose features are those where they end, wherever the step began
+  WaysOut deep;  // of what was found in each other where the step was thought to end
 
   /// Throws SetupError for what the judge does not know.
   ContactStep(const Scene& scene, const State& state, double h, const std::optional<IntegratorMap>& map = {});

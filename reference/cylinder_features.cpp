@@ -54,7 +54,7 @@ void corners_beside_cylinder(const PlacedSurface& other, const PlacedSurface& cy
   const auto near = [&](int kind, std::size_t i, std::size_t k) {
     FeaturePair pair = Between::pair_of(other, feature_kind::corner, i, cylinder, kind, k);
     Place place = place_of(cylinder.surface, both.at, other.x[i]);
-    if (place.inside && !both.deep)
+    if (place.inside && both.ways_out == nullptr)
       if (const Place begun = place_of(cylinder.surface, both.start, placed(pair.a.corner[0], both.start));
           !begun.inside && begun.kind != feature_kind::rim)
         place = begun;

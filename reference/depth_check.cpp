@@ -17,7 +17,7 @@ class Depths {
       : claim_(claim), contact_(contact), sides_(claim, contact), level_(level), findings_(findings) {}
 
   void check_all();
-  const SidePairs& refuted() const { return refuted_; }
+  const WaysOut& refuted() const { return refuted_; }
 
  private:
   void check(int i, int j);
@@ -26,14 +26,14 @@ class Depths {
   DistanceBounds over_triangle(int i, const std::array<int, 3>& nodes, const State& state) const;
   bool far(int i, int j, const PlacedShape& a, const PlacedShape& b) const;
   double allowed(int i, int j, double before) const;
-  double depth(int i, int j, const State& state, double enough) const;
+  Parting parting(int i, int j, const State& state, double enough) const;
 
   const StepClaim& claim_;
   const Contact& contact_;
   Sides sides_;
   double level_;
   Findings& findings_;
-  SidePairs refuted_;
+  WaysOut refuted_;
 };
 
 /// Quick: the balls around both do not touch.
@@ -59,8 +59,8 @@ double Depths::allowed(int i, int j, double before) const {
          (1 + sides_.law(i, j).friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;
 }
 
-/// How deep a pair is in each other, m, and negative if it is apart; `enough` needs no better answer.
-double Depths::depth(int i, int j, const State& state, double enough) const {
+/// What parts a pair soonest; one of `enough` (m) needs no better one.
+Parting Depths::parting(int i, int j, const State& state, double enough) const {
   const PlacedShape a = sides_.placed(i, state), b = sides_.placed(j, state);
   std::vector<Vec3> ways;
   if (!is_half_space(*a.shape) && !is_half_space(*b.shape))
@@ -68,9 +68,9 @@ double Depths::depth(int i, int j, const State& state, double enough) const {
       if (claimed.collider == std::array{i, j}) ways.push_back(claimed.normal);
       if (claimed.collider == std::array{j, i}) ways.emplace_back(-claimed.normal);
     }
-  if (const double told = -separation(a, b, ways); told <= enough) return told;
+  if (const double told = separation(a, b, ways); told >= enough) return {told};
   for (const Vec3& way : ways_apart(a, b)) ways.push_back(way);
-  return -least_parting(a, b, ways).apart;
+  return least_parting(a, b, ways);
 }
 
 void Depths::check(int i, int j) {
@@ -85,10 +85,10 @@ void Depths::check(int i, int j) {
   if (law.restitution > 0 && !is_euler_step(claim_))
     return findings_.leave_out("depth: where shapes bounce, by this integrator");
   double most = allowed(i, j, 0);
-  const double end = depth(i, j, claim_.end, most);
-  if (end > most) most = allowed(i, j, depth(i, j, claim_.start, 0));
-  findings_.require("depth", name_of(i, j) + ", m", end, most);
-  if (!(end <= most)) refuted_.insert({i, j});
+  const Parting end = parting(i, j, claim_.end, -most);
+  if (end.apart < -most) most = allowed(i, j, -parting(i, j, claim_.start, 0).apart);
+  findings_.require("depth", name_of(i, j) + ", m", -end.apart, most);
+  if (!(end.apart >= -most)) refuted_[{i, j}] = {end.along};
 }
 
 /// Of collider i over the triangle's middle plane; of a half space the least of its nodes.
@@ -133,7 +133,6 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
                         std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
                         std::to_string(nodes[2]) + ", m",
                     radius - end.found, most);
-  if (!(radius - end.found <= most)) refuted_.insert({i, sides_.count()});
 }
 
 void Depths::check_triangles() {
@@ -162,7 +161,7 @@ void Depths::check_all() {
 
 }  // namespace
 
-SidePairs check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
+WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
   Depths depths(claim, contact, level, findings);
   depths.check_all();
   return depths.refuted();

@@ -51,7 +51,7 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
     }
 }
 
-void FeatureSearch::find(const Placement& start, const Placement& at, const SidePairs& deep,
+void FeatureSearch::find(const Placement& start, const Placement& at, const WaysOut& deep,
                          std::vector<FeaturePair>& found) const {
   std::vector<PlacedSurface> placed;
   placed.reserve(surfaces_.size());
@@ -64,9 +64,11 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Side
   for (const auto& [i, k] : pairs_) {
     const PlacedSurface &a = placed[i], &b = placed[k];
     const double depth = std::min({a.size(), b.size(), extent}) / 50;
-    find_between(a, b,
-                 {start, at, found, a.moved + b.moved, depth,
-                  deep.contains(side_pair(a.surface.side, b.surface.side))});
+    const auto ways_out =
+        deep.find({std::min(a.surface.side, b.surface.side), std::max(a.surface.side, b.surface.side)});
+    find_between(
+        a, b,
+        {start, at, found, a.moved + b.moved, depth, ways_out != deep.end() ? &ways_out->second : nullptr});
   }
 }
 

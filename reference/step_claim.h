@@ -1,9 +1,7 @@
 // What a solver says of one step, as plain data, and what a judge finds in it.
 #pragma once
 
-#include <algorithm>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +19,8 @@ struct ClaimedContact {
   double gap = 0;  // m
 };
 
-/// Pairs of such numbers, the smaller one first; the deformable surface has the one after all nodes.
-using SidePairs = std::set<std::array<int, 2>>;
-inline std::array<int, 2> side_pair(int a, int b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+/// Of two colliders or nodes, by such numbers: unit vectors that part them, from the second to the first.
+using WaysOut = std::map<std::array<int, 2>, std::vector<Vec3>>;
 
 /// The step of h seconds from `start` to `end`. `forces`: of each effect the multipliers of its constraints
 /// in their order, N for lengths, none of effects without; NaN for what is no row under explicit forces.

@@ -94,3 +94,30 @@ TEST_CASE("a cylinder stands on its cap and comes down on its rim") {
   CHECK(std::abs(height_of_rim(fallen, 1)) <= by_hand);
   CHECK(fallen.contacts == 1);
 }
+
+TEST_CASE("a cube ends with a face on a cylinder's rim that was beside it and behind the face") {
+  constexpr double side = 0.06, inertia = side * side / 6;  // of 1 kg
+  const Vec3 turn(2.536, -1.245, 1.239), from(-0.0302, 0.1294, 0.1759), velocity(-0.02, -1.07, -1.72),
+      spin(-9.88, 5.88, 0.18);
+  BodyScene build({.friction = 0}, 0);
+  build.fixed(Cylinder{rim_radius, rim_length}, {.position = Vec3::Zero()});
+  build.box(Vec3::Constant(side), 1,
+            {.position = from,
+             .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())),
+             .velocity = velocity,
+             .spin = spin});
+  const auto j = judged(build.finish());
+  // The face's impulse is along its normal, at the rim's point that is deepest below it; nothing else turns a
+  // cube.
+  const Vec3 centre = j.x.col(1), down = j.orientation[1] * Vec3::UnitZ();
+  Vec3 rim(0, 0, rim_length / 2);
+  rim.head<2>() -= rim_radius * down.head<2>().normalized();
+  const Vec3 lever = rim - centre;
+  const double off = 1e-9 * (centre - from).norm(), pushed = -down.dot(Vec3(j.v.col(1)) - velocity);
+  CHECK(pushed > 0);
+  CHECK((lever - down.dot(lever) * down).norm() < side / 2);
+  CHECK(std::abs(down.dot(lever) - side / 2) <= off);
+  CHECK((Vec3(j.v.col(1)) - velocity + pushed * down).norm() <= off / judged_step_s);
+  const Vec3 turned = j.orientation[1] * (Vec3(j.spin.col(1)) - spin);
+  CHECK((inertia * turned + lever.cross(pushed * down)).norm() <= side * off / judged_step_s);
+}

@@ -42,7 +42,8 @@ WaysOut depths_of(const ContactStep& own, const Scene& scene, const Vector& velo
   if (own.contact.collider.empty() && own.contact.triangle.empty() && !own.contact.nodes_touch) return {};
   const State end = own.step.end(velocity);
   const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
-  return check_depths(claim, own.contact, 0, findings);
+  constexpr double overlooked = 1e-6;  // edges and sides that are `parallel`, what lies `flat`
+  return check_depths(claim, own.contact, 0, overlooked, findings);
 }
 
 struct StepSearch {
@@ -72,6 +73,7 @@ struct StepSearch {
       correction = increment.cwiseProduct(step.step.model.radius).cwiseAbs().maxCoeff() /
                    scale_of(step, velocity, gamma);
       if (!std::isfinite(correction)) return false;
+      if (iterations == most / 2 && !came_near) look_closer();  // features may come and go for want of others
       if (correction <= rounding || (correction < converged && correction > 0.25 * previous)) {
         // What is near at the start alone lets nothing collide.
         if ((came_near || features_kept) && !step.collide(velocity) && !look_closer()) return true;

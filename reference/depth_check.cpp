@@ -8,13 +8,15 @@
 namespace pbd::reference {
 namespace {
 
-/// Of the round radius: what is documented of the search of contacts.
-constexpr double overlooked = 1e-4;
-
 class Depths {
  public:
-  Depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings)
-      : claim_(claim), contact_(contact), sides_(claim, contact), level_(level), findings_(findings) {}
+  Depths(const StepClaim& claim, const Contact& contact, double level, double overlooked, Findings& findings)
+      : claim_(claim),
+        contact_(contact),
+        sides_(claim, contact),
+        level_(level),
+        overlooked_(overlooked),
+        findings_(findings) {}
 
   void check_all();
   const WaysOut& refuted() const { return refuted_; }
@@ -31,7 +33,7 @@ class Depths {
   const StepClaim& claim_;
   const Contact& contact_;
   Sides sides_;
-  double level_;
+  double level_, overlooked_;
   Findings& findings_;
   WaysOut refuted_;
 };
@@ -55,7 +57,7 @@ double Depths::allowed(int i, int j, double before) const {
   const double inverse = sides_.inverse_mass(i, at_start ? sides_.longest_lever(i, j) : reach(one)) +
                          sides_.inverse_mass(j, at_start ? sides_.longest_lever(j, i) : reach(two));
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + reach(one) + reach(two);
-  return std::max(before, std::isfinite(round) ? overlooked * round : 0.0) +
+  return std::max(before, std::isfinite(round) ? overlooked_ * round : 0.0) +
          (1 + sides_.law(i, j).friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;
 }
 
@@ -125,7 +127,7 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
   const double inverse = sides_.inverse_mass(i, reach) + sides_.inverse_mass(sides_.count(), 0);
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + (std::isfinite(outer) ? outer : 0.0);
   const double most =
-      std::max(std::max(0.0, radius - start.proved), std::isfinite(round) ? overlooked * round : 0.0) +
+      std::max(std::max(0.0, radius - start.proved), std::isfinite(round) ? overlooked_ * round : 0.0) +
       (1 + sides_.law(i, sides_.count()).friction) * level_ * std::sqrt(inverse) * claim_.h +
       step_rounding * size;
   findings_.require("depth",
@@ -161,8 +163,9 @@ void Depths::check_all() {
 
 }  // namespace
 
-WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, Findings& findings) {
-  Depths depths(claim, contact, level, findings);
+WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, double overlooked,
+                     Findings& findings) {
+  Depths depths(claim, contact, level, overlooked, findings);
   depths.check_all();
   return depths.refuted();
 }

@@ -56,7 +56,8 @@ bool PlacedSurface::lies_along(const Vec3& n, const Vec3& from, int kind, std::s
   if (surface.cylinder > 0 && kind != feature_kind::edge) {
     const std::size_t end = kind == feature_kind::rim ? i : (i - 2) / rim_corners;
     const Vec3 inward = (x[end] - from) / surface.cylinder, along = end == 0 ? axis() : Vec3(-axis());
-    return n.dot(inward) >= -slope && n.dot(along) >= -slope && std::abs(n.dot(along.cross(inward))) <= slope;
+    if (std::abs(n.dot(along.cross(inward))) > slope) return false;
+    return n.dot(inward) >= -slope && n.dot(along) >= -slope;
   }
   const auto& beside = kind == feature_kind::corner ? surface.beside_corner[i] : surface.beside_edge[i];
   return std::all_of(beside.begin(), beside.end(), [&](int k) {

@@ -50,7 +50,8 @@ Findings StepCheck::judge(const StepClaim& claim) const {
   for (const Effect& effect : claim.scene.effects)
     if (const auto* contact = std::get_if<Contact>(&effect); contact != nullptr && has_contact_rule(claim)) {
       check_contacts(claim, *contact, level, findings);
-      check_depths(claim, *contact, level, findings);
+      constexpr double overlooked = 1e-4;  // what is documented of the search of contacts
+      check_depths(claim, *contact, level, overlooked, findings);
     }
   return findings;
 }

@@ -10,7 +10,8 @@
 // (cone_problem.h). K enters by its symmetric part, and forces of contacts by what is positive semidefinite
 // of their change with the pose: W is then symmetric and semidefinite, and the iteration converges linearly,
 // the faster the less the bodies turn in a step. Features are searched at every iterate, near the solution by
-// its own pose alone.
+// its own pose alone. Where it ends shapes are measured by their support functions (contact_check.h): those in
+// each other get the features that part them soonest, however these were at the step's start, and it goes on.
 //
 // With a map of ContactStart it is that integrator's step. After the work of ContactStart it gives up.
 //
@@ -33,8 +34,8 @@ struct ContactJudgement : Judgement {
 void require_judged(const Scene& scene, const State& state, double h, Friction friction);
 
 /// Throws SetupError for an invalid scene or what the judge does not know; else all is in the judgement: ok
-/// if forces balance, hard constraints and the law are fulfilled to 1e-9 and the last correction was below
-/// that.
+/// if forces balance, hard constraints and the law are fulfilled to 1e-9, the last correction was below that,
+/// and no convex shapes are deeper in each other than the step began and 1e-6 of their size.
 ContactJudgement contact_newton(const Scene& scene, const State& state, double h, Friction friction,
                                 ConeSolver solver, const ContactStart& start = {});
 

@@ -13,7 +13,7 @@ Vec3 Circle::nearest(const Vec3& x) const {
 
 std::vector<Vec3> nearest_points(const Circle& circle,
                                  const std::function<Vec3(const Vec3&)>& nearest_of_other) {
-  constexpr int parts = 32, halvings = 50;
+  constexpr int parts = 128, halvings = 50;
   constexpr double part = 2 * std::numbers::pi / parts;
   const Vec3 u = circle.axis.unitOrthogonal(), v = circle.axis.cross(u);
   const auto at = [&](double angle) -> Vec3 {

@@ -21,7 +21,7 @@ struct Circle {
 };
 
 /// The points of a circle that are nearer to the other than those beside them, as `nearest_of_other` tells y.
-/// Two that are less than 2 pi/32 apart may be one.
+/// Two that are less than 2 pi/128 apart may be one.
 std::vector<Vec3> nearest_points(const Circle& circle,
                                  const std::function<Vec3(const Vec3&)>& nearest_of_other);
 

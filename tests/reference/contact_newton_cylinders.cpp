@@ -121,3 +121,15 @@ TEST_CASE("a cube ends with a face on a cylinder's rim that was beside it and be
   const Vec3 turned = j.orientation[1] * (Vec3(j.spin.col(1)) - spin);
   CHECK((inertia * turned + lever.cross(pushed * down)).norm() <= side * off / judged_step_s);
 }
+
+TEST_CASE("a box stands on an edge that crosses a cylinder's cap next to the rim, along it") {
+  constexpr double side = 0.1, within = 1e-3;
+  BodyScene build({.friction = 0}, gravity);
+  build.fixed(Cylinder{rim_radius, rim_length}, {.position = Vec3::Zero()});
+  build.box({side, 0.06, side}, 1,
+            {.position = {rim_radius - within, 0, rim_length / 2 + side / std::sqrt(2.0)},
+             .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::atan(1.0), Vec3::UnitY()))});
+  const auto still = judged(build.finish());
+  CHECK(still.v.cwiseAbs().maxCoeff() <= by_hand);
+  CHECK(still.spin.cwiseAbs().maxCoeff() <= by_hand / side);
+}

@@ -90,11 +90,12 @@ struct StepSearch {
     Findings findings;
     bool any = false;
     for (const auto& [sides, ways] : depths_of(step, scene, velocity, findings)) {
-      std::vector<Vec3>& known = step.deep[sides];
       constexpr double same = 0.98;  // cosine: a fifth of a radian
-      if (std::any_of(known.begin(), known.end(), [&](const Vec3& way) { return way.dot(ways[0]) > same; }))
+      const Vec3& way = ways.front();
+      std::vector<Vec3>& known = step.deep[sides];
+      if (std::any_of(known.begin(), known.end(), [&](const Vec3& one) { return one.dot(way) > same; }))
         continue;
-      known.push_back(ways[0]);
+      known.push_back(way);
       any = true;
     }
     return any;
@@ -162,8 +163,8 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
        {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})
     if (converged && !(off <= allowed)) say() << name << " off by " << off << ", allowed " << allowed;
   Findings deep;
-  depths_of(own, scene, search.velocity, deep);
-  if (converged && !deep.refuted.empty())
+  if (converged) depths_of(own, scene, search.velocity, deep);
+  if (!deep.refuted.empty())
     say() << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
   j.reason = reason.str();
   j.outcome = j.reason.empty() ? Outcome::ok : Outcome::not_converged;

@@ -10,8 +10,9 @@
 // (cone_problem.h). K enters by its symmetric part, and forces of contacts by what is positive semidefinite
 // of their change with the pose: W is then symmetric and semidefinite, and the iteration converges linearly,
 // the faster the less the bodies turn in a step. Features are searched at every iterate, near the solution by
-// its own pose alone. Where it ends shapes are measured by their support functions (contact_check.h): those in
-// each other get the features that part them soonest, however these were at the step's start, and it goes on.
+// its own pose alone. Where it ends shapes are measured by their support functions (contact_check.h): those
+// in each other get the features that part them soonest, however these were at the step's start, and it goes
+// on.
 //
 // With a map of ContactStart it is that integrator's step. After the work of ContactStart it gives up.
 //

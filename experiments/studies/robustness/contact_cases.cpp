@@ -33,7 +33,11 @@ ContactCase in_other_units(const ContactCase& each, double length, double mass) 
 std::vector<ContactCase> contact_cases(bool full) {
   auto all = cases_at_rest(full);
   const std::pair<std::string_view, std::vector<ContactCase> (*)(bool)> families[]{
-      {"", moving_cases}, {"surfaces", surface_cases}, {"soft", soft_cases}, {"soft", driven_soft_cases}};
+      {"", moving_cases},
+      {"surfaces", surface_cases},
+      {"surfaces", screw_cases},
+      {"soft", soft_cases},
+      {"soft", driven_soft_cases}};
   for (const auto& [family, make] : families) {
     auto more = make(full);
     for (ContactCase& each : more) each.family = family;

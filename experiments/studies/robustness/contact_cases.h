@@ -45,9 +45,10 @@ inline Eigen::Quaterniond about_y(double angle) {
 std::vector<ContactCase> cases_at_rest(bool full);
 std::vector<ContactCase> moving_cases(bool full);
 
-/// Spikes, wedges, cliffs, holes and inner edges of meshes; thin walls; levers. Solids and cloth that fall
-/// and carry; those that are twisted, thrown and pulled.
+/// Spikes, wedges, cliffs, holes and inner edges of meshes; thin walls; levers. A wing nut. Solids and cloth
+/// that fall and carry; those that are twisted, thrown and pulled.
 std::vector<ContactCase> surface_cases(bool full);
+std::vector<ContactCase> screw_cases(bool full);
 std::vector<ContactCase> soft_cases(bool full);
 std::vector<ContactCase> driven_soft_cases(bool full);
 

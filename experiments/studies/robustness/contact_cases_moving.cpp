@@ -1,4 +1,5 @@
 // Scenes that slide, roll, swing and spin.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -114,6 +115,37 @@ ContactCase turntable(double friction) {
   return made;
 }
 
+/// A box on a belt, held by a spring. It sticks for mu m g/(k speed) and then swings about mu m g/k; there is
+/// one coefficient of friction, so that no implicit Euler step lets it stick again.
+ContactCase held_by_spring(double speed, double h) {
+  constexpr double friction = 0.35, mass = 1, stiffness = 100;  // N/m
+  BodyScene build({.friction = friction});
+  build.ground();
+  build.contact().collider.back().surface_velocity = Vec3(speed, 0, 0);
+  const Vec3 start(0, 0, 0.05);
+  const int box =
+      build.box(Vec3(0.2, 0.2, 0.1), mass, {start, Eigen::Quaterniond::Identity(), Vec3(speed, 0, 0)});
+  const int world = build.fixed(Sphere{0.01}, {Vec3(0, 0, 1)});
+  Scene scene = build.finish();
+  scene.effects.emplace_back(
+      PointJoint{{{world, box}}, {{Vec3(0, 0, start.z() - 1), Vec3::Zero()}}, {1 / stiffness}});
+  ContactCase made{fmt::format("box held by a spring on a belt at {:g} m/s", speed), std::move(scene), h, 2,
+                   0.1};
+  made.settles = false;
+  // Implicit Euler in one dimension, the friction within mu m g: with the belt if that can be.
+  made.missed = [=](const State& end, double step, std::int64_t steps) {
+    double x = 0, v = speed;
+    const double most = friction * mass * gravity, m = mass + step * step * stiffness;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const double free = mass * v - step * stiffness * x;
+      v = std::clamp(speed, (free - step * most) / m, (free + step * most) / m);
+      x += step * v;
+    }
+    return std::abs(end.x(0, box) - x) * stiffness / most;
+  };
+  return made;
+}
+
 }  // namespace
 
 std::vector<ContactCase> moving_cases(bool full) {
@@ -126,6 +158,8 @@ std::vector<ContactCase> moving_cases(bool full) {
   all.push_back(colliding_balls(full ? 6 : 3));
   if (full) all.push_back(coin());
   for (const double friction : {0.1, 0.5, 1.0}) all.push_back(turntable(friction));
+  for (const double speed : {0.02, 0.1, 0.5})
+    if (full || speed == 0.1) all.push_back(held_by_spring(speed, 0.005));
   return all;
 }
 

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "harness/files.h"
 #include "harness/probes.h"
+#include "scenes/mesh_file.h"
 #include "studies/robustness/contact_cases.h"
 #include "studies/robustness/relief.h"
 #include "studies/robustness/soft_parts.h"
@@ -122,6 +124,29 @@ ContactCase soft_on_rigid_on_cloth(double young, double h, double duration, int 
   return made;
 }
 
+/// The soft cow on four rigid boxes, all of them a thousandth as heavy, on cloth that is held at its corners.
+ContactCase cow_on_boxes_on_cloth(double young, double h) {
+  BodyScene build({.friction = 0.5});
+  TetMesh cow = read_tet_mesh(scenes_folder() / "meshes/cow.msh");
+  constexpr double height = 0.05, density = 1000;
+  double volume = 0;
+  for (const auto& tet : cow.tets) volume += tet_volume(cow.x(Eigen::all, tet));
+  const Vec3 low = cow.x.rowwise().minCoeff(), high = cow.x.rowwise().maxCoeff();
+  cow.x.colwise() -= Vec3((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, low.z());
+  cow.x.row(2).array() += 2 * half_thickness + height;
+  for (const double x : {-0.26, 0.26})
+    for (const double y : {-0.13, 0.13})
+      build.box(Vec3(0.5, 0.25, height), density * volume / 4000, {Vec3(x, y, half_thickness + height / 2)});
+  Scene scene = build.finish();
+  const int first = add_touching_cloth(scene, grid_sheet({8, 8}, {1.6, 1.6}, {-0.8, -0.8, 0}), 0.5, 1e-5);
+  for (const int corner : {0, 8, 72, 80}) scene.mass[static_cast<std::size_t>(first + corner)] = infinity;
+  add_soft(scene, cow, young, density);
+  ContactCase made{fmt::format("soft cow on boxes on cloth, 1000:1, {:.0e} Pa, h = {:.2g} s", young, h),
+                   std::move(scene), h, 1, height};
+  made.settles = false;
+  return made;
+}
+
 /// Hard links along the sides of squares, held at two corners, fall over a ball.
 ContactCase hard_grid(int cells, double duration) {
   BodyScene build({.friction = 0.5});
@@ -174,6 +199,14 @@ std::vector<ContactCase> soft_cases(bool full) {
     for (const double h : {1.0 / 30, video_frame, 1.0 / 600})
       if (young == 1e5 ? full || h == video_frame : full && h == video_frame)
         all.push_back(soft_on_rigid_on_cloth(young, h, full ? 1 : 0.25, 2));
+  if (full)
+    for (const auto& [young, h] : {std::pair{1e3, video_frame},
+                                   {1e5, 1.0 / 30},
+                                   {1e5, video_frame},
+                                   {1e5, 1.0 / 600},
+                                   {1e7, video_frame},
+                                   {1e9, video_frame}})
+      all.push_back(cow_on_boxes_on_cloth(young, h));
   all.push_back(hard_grid(full ? 6 : 4, full ? 1 : 0.25));
   if (full) all.push_back(ball_on_mat(cells));
   ContactCase rigid{"pile", pile(), 0.01, 1, 0.05};

@@ -33,20 +33,26 @@ void write_place(const Vec3& y, double radius, int i, const ClosedMesh& mesh, co
   writer.write(on_face(y, radius, at.nearest, direction(mesh, at, y), 0), key, gap);
 }
 
+/// True if one of the edges from the node comes nearer to x than `distance`, m.
+bool nearer_beside(const ClosedMesh& mesh, int node, const Vec3& x, double distance) {
+  const Vec3 from = mesh.surface.x.col(node), to_x = x - from;
+  const auto others = mesh.neighbours(node);
+  return std::any_of(others.begin(), others.end(), [&](int other) {
+    const Vec3 edge = mesh.surface.x.col(other) - from;
+    const double arc = std::clamp(edge.dot(to_x) / edge.squaredNorm(), 0.0, 1.0);
+    return (to_x - arc * edge).norm() < distance;
+  });
+}
+
 }  // namespace
 
 bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double slope) {
   const Vec3 x = mesh.surface.x.col(node);
-  bool lowest = true;
-  mesh.tree.find(AxisBox(x, x), [&](int triangle) {
-    const auto& nodes = mesh.surface.triangles[triangle];
-    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) return;
-    for (const int other : nodes) {
-      const Vec3 to = mesh.surface.x.col(other) - x;
-      lowest = lowest && normal.dot(to) >= -slope * to.norm();
-    }
+  const auto others = mesh.neighbours(node);
+  return std::all_of(others.begin(), others.end(), [&](int other) {
+    const Vec3 to = mesh.surface.x.col(other) - x;
+    return normal.dot(to) >= -slope * to.norm();
   });
-  return lowest;
 }
 
 bool MeshPair::lies_above(int node, const Vec3& normal) const {
@@ -118,9 +124,8 @@ double MeshPair::depth_in_a(const Vec3& x, double farthest) const {
 
 void MeshPair::crossing(int i, int j) const {
   const auto &of_a = a.edge(i), &of_b = b.solid.edges[j];
-  const Vec3 from_b = b.surface.x.col(of_b.node[0]), whole_b = b.surface.x.col(of_b.node[1]) - from_b;
-  const double length_b = whole_b.norm();
-  const Vec3 along_b = whole_b / length_b;
+  const Vec3 from_b = b.surface.x.col(of_b.node[0]), &along_b = b.edge[j].along;
+  const double length_b = b.edge[j].length;
   const Vec3 &along_a = a.along[i], &from_a = a.node(of_a.node[0]);
   const double length_a = a.length[i];
   if (!(length_a > 0)) return;
@@ -138,6 +143,7 @@ void MeshPair::crossing(int i, int j) const {
   Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
   const bool inside = normal.dot(at.apart) < 0;
+  if (!inside && distance - a.radius > writer.reach.margin) return;
   if (is_flush && of_a.face[0] >= 0 && (normal_a(of_a.face[0]) + normal_a(of_a.face[1])).dot(normal) > 0)
     return;  // both shapes are on one side
   const double slope = is_flush ? std::max(turn, flush_part) : inside ? 0 : turn;
@@ -166,9 +172,19 @@ void MeshPair::crossing(int i, int j) const {
   writer.write(contact, key, gap);
 }
 
+bool MeshPair::look_away(int i, const Vec3& normal, int j) const {
+  constexpr double slack = 1e-9;  // of cosines
+  if (mesh_a == nullptr) return false;
+  const MeshEdge &of_a = mesh_a->edge[i], &of_b = b.edge[j];
+  return of_a.cosine + of_b.cosine > slack &&
+         normal.dot(of_b.normal) > of_a.sine * of_b.sine - of_a.cosine * of_b.cosine + slack;
+}
+
 void MeshPair::edges() const {
   scratch.met.assign(b.solid.edges.size(), -1);
   for (int i = 0; i < a.edge_count(); ++i) {
+    const Vec3 normal =
+        mesh_a != nullptr ? Vec3(writer.frame_a.rotation * mesh_a->edge[i].normal) : Vec3::Zero();
     AxisBox box;
     for (const int node : a.edge(i).node) box.extend(a.node(node));
     box.min().array() -= limit;
@@ -176,7 +192,7 @@ void MeshPair::edges() const {
     b.tree.find(box, [&](int triangle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const int j = b.solid.sides[3 * triangle + k];
-        if (std::exchange(scratch.met[j], i) != i) crossing(i, j);
+        if (std::exchange(scratch.met[j], i) != i && !look_away(i, normal, j)) crossing(i, j);
       }
     });
   }
@@ -223,9 +239,10 @@ void MeshPair::beside(const Vec3& y, int node, int e, const ContactWriter& excha
   const Vec3 y_a = from + arc * along, apart = y - y_a;
   if (arc <= 0 || arc >= length || apart.dot(b.node_normals.col(node)) >= 0 || apart.norm() >= limit) return;
   if (!minimum(a.edge(e), along, apart, turn, [&](int f) -> const Vec3& { return a.face_normal(f); })) return;
-  MeshPlace nearest{};  // of the surface, the node must be nearest to the edge's point
   const double distance = apart.norm();
   if (a.radius == 0 && distance <= tiny) return;
+  if (nearer_beside(b, node, y_a, distance - tiny)) return;
+  MeshPlace nearest{};  // of the surface, the node must be nearest to the edge's point
   if (!nearest_of_mesh(b, y_a, distance, nearest) || nearest.distance < distance - tiny) return;
   const auto key = exchanged.key(Feature::node, node, Feature::edge, e);
   if (a.radius > 0)

@@ -43,6 +43,9 @@ struct MeshPair {
   /// surfaces part from it: nodes that are apart `beside` and `nodes` tell of. Inside, the edges' own faces
   /// must be the nearest ones to where they cross.
   void crossing(int i, int j) const;
+  /// True if edges i and j are no minimum however they lie, `normal` the mean of those of a's faces: that of
+  /// a minimum is off an edge's own by no more than the angle of its faces' normals (edge_minimum.h).
+  bool look_away(int i, const Vec3& normal, int j) const;
   void over_faces(const Vec3& y, int node, const ContactWriter& exchanged) const;
   /// The node against a's edge e.
   void beside(const Vec3& y, int node, int e, const ContactWriter& exchanged) const;

@@ -111,15 +111,9 @@ void minima_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshMin
   });
   // An edge or a node: where all triangles about it have it as their nearest point.
   for (const MeshPlace& at : near) {
-    int about = 2;
-    if (at.feature == MeshPlace::Feature::node) {
-      about = 0;
-      mesh.tree.find(cube_about(at.nearest, 0), [&](int triangle) {
-        const auto& nodes = mesh.surface.triangles[triangle];
-        about += static_cast<int>(std::count(nodes.begin(), nodes.end(), at.i));
-      });
-    }
-    if (std::exchange(seen_of(at), 0) == about) found.push_back(at);
+    // It has as many triangles as edges.
+    const std::size_t about = at.feature == MeshPlace::Feature::node ? mesh.neighbours(at.i).size() : 2;
+    if (static_cast<std::size_t>(std::exchange(seen_of(at), 0)) == about) found.push_back(at);
   }
 }
 

@@ -82,7 +82,9 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   recovering_ = begin.after_miss || (begin.continued && recovering_);
   free_.x = begin.map.x0 + begin.map.d * begin.map.v_free;
   begin.bodies.place(free_.x, free_.pose);
-  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.v, free_.x, begin.inverse_mass);
+  const int threads = std::visit([](const auto& block) { return block.chunks.threads; }, blocks.front());
+  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.v, free_.x, begin.inverse_mass,
+                threads);
   collided_.clear();
   strikes_ = false;
   keep_impulses(blocks);

@@ -71,7 +71,8 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
 }
 
 void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& straight,
-                          const Points& free, const std::vector<double>& inverse_mass) {
+                          const Points& free, const std::vector<double>& inverse_mass, int threads) {
+  threads_ = threads;
   place_colliders(bodies, start, inverse_mass);
   searched_ = false;
   near_.clear();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rows/threads.h"
+
 namespace pbd {
 
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
@@ -11,7 +13,7 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
       allowed_(scene, effect),
       motions_(effect.collider.size() + effect.node.size() +
                (effect.collider.empty() ? 0 : effect.triangle.size())) {
-  triangle_.radius = effect.thickness / 2;
+  points_.triangle.radius = effect.thickness / 2;
   if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];
@@ -68,7 +70,8 @@ bool ContactSearch::may_touch(int first, int second) const {
                      [&](int node) { return allowed_.node_and_body(node, body); });
 }
 
-ActiveContact ContactSearch::active(const ContactPoint& point, int first, int second) const {
+ActiveContact ContactSearch::active(const ContactPoint& point, int first, int second,
+                                    const RoundedTriangle& triangle) const {
   const std::array<int, 2> sides = point.swapped ? std::array{second, first} : std::array{first, second};
   const auto local = [&](int collider) {
     return motions_[collider].kind == Carrier::body ? effect_.collider[collider].frame : Frame{};
@@ -87,7 +90,7 @@ ActiveContact ContactSearch::active(const ContactPoint& point, int first, int se
     }
     if (own.kind != Carrier::triangle) continue;
     contact.triangle_side = side;
-    contact.triangle = feature_of(point, side, triangle_, effect_.triangle[own.carrier]);
+    contact.triangle = feature_of(point, side, triangle, effect_.triangle[own.carrier]);
     name_by_scene(own, contact);
   }
   contact.law = effect_.between(first, second);
@@ -108,25 +111,26 @@ std::vector<ActiveContact>::iterator ContactSearch::late_contact(const PairFeatu
 }
 
 /// What a pair's features make where the step begins.
-void ContactSearch::search_pair(int first, int second, const Configuration& start) {
+void ContactSearch::search_pair(int first, int second, const Configuration& start, SearchTask& task) const {
   if (!may_touch(first, second)) return;
   const Motion &one = motions_[first], &two = motions_[second];
-  if (one.kind == Carrier::node) return search_nodes(first, second, start.x);
+  if (one.kind == Carrier::node) return search_nodes(first, second, start.x, task);
   const double travel = travel_between(one, two);
-  if (two.kind == Carrier::triangle) triangle_.place(corners(two, start.x));
-  find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn});
+  PairPoints& points = task.points;
+  if (two.kind == Carrier::triangle) points.triangle.place(corners(two, start.x));
+  find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn}, points);
   double nearest = infinity;
-  for (const ContactPoint& point : found_) {
+  for (const ContactPoint& point : points.found) {
     nearest = std::min(nearest, gap_of(point, one.frame, two.frame));
-    ActiveContact contact = active(point, first, second);
+    ActiveContact contact = active(point, first, second, points.triangle);
     if (contact.law.restitution == 0) contact.apart = near * travel;
-    if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) near_.push_back(contact);
+    if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) task.near.push_back(contact);
   }
-  near_pairs_.push_back({{first, second}, nearest, near_.size()});
+  task.pairs.push_back({{first, second}, nearest, task.near.size()});
 }
 
 /// Spheres of two nodes, if they are near.
-void ContactSearch::search_nodes(int first, int second, const Points& x) {
+void ContactSearch::search_nodes(int first, int second, const Points& x, SearchTask& task) const {
   const Motion &one = motions_[first], &two = motions_[second];
   ActiveContact contact;
   contact.of_surfaces = true;
@@ -141,8 +145,22 @@ void ContactSearch::search_nodes(int first, int second, const Points& x) {
   contact.law = effect_.between(first, second);
   const double gap = touching(contact.surface, x).gap;
   if (!(contact.surface.thickness > 0) || gap > effect_.margin + travel_between(one, two)) return;
-  near_.push_back(contact);
-  near_pairs_.push_back({{first, second}, gap, near_.size()});
+  task.near.push_back(contact);
+  task.pairs.push_back({{first, second}, gap, task.near.size()});
+}
+
+/// Searches the pairs that are asked for. Each task has every so manieth, since bodies, which take longest,
+/// stand together; what a pair gives depends on no other.
+void ContactSearch::search_asked(const Configuration& start) {
+  tasks_.resize(threads_ > 1 ? most_tasks : 1);
+  each_task(threads_, tasks_.size(), [&](std::size_t k) {
+    SearchTask& task = tasks_[k];
+    task.points.triangle.radius = points_.triangle.radius;
+    task.pairs.clear();
+    task.near.clear();
+    for (std::size_t i = k; i < asked_.size(); i += tasks_.size())
+      search_pair(asked_[i][0], asked_[i][1], start, task);
+  });
 }
 
 /// Of what is near, and what came to touch later, the contacts of a pair.
@@ -174,13 +192,13 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
 }
 
 void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
-                                const Reach& reach) {
-  found_.clear();
+                                const Reach& reach, PairPoints& points) const {
+  points.found.clear();
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
   if (two.kind != Carrier::triangle)
-    return generate(*one.shape, at_first, *two.shape, at_second, reach, scratch_, found_);
-  generate(triangle_, *one.shape, at_first, reach, scratch_, found_);
-  for (ContactPoint& point : found_) point.swapped = !point.swapped;
+    return generate(*one.shape, at_first, *two.shape, at_second, reach, points.scratch, points.found);
+  generate(points.triangle, *one.shape, at_first, reach, points.scratch, points.found);
+  for (ContactPoint& point : points.found) point.swapped = !point.swapped;
 }
 
 /// Pairs are as they were found before in the step unless one of them goes farther now; so are surfaces.
@@ -200,19 +218,32 @@ void ContactSearch::search(const Configuration& start) {
     const int group = motion.kind == Carrier::body ? motion.carrier : alone ? -2 - motion.carrier : -1;
     boxes_.push_back({{box.min() - slack, box.max() + slack}, motion.moves, group});
   }
+  asked_.clear();
+  views_.clear();
   auto before = pairs_before_.begin();
   std::size_t begin = 0;  // of its contacts
   for (const auto& pair : broad_phase_.pairs(boxes_)) {
     for (; before != pairs_before_.end() && before->collider < pair; ++before) begin = before->end;
     const bool known = before != pairs_before_.end() && before->collider == pair &&
                        !motions_[pair[0]].grown && !motions_[pair[1]].grown;
-    if (!known) {
-      search_pair(pair[0], pair[1], start);
-      continue;
+    if (known)
+      views_.push_back({pair, before->nearest, std::span(near_before_).subspan(begin, before->end - begin)});
+    else
+      asked_.push_back(pair);
+  }
+  search_asked(start);
+  for (const SearchTask& task : tasks_) {
+    begin = 0;
+    for (const auto& [pair, nearest, end] : task.pairs) {
+      views_.push_back({pair, nearest, std::span(task.near).subspan(begin, end - begin)});
+      begin = end;
     }
-    near_.insert(near_.end(), near_before_.begin() + static_cast<std::ptrdiff_t>(begin),
-                 near_before_.begin() + static_cast<std::ptrdiff_t>(before->end));
-    near_pairs_.push_back({pair, before->nearest, near_.size()});
+  }
+  std::sort(views_.begin(), views_.end(),
+            [](const NearView& one, const NearView& two) { return one.collider < two.collider; });
+  for (const auto& [pair, nearest, contacts] : views_) {
+    near_.insert(near_.end(), contacts.begin(), contacts.end());
+    near_pairs_.push_back({pair, nearest, near_.size()});
   }
   for (Motion& motion : motions_) motion.grown = false;
   if (std::exchange(surfaces_grown_, false) && effect_.surfaces_touch) {

@@ -69,9 +69,9 @@ class ContactSearch {
   ContactSearch(const Scene& scene, const Contact& effect);
 
   /// Places the colliders where a step begins; they go as far as to `free`, the free motion's end. Courses
-  /// end at `straight`.
+  /// end at `straight`. Pairs are searched on so many threads.
   void begin(const Bodies& bodies, const Configuration& start, const Points& straight, const Points& free,
-             const std::vector<double>& inverse_mass);
+             const std::vector<double>& inverse_mass, int threads);
 
   /// True if some collider goes farther to x than was thought of; it is thought to go a quarter farther then.
   bool extend(const Bodies& bodies, const Configuration& start, const Points& x);
@@ -138,6 +138,21 @@ class ContactSearch {
     double nearest;   // m, gap where the step begins
     std::size_t end;  // of its contacts in `near_`
   };
+  struct PairPoints {  // of one pair, and the room to find them
+    std::vector<ContactPoint> found;
+    CollisionScratch scratch;
+    RoundedTriangle triangle;  // the one that was placed last
+  };
+  struct NearView {
+    std::array<int, 2> collider;
+    double nearest;
+    std::span<const ActiveContact> contacts;
+  };
+  struct SearchTask {  // a part of the pairs that are searched, and what is near of them
+    PairPoints points;
+    std::vector<NearPair> pairs;
+    std::vector<ActiveContact> near;
+  };
   struct PairFeatures {
     std::array<int, 2> collider;  // the lower one first
     std::uint64_t key;            // as `active` gives it
@@ -172,15 +187,16 @@ class ContactSearch {
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
-  void search_pair(int first, int second, const Configuration& start);
-  void search_nodes(int first, int second, const Points& x);
+  void search_pair(int first, int second, const Configuration& start, SearchTask& task) const;
+  void search_nodes(int first, int second, const Points& x, SearchTask& task) const;
+  void search_asked(const Configuration& start);
   void add_pair(const NearPair& pair, std::span<const ActiveContact> near, ContactLists& contacts);
-  ActiveContact active(const ContactPoint& point, int first, int second) const;
+  ActiveContact active(const ContactPoint& point, int first, int second,
+                       const RoundedTriangle& triangle) const;
   std::vector<ActiveContact>::iterator late_contact(const PairFeatures& features);
   Frame placed_frame(int collider, const Configuration& at) const;
-  /// Sets `found_`; a triangle is the one that was placed last.
   void find_points(const std::array<int, 2>& pair, const Frame& at_first, const Frame& at_second,
-                   const Reach& reach);
+                   const Reach& reach, PairPoints& points) const;
   /// m, with the frames of the pair in the order of the colliders.
   static double gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second);
 
@@ -252,12 +268,14 @@ class ContactSearch {
   std::vector<std::array<int, 2>> dropped_;  // pairs that contacts have just left
   Points between_x_;  // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;
-  std::vector<ContactPoint> found_;
   std::vector<ActiveContact> overlapping_;
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;
-  CollisionScratch scratch_;
-  RoundedTriangle triangle_;  // the one that was placed last
+  PairPoints points_;
+  int threads_ = 1;
+  std::vector<std::array<int, 2>> asked_;  // pairs that are searched
+  std::vector<SearchTask> tasks_;
+  std::vector<NearView> views_;  // of pairs found before or now
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;

@@ -21,8 +21,8 @@ Frame ContactSearch::frame_between(int collider, const Configuration& start, con
   return {from.origin + share * (to.origin - from.origin), turned_between(from.rotation, to.rotation, share)};
 }
 
-/// Sets `found_` to the points of a pair that are within reach at a share of the way from `start` to `end`;
-/// returns the least gap, m.
+/// Sets `points_.found` to the points of a pair that are within reach at a share of the way from `start` to
+/// `end`; returns the least gap, m.
 double ContactSearch::generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                                        double share, double reach) {
   const auto [first, second] = pair.collider;
@@ -32,21 +32,21 @@ double ContactSearch::generate_between(const Pair& pair, const Configuration& st
     auto corner = corners(motions_[second], start.x);
     const auto to = corners(motions_[second], end.x);
     for (std::size_t k = 0; k < 3; ++k) corner[k] += share * (to[k] - corner[k]);
-    triangle_.place(corner);
+    points_.triangle.place(corner);
   }
-  find_points(pair.collider, at_first, at_second, Reach{reach});
+  find_points(pair.collider, at_first, at_second, Reach{reach}, points_);
   double least = infinity;
-  for (const ContactPoint& point : found_) least = std::min(least, gap_of(point, at_first, at_second));
+  for (const ContactPoint& point : points_.found) least = std::min(least, gap_of(point, at_first, at_second));
   return least;
 }
 
-/// Sets `overlapping_` to what of `found_` overlaps at `end` by more than `allowed`, but not what lies behind
-/// where `start` was.
+/// Sets `overlapping_` to what of `points_.found` overlaps at `end` by more than `allowed`, but not what lies
+/// behind where `start` was.
 void ContactSearch::keep_overlapping(const Pair& pair, const Configuration& start, const Configuration& end,
                                      double allowed, double behind) {
   overlapping_.clear();
-  for (const ContactPoint& point : found_) {
-    const ActiveContact contact = active(point, pair.collider[0], pair.collider[1]);
+  for (const ContactPoint& point : points_.found) {
+    const ActiveContact contact = active(point, pair.collider[0], pair.collider[1], points_.triangle);
     if (touching_at(contact, end).gap < allowed && touching_at(contact, start).gap >= behind)
       overlapping_.push_back(contact);
   }
@@ -79,8 +79,8 @@ bool ContactSearch::is_round(int collider) const {
          std::holds_alternative<Cylinder>(*own.shape);
 }
 
-/// Sets `overlapping_` to what of `found_` overlaps at `end` by more than `allowed`, and by more than at
-/// `start`: what ends less deep is on its way out, though other features were nearest there.
+/// Sets `overlapping_` to what of `points_.found` overlaps at `end` by more than `allowed`, and by more than
+/// at `start`: what ends less deep is on its way out, though other features were nearest there.
 void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end,
                                    double allowed) {
   keep_overlapping(pair, start, end, allowed, -infinity);

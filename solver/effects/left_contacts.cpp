@@ -15,11 +15,12 @@ bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuratio
   const Motion& own = motions_[collider];
   if (own.kind == Carrier::node) return true;  // it is round
   if (own.kind != Carrier::triangle)
-    return is_at(*own.shape, placed_frame(collider, at), point, slack, scratch_, found_);
-  found_.clear();
-  triangle_.place(corners(own, at.x));
-  generate(triangle_, Sphere{slack}, {point, Eigen::Matrix3d::Identity()}, Reach{0}, scratch_, found_);
-  return !found_.empty();
+    return is_at(*own.shape, placed_frame(collider, at), point, slack, points_.scratch, points_.found);
+  points_.found.clear();
+  points_.triangle.place(corners(own, at.x));
+  generate(points_.triangle, Sphere{slack}, {point, Eigen::Matrix3d::Identity()}, Reach{0}, points_.scratch,
+           points_.found);
+  return !points_.found.empty();
 }
 
 /// True of what is endless and of surfaces, too.
@@ -90,8 +91,8 @@ std::optional<ActiveContact> ContactSearch::as_edges(const ActiveContact& contac
     return std::nullopt;
   const Pair pair{contact.pair()};
   generate_between(pair, start, end, 1, beside(pair.collider));
-  for (const ContactPoint& point : found_) {
-    ActiveContact stated = active(point, pair.collider[0], pair.collider[1]);
+  for (const ContactPoint& point : points_.found) {
+    ActiveContact stated = active(point, pair.collider[0], pair.collider[1], points_.triangle);
     if (stated.features.key != key || stated.features.kind != ContactPoint::Kind::edges) continue;
     if (agree(contact, stated, end, beside(pair.collider))) return std::nullopt;
     return stated;
@@ -140,8 +141,8 @@ void ContactSearch::keep_parted(const Configuration& start, const Configuration&
   const double slack = beside(pair.collider);
   generate_between(pair, start, end, 1, slack + hovering(contacts, end));
   std::erase_if(contacts, [&](const ActiveContact& contact) {
-    return std::any_of(found_.begin(), found_.end(), [&](const ContactPoint& point) {
-      const ActiveContact found = active(point, pair.collider[0], pair.collider[1]);
+    return std::any_of(points_.found.begin(), points_.found.end(), [&](const ContactPoint& point) {
+      const ActiveContact found = active(point, pair.collider[0], pair.collider[1], points_.triangle);
       return found.features.key == contact.features.key && agree(contact, found, end, slack);
     });
   });

@@ -6,16 +6,16 @@
 
 namespace pbd {
 
-/// States what touches round of `found_` at a share of the way, and has passed at `end`, as the plane
+/// States what touches round of `points_.found` at a share of the way, and has passed at `end`, as the plane
 /// between, which b carries: a distance has no sign by which to see that one passed the other.
 void ContactSearch::part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end,
                                    double share) {
   const auto [first, second] = pair.collider;
   const std::array<Frame, 2> at{frame_between(first, start, end, share),
                                 frame_between(second, start, end, share)};
-  for (ContactPoint& point : found_) {
+  for (ContactPoint& point : points_.found) {
     if (point.kind != ContactPoint::Kind::point && point.kind != ContactPoint::Kind::line) continue;
-    if (touching_at(active(point, first, second), end).gap < 0) continue;
+    if (touching_at(active(point, first, second, points_.triangle), end).gap < 0) continue;
     const Frame &a = at[point.swapped ? 1 : 0], &b = at[point.swapped ? 0 : 1];
     point.direction_b = b.rotation.transpose() * touching(point, a, b).normal;
     point.kind = ContactPoint::Kind::face;
@@ -45,7 +45,8 @@ bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, co
 bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
                                 double slack) {
   generate_between(pair, start, end, 0, 2 * slack);
-  std::erase_if(found_, [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
+  std::erase_if(points_.found,
+                [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
   part_by_planes(pair, start, end, 0);
   keep_overlapping(pair, start, end, -slack, -infinity);
   return !overlapping_.empty();

@@ -13,7 +13,7 @@ AxisBox ContactSearch::box_of(const Motion& motion, const Points& x) const {
   if (motion.kind != Carrier::triangle) return bounds_of(*motion.shape, motion.frame);
   AxisBox box;
   for (const Vec3& corner : corners(motion, x)) box.extend(corner);
-  const Vec3 rounded = Vec3::Constant(triangle_.radius);
+  const Vec3 rounded = Vec3::Constant(points_.triangle.radius);
   return {box.min() - rounded, box.max() + rounded};
 }
 
@@ -21,7 +21,7 @@ void ContactSearch::place_triangle(const Points& x, const std::vector<double>& i
                                    Motion& motion) const {
   const auto [a, b, c] = corners(motion, x);
   motion.centre = (a + b + c) / 3;
-  motion.radius = triangle_.radius +
+  motion.radius = points_.triangle.radius +
                   std::sqrt(std::max({(a - motion.centre).squaredNorm(), (b - motion.centre).squaredNorm(),
                                       (c - motion.centre).squaredNorm()}));
   motion.height = (b - a).cross(c - a).norm() / std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pbd {
 namespace {
@@ -40,6 +41,29 @@ Vec3 point_inside(const TriangleMesh& surface) {
   return std::isfinite(nearest) ? Vec3(middle + nearest / 2 * inward) : middle;
 }
 
+MeshEdge mesh_edge(const Polyhedron& solid, const Polyhedron::Edge& edge) {
+  const Vec3 whole = solid.x.col(edge.node[1]) - solid.x.col(edge.node[0]);
+  const Vec3 &one = solid.faces[edge.face[0]].normal, &two = solid.faces[edge.face[1]].normal;
+  const bool bends = !one.isZero(0) && !two.isZero(0);
+  const double cosine = bends ? one.dot(two) : -1, length = whole.norm();
+  return {whole / length, (one + two).normalized(), length, cosine, bends ? one.cross(two).norm() : 0};
+}
+
+/// What a mesh tells of its edges.
+void add_edges(ClosedMesh& mesh) {
+  const Polyhedron& solid = mesh.solid;
+  mesh.first_neighbour.assign(mesh.surface.x.cols() + 1, 0);
+  for (const auto& edge : solid.edges) {
+    mesh.edge.push_back(mesh_edge(solid, edge));
+    for (const int node : edge.node) ++mesh.first_neighbour[node + 1];
+  }
+  std::partial_sum(mesh.first_neighbour.begin(), mesh.first_neighbour.end(), mesh.first_neighbour.begin());
+  mesh.neighbour.resize(2 * solid.edges.size());
+  std::vector<int> next(mesh.first_neighbour.begin(), mesh.first_neighbour.end() - 1);
+  for (const auto& edge : solid.edges)
+    for (const std::size_t end : {0U, 1U}) mesh.neighbour[next[edge.node[end]]++] = edge.node[1 - end];
+}
+
 }  // namespace
 
 ClosedMesh::ClosedMesh(TriangleMesh closed)
@@ -62,6 +86,7 @@ ClosedMesh::ClosedMesh(TriangleMesh closed)
     boxes.push_back(bounds);
   }
   node_normals.colwise().normalize();
+  add_edges(*this);
   inside = point_inside(surface);
   tree.build(boxes);
 }

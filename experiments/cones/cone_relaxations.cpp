@@ -1,8 +1,8 @@
 #include "cones/cone_relaxations.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "harness/interrupt.h"
 #include "linear/linear_solver.h"
@@ -17,19 +17,21 @@ using reference::FrictionLaw;
 
 namespace {
 
-/// W by its 3 x 3 blocks, column after column.
-void fill_columns(const Eigen::SparseMatrix<double>& delassus, LocalContacts& block) {
+/// W by its 3 x 3 blocks, each contact a node; blocks that follow each other are one run.
+void fill_response(const Eigen::SparseMatrix<double>& delassus, LocalContacts& block) {
+  block.clear_response();
+  std::set<int> contacts;  // that one couples with
   for (int j = 0; j < static_cast<int>(block.size()); ++j) {
-    auto& column = block.column[static_cast<std::size_t>(j)];
+    contacts.clear();
     for (int axis = 0; axis < 3; ++axis)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(delassus, 3 * j + axis); entry; ++entry) {
-        const int contact = static_cast<int>(entry.row() / 3);
-        auto at =
-            std::find_if(column.begin(), column.end(), [&](const auto& c) { return c.contact == contact; });
-        if (at == column.end()) at = column.insert(at, {contact, Eigen::Matrix3d::Zero()});
-        at->block(entry.row() % 3, axis) = entry.value();
-        if (contact == j) block.delassus[static_cast<std::size_t>(j)] = at->block;
-      }
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(delassus, 3 * j + axis); entry; ++entry)
+        contacts.insert(static_cast<int>(entry.row() / 3));
+    for (auto first = contacts.begin(), end = first; first != contacts.end(); first = end) {
+      int count = 0;
+      while (end != contacts.end() && *end == *first + count) ++end, ++count;
+      block.add_run(*first, count) = delassus.block(3 * *first, 3 * j, 3 * count, 3).toDense();
+    }
+    block.end_node();
   }
 }
 
@@ -58,14 +60,13 @@ Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
   const auto count = static_cast<std::size_t>(problem.contacts());
   LocalContacts block;
   block.resize_contacts(count);
-  block.column.resize(count);
   block.law = friction_by_name(reference::friction_law_names[static_cast<std::size_t>(law)]);
   block.friction.assign(problem.friction.begin(), problem.friction.end());
-  block.delassus.assign(count, Eigen::Matrix3d::Zero());
-  fill_columns(problem.delassus, block);
+  fill_response(problem.delassus, block);
   for (std::size_t i = 0; i < count; ++i) {
     block.node[i] = {static_cast<int>(i)};
-    block.jacobian[i].setIdentity();
+    block.jacobian[i].setIdentity();  // of its own node alone
+    block.delassus[i] = block.own_coupling(i);
     block.bias[i].setZero();
     block.compliance[i].setZero();
     const double trace = block.delassus[i].trace();

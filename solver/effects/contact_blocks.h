@@ -12,7 +12,8 @@ void with_contacts(Blocks&& blocks, Lists& contacts, F&& f) {
   for (std::size_t group = 0; group < blocks.size(); ++group)
     std::visit(
         [&]<class Block>(Block& block) {
-          if constexpr ((Block::rows == 1 || Block::rows == 3) && Block::nodes >= 3 && Block::nodes <= 5)
+          if constexpr ((Block::rows == 1 || Block::rows == 3) && Block::nodes >= 3 && Block::nodes <= 5 &&
+                        !is_local<Block>)
             f(block, contacts[group]);
         },
         blocks[group]);

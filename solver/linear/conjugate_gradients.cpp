@@ -109,7 +109,7 @@ Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       auto direction = entries(direction_, block, first_row, i);
       direction = beta * direction - entries(last_, block, first_row, i);
       own += direction.dot(block.compliance[i] * direction);
-      if constexpr (is_local<Block>) own += direction.dot(velocity_.col(block.node[i][0]));
+      if constexpr (is_local<Block>) own += direction.dot(block.jacobian[i] * block.gather(velocity_, i));
     });
   });
   last_product_ = product;

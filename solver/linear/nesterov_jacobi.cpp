@@ -65,7 +65,7 @@ Sweep NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       own[0] += squared_residual(block, i, r, change) / (block.bounded() ? omega_ * omega_ : omega_);
       own[1] += change.dot(block.compliance[i] * change);
       if constexpr (is_local<Block>)  // its share of q^T W q, W symmetric
-        own[1] += change.dot(2 * (v.col(block.node[i][0]) - extrapolated_.col(block.node[i][0])) +
+        own[1] += change.dot(2 * block.jacobian[i] * (block.gather(v, i) - block.gather(extrapolated_, i)) +
                              block.delassus[i] * change);
       previous = block.impulse[i];
       block.impulse[i] = start + change;

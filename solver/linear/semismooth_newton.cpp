@@ -64,13 +64,16 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
     auto& entries = system_.entries;
     for (int k = 0; k < Block::rows; ++k)
       for (int l = 0; l < Block::rows; ++l) entries.emplace_back(row + k, row + l, own(k, l));
-    if constexpr (is_local<Block>)
-      for (const auto& [contact, w] : block.column[i]) {  // J dv = W dp
-        const typename Block::Square coupled = by_step * w.transpose();
-        const int other = row + Block::rows * (contact - static_cast<int>(i));
+    if constexpr (is_local<Block>) {
+      block.push(i, rows.inverse_mass.size(), pushed_);
+      for (std::size_t j = 0; j < block.size(); ++j) {  // J dv = W dp
+        const typename Block::Square coupled = by_step * block.coupling(j, pushed_).transpose();
+        if (coupled.isZero(0)) continue;
+        const int other = row + Block::rows * (static_cast<int>(j) - static_cast<int>(i));
         for (int k = 0; k < Block::rows; ++k)
           for (int l = 0; l < Block::rows; ++l) entries.emplace_back(row + k, other + l, coupled(k, l));
       }
+    }
     const typename Block::Jacobian across = by_step * block.jacobian[i];
     system_.each_node(block, i, [&](int column, int a) {
       for (int k = 0; k < Block::rows; ++k)

@@ -46,6 +46,7 @@ class SemismoothNewton {
   SparseMatrix matrix_;
   SparseLu factor_;
   Eigen::VectorXd right_, solution_, step_;
+  LocalContacts::Pushed pushed_;
   std::vector<double> kept_;  // impulses and biases, and
   Points start_;              // velocities where the iteration begins
   double shift_ = least_shift;

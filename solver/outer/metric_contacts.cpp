@@ -1,6 +1,7 @@
 #include "outer/metric_contacts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "rows/laws.h"
 
@@ -48,27 +49,69 @@ bool MetricContacts::engage(Rows& rows, const std::vector<bool>& eliminated, con
   return any;
 }
 
+/// Sets `node_` to what can move of the contacts that take part.
+void MetricContacts::place_nodes(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric) {
+  node_.clear();
+  number_.assign(rows.inverse_mass.size(), -1);
+  std::size_t next = 0;
+  each_contact(rows, eliminated, [&](const auto& block, std::size_t i) {
+    if (!engaged_[next++]) return;
+    for (const int node : block.node[i])
+      if (rows.inverse_mass[node] > 0 && std::exchange(number_[node], 0) < 0) node_.push_back(node);
+  });
+  inverse_.begin(metric, node_.size());
+  order_.clear();
+  for (const int node : node_) {
+    const int place = inverse_.place(metric, node);
+    order_.push_back({inverse_.root(place), place, node});
+  }
+  std::sort(order_.begin(), order_.end());
+  place_.clear();
+  node_.clear();
+  for (const auto& [root, place, node] : order_) {
+    number_[node] = static_cast<int>(node_.size());
+    place_.push_back(place);
+    node_.push_back(node);
+  }
+}
+
+void MetricContacts::find_response(LocalContacts& local) const {
+  local.clear_response();
+  for (std::size_t first = 0, end = 0; first < place_.size(); first = end) {
+    const int root = inverse_.root(place_[first]);
+    while (end < place_.size() && inverse_.root(place_[end]) == root) ++end;
+    for (std::size_t b = first; b < end; ++b) {
+      auto moved = local.add_run(static_cast<int>(first), static_cast<int>(end - first));
+      for (std::size_t a = first; a < end; ++a)
+        moved.middleRows<3>(3 * static_cast<Eigen::Index>(a - first)) = inverse_.block(place_[a], place_[b]);
+      local.end_node();
+    }
+  }
+  if (place_.empty()) local.end_node();
+}
+
 /// States the local problem of the contacts that take part, where its impulses are the rows' and the nodes go
 /// with v without them.
 void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric,
                             const Points& v) {
   if (local_.blocks.empty()) local_.blocks.add(LocalContacts{});
   auto& local = std::get<LocalContacts>(local_.blocks.front());
-  const auto count = static_cast<std::size_t>(std::count(engaged_.begin(), engaged_.end(), true));
-  local.resize_contacts(count);
-  local.column.resize(count);
-  coupled_.resize(count);
-  velocity_.resize(3, static_cast<Eigen::Index>(count));
-  local_.inverse_mass.assign(count, 0);
+  local.resize_contacts(static_cast<std::size_t>(std::count(engaged_.begin(), engaged_.end(), true)));
+  place_nodes(rows, eliminated, metric);
+  find_response(local);
+  const std::size_t columns = std::max<std::size_t>(node_.size(), 1);  // that contacts of none may name
+  local_.inverse_mass.assign(columns, 0);
   local_.contacts = true;
   ++local_.generation;
-  inverse_.begin(metric, most_nodes * count);
+  velocity_.setZero(3, static_cast<Eigen::Index>(columns));
+  for (std::size_t k = 0; k < node_.size(); ++k)
+    velocity_.col(static_cast<Eigen::Index>(k)) = metric.rotation(node_[k]).transpose() * v.col(node_[k]);
   std::size_t next = 0, k = 0;
   each_contact(rows, eliminated, [&]<class Block>(const Block& block, std::size_t i) {
     if (!engaged_[next++]) return;
     constexpr int R = Block::rows;  // without friction the tangential rows are zero
-    local.node[k] = {static_cast<int>(k)};
-    local.jacobian[k].setIdentity();
+    local.node[k].fill(0);
+    local.jacobian[k].setZero();
     local.bias[k].setZero();
     local.bias[k].template head<R>() = block.bias[i];
     local.compliance[k].setZero();
@@ -78,51 +121,26 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
     local.bounds[k] = block.bounds[i];
     local.friction[k] = block.frictional() ? block.friction[i] : 0;
     local.law = block.law;
-    velocity_.col(static_cast<Eigen::Index>(k)).setZero();
-    velocity_.col(static_cast<Eigen::Index>(k)).template head<R>() = block.jacobian[i] * block.gather(v, i);
-    Coupled& coupled = coupled_[k++];
-    coupled.nodes = 0;
     for (int a = 0; a < Block::nodes; ++a) {
-      const int node = block.node[i][a];
-      if (!(rows.inverse_mass[node] > 0)) continue;
-      coupled.place[coupled.nodes] = inverse_.place(metric, node);
-      Eigen::Matrix3d& jacobian = coupled.jacobian[coupled.nodes++];
-      jacobian.setZero();
-      jacobian.topRows<R>() = block.jacobian[i].template middleCols<3>(3 * a) * metric.rotation(node);
+      const int node = block.node[i][a], number = number_[node];
+      const auto directions = block.jacobian[i].template middleCols<3>(3 * a);
+      if (number < 0) {  // it goes as it is told to
+        local.bias[k].template head<R>() += directions * v.col(node);
+        continue;
+      }
+      local.node[k][a] = number;
+      local.jacobian[k].template block<R, 3>(0, 3 * a) = directions * metric.rotation(node);
     }
+    ++k;
   });
+  find_diagonal(local);
 }
 
-/// W = J P^-1 J^T, one contact's column after the other.
-void MetricContacts::find_delassus(LocalContacts& local) {
-  for (auto& column : local.column) column.clear();
-  places_.clear();
-  for (const Coupled& own : coupled_)
-    for (int a = 0; a < own.nodes; ++a) places_.push_back(own.place[a]);
-  std::sort(places_.begin(), places_.end());
-  places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
-  pushed_.resize(inverse_.places());
-  for (std::size_t j = 0; j < coupled_.size(); ++j) {
-    for (const int place : places_) {
-      Eigen::Matrix3d& pushed = pushed_[place];
-      pushed.setZero();
-      for (int b = 0; b < coupled_[j].nodes; ++b)
-        pushed.noalias() += inverse_.block(place, coupled_[j].place[b]) * coupled_[j].jacobian[b].transpose();
-    }
-    for (std::size_t i = j; i < coupled_.size(); ++i) {
-      Eigen::Matrix3d w = Eigen::Matrix3d::Zero();  // of i by j
-      for (int a = 0; a < coupled_[i].nodes; ++a)
-        w.noalias() += coupled_[i].jacobian[a] * pushed_[coupled_[i].place[a]];
-      if (w.isZero(0)) continue;
-      local.column[j].push_back({static_cast<int>(i), w});
-      if (i != j) local.column[i].push_back({static_cast<int>(j), w.transpose()});
-    }
-  }
-  for (std::size_t i = 0; i < coupled_.size(); ++i) {
+/// Of W = J P^-1 J^T and the compliance, the contacts' own blocks.
+void MetricContacts::find_diagonal(LocalContacts& local) {
+  for (std::size_t i = 0; i < local.size(); ++i) {
     Eigen::Matrix3d& own = local.delassus[i];
-    own = local.compliance[i];
-    for (const auto& [contact, w] : local.column[i])
-      if (contact == static_cast<int>(i)) own += w;
+    own = local.compliance[i] + local.own_coupling(i);
     const bool tangential = own(1, 1) > 0;
     if (!tangential) own = own(0, 0) * Eigen::Matrix3d::Identity();
     const double trace = own.trace();
@@ -141,9 +159,8 @@ std::int64_t MetricContacts::solve(LinearSolver& solver, Rows& rows, const std::
   std::int64_t sweeps = 0;
   do {
     couple(rows, eliminated, metric, start_);
-    if (coupled_.empty()) break;
     auto& local = std::get<LocalContacts>(local_.blocks.front());
-    find_delassus(local);
+    if (local.size() == 0) break;
     apply_impulses(local_, velocity_);
     sweeps += relax(solver, local_, velocity_, fresh, budget, nullptr);
     fresh = true;

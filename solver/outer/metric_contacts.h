@@ -1,7 +1,7 @@
 // Contacts that quasi_newton does not eliminate stay dual, with its metric P in the place of M:
 //   u = J v + b + Sigma p obeys its law,   v = v_k - P^-1 gradient + P^-1 J^T p
-// Of the rows that is a local problem: relative velocities u, and W = J P^-1 J^T between all contacts, for
-// the linear solvers that take such: all but augmented_lagrangian. Contacts whose law asks for no impulse
+// Of the rows that is a local problem: the nodes that contacts touch, and the blocks of P^-1 between them,
+// for the linear solvers that take such: all but augmented_lagrangian. Contacts whose law asks for no impulse
 // take no part. Fixed points are the solutions of the step.
 #pragma once
 
@@ -25,26 +25,20 @@ class MetricContacts {
                      bool fresh, const InnerBudget& budget, Points& v);
 
  private:
-  static constexpr int most_nodes = 5;
-
-  /// Of one contact: its nodes of finite mass, and J turned as the metric is.
-  struct Coupled {
-    std::array<int, most_nodes> place{};  // in `inverse_`
-    std::array<Eigen::Matrix3d, most_nodes> jacobian;
-    int nodes = 0;
-  };
-
   bool engage(Rows& rows, const std::vector<bool>& eliminated, const Points& v);
   void couple(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric, const Points& v);
-  void find_delassus(LocalContacts& block);
+  void place_nodes(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric);
+  void find_response(LocalContacts& local) const;
+  static void find_diagonal(LocalContacts& local);
 
   MetricInverse inverse_;
-  std::vector<int> places_;              // in `inverse_`, of all nodes that contacts touch
-  std::vector<Eigen::Matrix3d> pushed_;  // P^-1 J^T of one contact, by places; 1/kg
-  std::vector<Coupled> coupled_;
+  std::vector<int> node_;                  // of the scene, that contacts touch, those of a part together
+  std::vector<int> number_;                // in `node_`, of each of the scene's; -1 if none touches it
+  std::vector<int> place_;                 // in `inverse_`, of each of `node_`
+  std::vector<std::array<int, 3>> order_;  // scratch: part, place and node of the scene
   Rows local_;
   std::vector<bool> engaged_;               // of all contacts: they take part
-  Points velocity_, start_, force_, push_;  // m/s of the contacts, of the nodes; N s, m/s of the nodes
+  Points velocity_, start_, force_, push_;  // m/s of `node_`, turned, and of all nodes; N s; m/s
 };
 
 }  // namespace pbd

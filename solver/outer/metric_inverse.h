@@ -19,6 +19,9 @@ class MetricInverse {
 
   std::size_t places() const { return reach_.size(); }
 
+  /// The same for all places that P^-1 couples with each other.
+  int root(int place) const { return reach_[static_cast<std::size_t>(place)].column.back(); }
+
   /// Block (a, b) of R^T P^-1 R by places, 1/kg.
   Eigen::Matrix3d block(int a, int b) const {
     return a >= b ? lower_[index(a, b)] : Eigen::Matrix3d(lower_[index(b, a)].transpose());

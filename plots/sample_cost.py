@@ -122,6 +122,10 @@ def threads(directory):
     write(directory, "threads", "steps", tables.TABLES["threads", "steps"],
           [(s, "implicit_euler", "auto", r, t, 40, 5, 1e-2 / t, 9e-3 / t, 1.1e-2 / t, 0.8 * t + 0.2, 1, "ok", "")
            for s, r in (("boxes_on_ground", names[1]), ("flexible_cow", names[4])) for t in (1, 2)])
+    write(directory, "threads", "roofline", tables.TABLES["threads", "roofline"],
+          [(e, r, t, 1000, b, f, b / 1e10 / t, b / 1.1e10 / t, b / 9e9 / t, 1.2e10 * t, 5e10 * t, 0.8, "ok", "")
+           for e, b, f in (("distance, 1 x 6", 88000, 43000), ("tet_strain, 6 x 12", 1300000, 474000), ("contact, 3 x 12", 700000, 190000))
+           for r, t in (("gauss_seidel", 1), ("coloured_gauss_seidel", 2), ("nesterov_jacobi", 1), ("nesterov_jacobi", 2))])
 
 
 def large_scenes(directory):

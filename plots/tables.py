@@ -132,6 +132,8 @@ TABLES = {
                            "copied_bytes_per_s share_of_copy speedup same_bits status reason",
     ("threads", "steps"): "scene integrator outer relaxation threads first_step steps wall_s_per_step wall_s_low wall_s_high speedup "
                           "same_bits status reason",
+    ("threads", "roofline"): "effect relaxation threads constraints bytes flops wall_s_per_sweep wall_s_low wall_s_high copied_bytes_per_s "
+                             "product_flops_per_s share_of_roof status reason",
     ("frame_scaling", "frames"): "scene part size frames missed_frames contacts rows iterations frame_cpu_s begin_cpu_s "
                                  "iteration_cpu_s status reason",
     ("frame_scaling", "exponents"): "scene part quantity exponent low high",

@@ -1,5 +1,7 @@
 """What do threads gain, and how near are sweeps to what memory gives?"""
 
+import numpy as np
+
 from common import figure, footnote, panels
 from finding import finding, guide
 from selecting import good
@@ -68,4 +70,40 @@ def bandwidth(frame):
             else f"None of {counted(len(frame), 'run')} has a number")
     footnote(fig, "Bytes: the rows once, their impulses twice, each velocity in and out. What is far below copying is bound by arithmetic "
              "and by waiting for the row before.")
+    return fig
+
+
+@figure("threads", "roofline", table="roofline")
+def roofline(frame):
+    """What a sweep over each effect's rows does a second, beside what memory and arithmetic allow."""
+    rows = good(frame, "share_of_roof").assign(
+        intensity=lambda rows: rows["flops"] / rows["bytes"], rate=lambda rows: 1e-9 * rows["flops"] / rows["wall_s_per_sweep"])
+    most = rows["threads"].max() if len(rows) else 1
+    names = list(dict.fromkeys(rows["effect"]))
+    fig, (roof, shares) = panels(2, columns=2, width=6.5, height=1.0 + 0.17 * max(len(names), 6))
+    for threads, color in ((1, BLUE), (most, ORANGE)):
+        own = rows[rows["threads"] == threads]
+        if not len(own) or (threads == 1 and color == ORANGE):
+            continue
+        label = f"{number(threads)} thread" + "s" * (threads > 1)
+        x = np.geomspace(0.05, 20, 100)
+        limit = np.minimum(x * own["copied_bytes_per_s"].iloc[0], own["product_flops_per_s"].iloc[0]) * 1e-9
+        roof.plot(x, limit, color=color, linewidth=1.0, label=f"roof, {label}")
+        for relaxation, points in own.groupby("relaxation", sort=False):
+            roof.plot(points["intensity"], points["rate"], style(relaxation)["marker"], color=color, markersize=3.5, markerfacecolor="none")
+        sweep = own[own["relaxation"].str.contains("gauss_seidel")]
+        shares.plot(sweep["share_of_roof"], [names.index(name) for name in sweep["effect"]], "o", color=color, markersize=4, label=label)
+    roof.set(xscale="log", yscale="log", xlabel="operations a byte", ylabel="1e9 operations a second")
+    roof.legend(loc="lower right", fontsize=6)
+    shares.set_yticks(range(len(names)), names, fontsize=6)
+    shares.invert_yaxis()
+    guide(shares, 1, "roof", horizontal=False)
+    shares.set(xlabel="share of the roof, Gauss-Seidel", xlim=(0, 1.3))
+    shares.legend(loc="lower right", fontsize=6)
+    one = rows[(rows["threads"] == 1) & (rows["relaxation"] == "gauss_seidel")]
+    finding(fig, f"One thread sweeps the rows of {counted(len(one), 'effect')} by Gauss-Seidel at {span(one['share_of_roof'])} of what the machine "
+            "allows" if len(one) else f"None of {counted(len(frame), 'run')} has a number")
+    footnote(fig, "Roof: the lesser of copying memory and of products of dense matrices, in the same run. Bytes and operations: the least that a sweep "
+             "needs; laws of friction are not counted. Marks by relaxation: " +
+             ", ".join(f"{name} {style(name)['marker']}" for name in dict.fromkeys(rows["relaxation"])) + ".")
     return fig

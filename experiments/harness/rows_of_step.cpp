@@ -87,6 +87,13 @@ StepRows::StepRows(const Scene& scene, const State& state, double h, Friction la
     if (slot.source->kind().contacts) slot.source->begin_step(begin, slot.blocks(rows_));
 }
 
+std::string_view StepRows::effect_of(std::size_t block) const {
+  const auto own = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& slot) {
+    return slot.first <= block && block < slot.first + slot.count;
+  });
+  return own->cost.effect;
+}
+
 StepBegin StepRows::step_begin(const Configuration& start) const {
   return {.bodies = bodies_,
           .map = map_,

@@ -24,6 +24,7 @@ class StepRows {
   bool widen(const pbd::Points& v, const Eigen::VectorXd& impulse, double tolerance);
 
   const pbd::Rows& rows() const { return rows_; }
+  std::string_view effect_of(std::size_t block) const;
   const pbd::Points& v_free() const { return map_.v_free; }
 
   /// Where velocities v lead.

@@ -95,9 +95,27 @@ def threads(results):
             Figure("threads_gain", "How many times as fast a sweep is on all threads."),
             Figure("threads_steps", "How many times as fast whole steps are on all threads."),
             Figure("threads_bandwidth", "The bytes a second that a sweep moves at least, as a share of what copying memory moves on as many "
-                   "threads.")])
+                   "threads."),
+            Figure("threads_roofline", "What a sweep over each effect's rows does a second, beside what memory and arithmetic allow.")])
     section.tell(results.table("threads", "sweeps"), sweeps_text, sweeps_table)
-    return section.tell(results.table("threads", "steps"), steps_table)
+    section.tell(results.table("threads", "steps"), steps_table)
+    return section.tell(results.table("threads", "roofline"), roofline_text, roofline_table)
+
+
+def roofline_text(roofline):
+    """Which effects' sweeps come near to what the machine allows, and which do not."""
+    one = roofline[(roofline["threads"] == 1) & (roofline["relaxation"] == "gauss_seidel")].sort_values("share_of_roof")
+    least, most = one.iloc[0], one.iloc[-1]
+    return (f"By Gauss-Seidel on one thread sweeps do {span(one['share_of_roof'])} of what memory and arithmetic allow: least over the rows of "
+            f"`{least['effect']}`, most over those of `{most['effect']}`. {number(int((one['share_of_roof'] < 0.6).sum()))} of {len(one)} kinds of rows "
+            "stay below six tenths.")
+
+
+def roofline_table(roofline):
+    return Table("Sweeps over rows of each effect, alone.", ["effect", "relaxation", "threads", "bytes", "operations", "ns a constraint", "share of the roof"],
+                 [[f"`{r['effect']}`", f"`{r['relaxation']}`", f"{r['threads']:.0f}", number(r["bytes"] / r["constraints"]),
+                   number(r["flops"] / r["constraints"]), number(1e9 * r["wall_s_per_sweep"] / r["constraints"]), number(r["share_of_roof"])]
+                  for _, r in roofline.iterrows()], first=True)
 
 
 def sweeps_text(sweeps):

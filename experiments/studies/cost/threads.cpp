@@ -11,12 +11,11 @@
 #include "harness/files.h"
 #include "harness/measure.h"
 #include "harness/rows_of_step.h"
-#include "linear/linear_solver.h"
-#include "rows/rows.h"
 #include "scenes/scene_file.h"
 #include "scenes/standard.h"
 #include "step/step.h"
-#include "studies/cost/repeated_seconds.h"
+#include "studies/cost/roofline.h"
+#include "studies/cost/swept.h"
 #include "studies/experiments.h"
 
 namespace pbdcheck {
@@ -38,26 +37,6 @@ double copied_bytes_per_s(int threads) {
     });
   });
   return 2.0 * 24 * static_cast<double>(columns) / *std::min_element(seconds.begin(), seconds.end());
-}
-
-struct Swept {
-  std::vector<double> seconds;
-  Points v;  // after so many sweeps
-};
-
-Swept swept(const LinearStep& step, std::string_view relaxation, int threads) {
-  Swept result;
-  Rows rows = step.rows;
-  divide(rows, threads);
-  result.v = step.v_free;
-  LinearSolver any = make_linear_solver(relaxation);
-  std::visit(
-      [&](auto& kind) {
-        kind.begin(rows, result.v, true);
-        result.seconds = repeated_seconds([&] { kind.sweep(rows, result.v, nullptr); });
-      },
-      any);
-  return result;
 }
 
 bool same_bits(const Points& a, const Points& b) {
@@ -91,7 +70,7 @@ void sweep_scene(Context& context, Table& table, const std::string& name, Scene 
        {"gauss_seidel", "coloured_gauss_seidel", "jacobi", "nesterov_jacobi", "conjugate_gradients"}) {
     Swept one;
     for (int threads = 1; threads <= (relaxation == "gauss_seidel" ? 1 : cores); ++threads) {
-      Swept found = swept(step, relaxation, threads);
+      Swept found = swept(step.rows, step.v_free, relaxation, threads);
       if (threads == 1) one = found;
       const Measured share_of_one(shares(one.seconds, found.seconds));
       const Measured seconds(found.seconds);
@@ -178,7 +157,7 @@ void threads(Context& context) {
   const int links = context.full() ? 1'000'000 : 300'000, tets = context.full() ? 300'000 : 100'000;
   const std::vector<Moving> moving{{"boxes_on_ground", "coloured_gauss_seidel", 40, context.full() ? 20 : 5},
                                    {"flexible_cow", "conjugate_gradients", 40, context.full() ? 60 : 20}};
-  context.begin(2 * 5 + static_cast<std::int64_t>(moving.size()));
+  context.begin(2 * 5 + static_cast<std::int64_t>(moving.size()) + roofline_count());
   std::vector<double> copied;
   for (int count = 1; count <= cores; ++count) copied.push_back(copied_bytes_per_s(count));
   Gains gains;
@@ -194,6 +173,7 @@ void threads(Context& context) {
   for (const Moving& each : moving) step_scene(context, steps, each, cores, gains);
   sweeps.close();
   steps.close();
+  roofline(context, copied);
 
   context.verdict(Basis::robustness, "threads.same",
                   "the same scene ends in the same bits, whatever the number of threads",

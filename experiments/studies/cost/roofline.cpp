@@ -1,0 +1,154 @@
+#include "studies/cost/roofline.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "harness/measure.h"
+#include "harness/rows_of_step.h"
+#include "studies/cost/swept.h"
+#include "studies/robustness/generated_world.h"
+
+namespace pbdcheck {
+namespace {
+
+using namespace pbd;
+
+/// Floating point operations a second of products of dense matrices, one on each thread.
+double product_flops_per_s(int threads) {
+  constexpr Eigen::Index size = 512;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Constant(size, size, 1.5);
+  std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(threads), a);
+  const auto seconds = repeated_seconds(
+      [&] { each_task(threads, products.size(), [&](std::size_t k) { products[k].noalias() = a * a; }); });
+  return threads * 2.0 * size * size * size / *std::min_element(seconds.begin(), seconds.end());
+}
+
+/// Operations that a sweep needs at least: J v + b + Sigma p, D^-1 r, the impulse, and W J^T dp. What laws of
+/// friction need comes on top.
+template <class Block>
+std::int64_t least_flops(const Block& block) {
+  constexpr std::int64_t R = Block::rows, K = Block::nodes;
+  return static_cast<std::int64_t>(block.size()) * (12 * R * K + 4 * R * R + 6 * K + 3 * R);
+}
+
+/// A block of rows of one effect with the columns of its scene.
+struct Sample {
+  AnyBlock block;
+  std::vector<double> inverse_mass;  // 1/kg
+  Points v;                          // m/s
+};
+
+/// So many copies of a sample, each with columns of its own.
+Sample copies_of(const Sample& sample, std::size_t copies) {
+  Sample all = sample;
+  const auto repeat = [&](auto& list) {
+    const auto one = list;
+    for (std::size_t k = 1; k < copies; ++k) list.insert(list.end(), one.begin(), one.end());
+  };
+  repeat(all.inverse_mass);
+  all.v = sample.v.replicate(1, static_cast<Eigen::Index>(copies));
+  std::visit(
+      [&](auto& block) {
+        const std::size_t count = block.size();
+        block.entries.clear();
+        repeat(block.node);
+        repeat(block.jacobian);
+        repeat(block.bias);
+        repeat(block.compliance);
+        repeat(block.inverse_diagonal);
+        repeat(block.impulse);
+        repeat(block.bounds);
+        repeat(block.friction);
+        repeat(block.delassus);
+        for (std::size_t i = count; i < block.size(); ++i)
+          for (int& node : block.node[i]) node += static_cast<int>(i / count * sample.inverse_mass.size());
+      },
+      all.block);
+  return all;
+}
+
+/// Of each effect, and of each shape that its rows have, the first rows that generated worlds have.
+std::map<std::string, Sample> samples() {
+  constexpr std::int64_t worlds = 200;
+  std::map<std::string, Sample> found;
+  for (std::int64_t index = 0; index < worlds; ++index) {
+    const World world = generated_world(index);
+    StepRows step(world.scene, world.scene.initial, world.h, Friction::coulomb);
+    step.linearise(Points::Zero(3, step.v_free().cols()));
+    for (std::size_t b = 0; b < step.rows().blocks.size(); ++b)
+      std::visit(
+          [&]<class Block>(const Block& block) {
+            if (block.size() == 0) return;
+            const auto name = fmt::format("{}, {} x {}", step.effect_of(b), Block::rows, 3 * Block::nodes);
+            found.try_emplace(name, block, step.rows().inverse_mass, step.v_free());
+          },
+          step.rows().blocks[b]);
+  }
+  return found;
+}
+
+struct Machine {
+  int threads;
+  double bytes_per_s, flops_per_s;
+};
+
+/// Of each repeat, the time of a sweep over the least that the machine allows.
+std::vector<double> over_roof(const Swept& found, double bytes, double flops, const Machine& machine) {
+  const double least = std::max(bytes / machine.bytes_per_s, flops / machine.flops_per_s);
+  std::vector<double> all;
+  for (const double seconds : found.seconds) all.push_back(seconds / least);
+  return all;
+}
+
+}  // namespace
+
+std::int64_t roofline_count() {
+  return static_cast<std::int64_t>(samples().size());
+}
+
+void roofline(Context& context, const std::vector<double>& copied) {
+  constexpr double wanted = 128e6;  // bytes of rows: beyond the caches
+  std::vector<Machine> machines;
+  for (const double bytes_per_s : copied) {
+    const int threads = static_cast<int>(machines.size()) + 1;
+    machines.push_back({threads, bytes_per_s, product_flops_per_s(threads)});
+  }
+  Table table =
+      context.table("roofline", {"effect", "relaxation", "threads", "constraints", "bytes", "flops",
+                                 "wall_s_per_sweep", "wall_s_low", "wall_s_high", "copied_bytes_per_s",
+                                 "product_flops_per_s", "share_of_roof", "status", "reason"});
+  WorstSpread worst;
+  for (const auto& [name, sample] : samples()) {
+    const auto copies = static_cast<std::size_t>(wanted / static_cast<double>(bytes({&sample.block, 1}))) + 1;
+    Sample many = copies_of(sample, copies);
+    const auto flops = std::visit([](const auto& block) { return least_flops(block); }, many.block);
+    Rows rows;
+    rows.inverse_mass = std::move(many.inverse_mass);
+    rows.blocks.push_back(std::move(many.block));
+    const std::int64_t moved = least_bytes(rows);
+    for (const std::string relaxation : {"gauss_seidel", "coloured_gauss_seidel", "nesterov_jacobi"})
+      for (const Machine& machine : machines) {
+        if ((relaxation == "gauss_seidel") != (machine.threads == 1) && relaxation != "nesterov_jacobi")
+          continue;
+        const Swept found = swept(rows, many.v, relaxation, machine.threads);
+        const Measured seconds(found.seconds);
+        const auto over = over_roof(found, static_cast<double>(moved), static_cast<double>(flops), machine);
+        table.row({name, relaxation, std::int64_t{machine.threads}, constraints_of(rows), moved, flops,
+                   seconds.value, seconds.low, seconds.high, machine.bytes_per_s, machine.flops_per_s,
+                   1 / Measured(over).value, "ok", ""});
+        if (machine.threads == 1) worst.add(Measured(over), fmt::format("{}, {}", relaxation, name));
+      }
+    context.advance(name);
+  }
+  table.close();
+  context.verdict(
+      Basis::goal, "threads.roofline",
+      "of every effect one thread sweeps rows at six tenths of what the machine allows, or faster",
+      fmt::format("time of a sweep over the least by memory and arithmetic ({})", worst.owner()),
+      worst.value(), 1 / 0.6);
+}
+
+}  // namespace pbdcheck

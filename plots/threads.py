@@ -104,6 +104,6 @@ def roofline(frame):
     finding(fig, f"One thread sweeps the rows of {counted(len(one), 'effect')} by Gauss-Seidel at {span(one['share_of_roof'])} of what the machine "
             "allows" if len(one) else f"None of {counted(len(frame), 'run')} has a number")
     footnote(fig, "Roof: the lesser of copying memory and of products of dense matrices, in the same run. Bytes and operations: the least that a sweep "
-             "needs; laws of friction are not counted. Marks by relaxation: " +
+             "needs; laws of friction are not counted. What reads more than it writes may be above copying. Marks by relaxation: " +
              ", ".join(f"{name} {style(name)['marker']}" for name in dict.fromkeys(rows["relaxation"])) + ".")
     return fig

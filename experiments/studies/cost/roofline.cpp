@@ -1,8 +1,7 @@
 #include "studies/cost/roofline.h"
 
 #include <algorithm>
-#include <map>
-#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,22 +33,15 @@ std::int64_t least_flops(const Block& block) {
   return static_cast<std::int64_t>(block.size()) * (12 * R * K + 4 * R * R + 6 * K + 3 * R);
 }
 
-/// A block of rows of one effect with the columns of its scene.
-struct Sample {
-  AnyBlock block;
-  std::vector<double> inverse_mass;  // 1/kg
-  Points v;                          // m/s
-};
-
-/// So many copies of a sample, each with columns of its own.
-Sample copies_of(const Sample& sample, std::size_t copies) {
-  Sample all = sample;
+/// So many copies of rows, each with columns of its own.
+EffectRows copies_of(const EffectRows& one, std::size_t copies) {
+  EffectRows all = one;
   const auto repeat = [&](auto& list) {
-    const auto one = list;
-    for (std::size_t k = 1; k < copies; ++k) list.insert(list.end(), one.begin(), one.end());
+    const auto begin = list;
+    for (std::size_t k = 1; k < copies; ++k) list.insert(list.end(), begin.begin(), begin.end());
   };
   repeat(all.inverse_mass);
-  all.v = sample.v.replicate(1, static_cast<Eigen::Index>(copies));
+  all.v = one.v.replicate(1, static_cast<Eigen::Index>(copies));
   std::visit(
       [&](auto& block) {
         const std::size_t count = block.size();
@@ -64,30 +56,27 @@ Sample copies_of(const Sample& sample, std::size_t copies) {
         repeat(block.friction);
         repeat(block.delassus);
         for (std::size_t i = count; i < block.size(); ++i)
-          for (int& node : block.node[i]) node += static_cast<int>(i / count * sample.inverse_mass.size());
+          for (int& node : block.node[i]) node += static_cast<int>(i / count * one.inverse_mass.size());
       },
       all.block);
   return all;
 }
 
-/// Of each effect, and of each shape that its rows have, the first rows that generated worlds have.
-std::map<std::string, Sample> samples() {
-  constexpr std::int64_t worlds = 200;
-  std::map<std::string, Sample> found;
-  for (std::int64_t index = 0; index < worlds; ++index) {
-    const World world = generated_world(index);
-    StepRows step(world.scene, world.scene.initial, world.h, Friction::coulomb);
-    step.linearise(Points::Zero(3, step.v_free().cols()));
-    for (std::size_t b = 0; b < step.rows().blocks.size(); ++b)
-      std::visit(
-          [&]<class Block>(const Block& block) {
-            if (block.size() == 0) return;
-            const auto name = fmt::format("{}, {} x {}", step.effect_of(b), Block::rows, 3 * Block::nodes);
-            found.try_emplace(name, block, step.rows().inverse_mass, step.v_free());
-          },
-          step.rows().blocks[b]);
+/// A block and the columns that it touches, numbered anew.
+template <class Block>
+EffectRows rows_alone(const Block& block, const std::vector<double>& inverse_mass, const Points& v) {
+  std::map<int, int> number;  // of each column
+  for (const auto& nodes : block.node)
+    for (const int node : nodes) number.try_emplace(node, static_cast<int>(number.size()));
+  Block alone = block;
+  for (auto& nodes : alone.node)
+    for (int& node : nodes) node = number.at(node);
+  EffectRows rows{std::move(alone), std::vector<double>(number.size()), Points(3, number.size())};
+  for (const auto& [column, own] : number) {
+    rows.inverse_mass[static_cast<std::size_t>(own)] = inverse_mass[static_cast<std::size_t>(column)];
+    rows.v.col(own) = v.col(column);
   }
-  return found;
+  return rows;
 }
 
 struct Machine {
@@ -105,11 +94,28 @@ std::vector<double> over_roof(const Swept& found, double bytes, double flops, co
 
 }  // namespace
 
-std::int64_t roofline_count() {
-  return static_cast<std::int64_t>(samples().size());
+std::map<std::string, EffectRows> rows_of_effects() {
+  constexpr std::int64_t worlds = 200;  // which have all effects
+  std::map<std::string, EffectRows> found;
+  for (std::int64_t index = 0; index < worlds; ++index) {
+    const World world = generated_world(index);
+    StepRows step(world.scene, world.scene.initial, world.h, Friction::coulomb);
+    step.linearise(Points::Zero(3, step.v_free().cols()));
+    for (std::size_t b = 0; b < step.rows().blocks.size(); ++b)
+      std::visit(
+          [&]<class Block>(const Block& block) {
+            if (block.size() == 0) return;
+            const auto name = fmt::format("{}, {} x {}", step.effect_of(b), Block::rows, 3 * Block::nodes);
+            if (!found.contains(name))
+              found.emplace(name, rows_alone(block, step.rows().inverse_mass, step.v_free()));
+          },
+          step.rows().blocks[b]);
+  }
+  return found;
 }
 
-void roofline(Context& context, const std::vector<double>& copied) {
+void roofline(Context& context, const std::map<std::string, EffectRows>& effects,
+              const std::vector<double>& copied) {
   constexpr double wanted = 128e6;  // bytes of rows: beyond the caches
   std::vector<Machine> machines;
   for (const double bytes_per_s : copied) {
@@ -121,9 +127,9 @@ void roofline(Context& context, const std::vector<double>& copied) {
                                  "wall_s_per_sweep", "wall_s_low", "wall_s_high", "copied_bytes_per_s",
                                  "product_flops_per_s", "share_of_roof", "status", "reason"});
   WorstSpread worst;
-  for (const auto& [name, sample] : samples()) {
-    const auto copies = static_cast<std::size_t>(wanted / static_cast<double>(bytes({&sample.block, 1}))) + 1;
-    Sample many = copies_of(sample, copies);
+  for (const auto& [name, few] : effects) {
+    const auto copies = static_cast<std::size_t>(wanted / static_cast<double>(bytes({&few.block, 1}))) + 1;
+    EffectRows many = copies_of(few, copies);
     const auto flops = std::visit([](const auto& block) { return least_flops(block); }, many.block);
     Rows rows;
     rows.inverse_mass = std::move(many.inverse_mass);

@@ -157,7 +157,8 @@ void threads(Context& context) {
   const int links = context.full() ? 1'000'000 : 300'000, tets = context.full() ? 300'000 : 100'000;
   const std::vector<Moving> moving{{"boxes_on_ground", "coloured_gauss_seidel", 40, context.full() ? 20 : 5},
                                    {"flexible_cow", "conjugate_gradients", 40, context.full() ? 60 : 20}};
-  context.begin(2 * 5 + static_cast<std::int64_t>(moving.size()) + roofline_count());
+  const auto effects = rows_of_effects();
+  context.begin(2 * 5 + std::ssize(moving) + std::ssize(effects));
   std::vector<double> copied;
   for (int count = 1; count <= cores; ++count) copied.push_back(copied_bytes_per_s(count));
   Gains gains;
@@ -173,7 +174,7 @@ void threads(Context& context) {
   for (const Moving& each : moving) step_scene(context, steps, each, cores, gains);
   sweeps.close();
   steps.close();
-  roofline(context, copied);
+  roofline(context, effects, copied);
 
   context.verdict(Basis::robustness, "threads.same",
                   "the same scene ends in the same bits, whatever the number of threads",

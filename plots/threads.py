@@ -99,9 +99,9 @@ def roofline(frame):
     shares.invert_yaxis()
     guide(shares, 1, "roof", horizontal=False)
     shares.set(xlabel="share of the roof, Gauss-Seidel", xlim=(0, 1.3))
-    shares.legend(loc="lower right", fontsize=6)
+    shares.legend(loc="upper left", fontsize=6)
     one = rows[(rows["threads"] == 1) & (rows["relaxation"] == "gauss_seidel")]
-    finding(fig, f"One thread sweeps the rows of {counted(len(one), 'effect')} by Gauss-Seidel at {span(one['share_of_roof'])} of what the machine "
+    finding(fig, f"One thread sweeps {number(len(one))} kinds of rows by Gauss-Seidel at {span(one['share_of_roof'])} of what the machine "
             "allows" if len(one) else f"None of {counted(len(frame), 'run')} has a number")
     footnote(fig, "Roof: the lesser of copying memory and of products of dense matrices, in the same run. Bytes and operations: the least that a sweep "
              "needs; laws of friction are not counted. What reads more than it writes may be above copying. Marks by relaxation: " +

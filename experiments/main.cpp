@@ -148,10 +148,9 @@ void add_cone(CLI::App& app, ConeOptions& options) {
       ->check(one_of(cone_laws()))
       ->capture_default_str();
   command
-      ->add_option("--relaxation", options.relaxation,
-                   "A judge of contact problems (`list references`), or a relaxation that solves any rows "
-                   "(of `list relaxations` not ldlt, "
-                   "semismooth_newton, augmented_lagrangian), or siconos_nsgs, siconos_nsn_ac, siconos_admm")
+      ->add_option(
+          "--relaxation", options.relaxation,
+          "A judge of contact problems, a relaxation, or a solver of Siconos: " + joined(cone_solver_names()))
       ->capture_default_str();
   command->add_option("--tolerance", options.tolerance, "Largest natural residual, |r - P_K(r - u)| / |q|")
       ->capture_default_str();

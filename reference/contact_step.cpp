@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "damping.h"
 #include "step_rows.h"
@@ -90,6 +91,14 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   return made;
 }
 
+bool ContactStep::can_move(const ContactFeature& feature) const {
+  const auto corners = std::span(feature.corner).first(static_cast<std::size_t>(feature.count));
+  return std::any_of(corners.begin(), corners.end(), [&](const Corner& corner) {
+    return step.model.nodes.first[static_cast<std::size_t>(corner.node)] >= 0 ||
+           (corner.body >= 0 && step.model.rotors[static_cast<std::size_t>(corner.body)].unknown >= 0);
+  });
+}
+
 void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
   std::vector<FeaturePair> found;
   const Placement end = step.placement(velocity);
@@ -97,6 +106,7 @@ void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
   if (also_start) search.find(end, start_, {}, found);
   for (const JudgedContact& own : contacts)
     if (own.collides) found.push_back(own.pair);  // by now it may have left
+  std::erase_if(found, [&](const FeaturePair& pair) { return !can_move(pair.a) && !can_move(pair.b); });
   const auto by_name = [](const FeaturePair& one, const FeaturePair& two) { return one.name < two.name; };
   std::stable_sort(found.begin(), found.end(), by_name);
   found.erase(

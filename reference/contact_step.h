@@ -114,6 +114,7 @@ struct ContactStep {
 
   JudgedContact begun(const FeaturePair& pair) const;
 
+  bool can_move(const ContactFeature& feature) const;
   bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;
 
   Placement start_, free_end_;

@@ -64,11 +64,15 @@ std::vector<std::string> cone_laws() {
   return {friction_law_names.begin(), friction_law_names.end()};
 }
 
-const ConeSolver& find_cone_solver(const std::string& name, const std::string& law) {
-  require_name("--law", law, cone_laws());
+std::vector<std::string> cone_solver_names() {
   std::vector<std::string> names;
   for (const auto& solver : cone_solvers()) names.push_back(solver.name);
-  require_name("--relaxation", name, names);
+  return names;
+}
+
+const ConeSolver& find_cone_solver(const std::string& name, const std::string& law) {
+  require_name("--law", law, cone_laws());
+  require_name("--relaxation", name, cone_solver_names());
   const auto& solver = *std::find_if(cone_solvers().begin(), cone_solvers().end(),
                                      [&](const ConeSolver& each) { return each.name == name; });
   require_name("--law with --relaxation " + name, law, solver.laws);

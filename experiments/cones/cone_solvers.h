@@ -29,6 +29,8 @@ const std::vector<ConeSolver>& cone_solvers();
 /// Names of all laws.
 std::vector<std::string> cone_laws();
 
+std::vector<std::string> cone_solver_names();
+
 /// The solver of that name for that law. Throws SetupError naming those there are.
 const ConeSolver& find_cone_solver(const std::string& name, const std::string& law);
 

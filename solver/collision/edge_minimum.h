@@ -9,7 +9,7 @@ namespace pbd {
 
 /// That the distance does not fall from an edge into its faces, `apart` from the edge to the other shape,
 /// when that has turned by `turn` (rad); by no more than half the angle of the faces' normals, beyond which a
-/// face is nearer than the edge.
+/// face is nearer than the edge: `MeshPair::look_away` rests on that.
 template <class Normal>
 bool minimum(const Polyhedron::Edge& edge, const Vec3& along, const Vec3& apart, double turn,
              Normal&& normal) {

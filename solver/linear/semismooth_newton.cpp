@@ -38,6 +38,15 @@ LinearLaw<Block> linear_law(const Block& block, std::size_t i, const Points& v, 
   return law;
 }
 
+/// True if the contact has a node that another one's impulses, which did `pushed`, move.
+bool is_moved(const LocalContacts& block, std::size_t i, const LocalContacts::Pushed& pushed) {
+  for (int a = 0; a < LocalContacts::nodes; ++a)
+    if (!block.jacobian[i].middleCols<3>(3 * a).isZero(0) &&
+        !pushed.middleRows<3>(3 * block.node[i][a]).isZero(0))
+      return true;
+  return false;
+}
+
 bool has_local_contacts(const Rows& rows) {
   return std::any_of(rows.blocks.begin(), rows.blocks.end(),
                      [](const AnyBlock& block) { return std::holds_alternative<LocalContacts>(block); });
@@ -67,8 +76,8 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
     if constexpr (is_local<Block>) {
       block.push(i, rows.inverse_mass.size(), pushed_);
       for (std::size_t j = 0; j < block.size(); ++j) {  // J dv = W dp
+        if (!is_moved(block, j, pushed_)) continue;
         const typename Block::Square coupled = by_step * block.coupling(j, pushed_).transpose();
-        if (coupled.isZero(0)) continue;
         const int other = row + Block::rows * (static_cast<int>(j) - static_cast<int>(i));
         for (int k = 0; k < Block::rows; ++k)
           for (int l = 0; l < Block::rows; ++l) entries.emplace_back(row + k, other + l, coupled(k, l));

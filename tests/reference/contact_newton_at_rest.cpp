@@ -67,3 +67,19 @@ TEST_CASE("a judge whose work is spent says so") {
   CHECK(j.outcome == Outcome::not_converged);
   CHECK_THAT(j.reason, Catch::Contains("2 factorisations"));
 }
+
+TEST_CASE("fixed nodes that lie in the ground touch nothing where a ball lands beside them") {
+  BodyScene build({.friction = 0}, gravity);
+  build.ground();
+  const double gap = 0.01;
+  const int ball = build.ball(0.1, 1, {.position = {0, 0, 0.1 + gap}, .velocity = {0, 0, -3}});
+  Scene scene = build.finish();
+  std::array<int, 3> nodes{};
+  for (std::size_t k = 0; k < 3; ++k)
+    nodes[k] = add_node(scene, Vec3(1 + 0.1 * static_cast<double>(k), k == 1 ? 0.1 : 0, 0), infinity);
+  for (Effect& effect : scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect)) contact->triangle.push_back(nodes);
+  const auto j = judged(scene);
+  CHECK(std::abs(j.v(2, ball) + gap / judged_step_s) <= by_hand);
+  CHECK(j.contacts == 1);
+}

@@ -59,6 +59,25 @@ struct HalfSize {
   Vec3 of_points(const Points& points) const { return (rotation * points).cwiseAbs().rowwise().maxCoeff(); }
 };
 
+/// About the frame's origin, `direction` in the frame.
+struct LeastAlong {
+  Vec3 direction;
+
+  double operator()(std::monostate) const { return 0; }
+  double operator()(const Sphere& shape) const { return -shape.radius; }
+  double operator()(const Box& shape) const { return -direction.cwiseAbs().dot(shape.size) / 2; }
+  double operator()(const Cylinder& shape) const {
+    return -shape.length / 2 * std::abs(direction.z()) - shape.radius * direction.head<2>().norm();
+  }
+  double operator()(const Capsule& shape) const {
+    return -shape.length / 2 * std::abs(direction.z()) - shape.radius;
+  }
+  double operator()(const HalfSpace&) const { return -infinity; }
+  double operator()(const ClosedMesh& shape) const { return of_points(shape.surface.x); }
+  double operator()(const ConvexHull& shape) const { return of_points(shape.surface.x); }
+  double of_points(const Points& points) const { return (direction.transpose() * points).minCoeff(); }
+};
+
 }  // namespace
 
 double bounding_radius(const Shape& shape) {
@@ -67,6 +86,10 @@ double bounding_radius(const Shape& shape) {
 
 double round_radius(const Shape& shape) {
   return std::visit(RoundRadius{}, shape);
+}
+
+double least_along(const Shape& shape, const Frame& at, const Vec3& direction) {
+  return direction.dot(at.origin) + std::visit(LeastAlong{at.rotation.transpose() * direction}, shape);
 }
 
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at) {

@@ -18,4 +18,7 @@ double round_radius(const Shape& shape);
 /// A box along the world's axes that holds the shape; infinite for a half space.
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at);
 
+/// Least of `direction` . x over the shape (m), by a unit vector; minus infinity for a half space.
+double least_along(const Shape& shape, const Frame& at, const Vec3& direction);
+
 }  // namespace pbd

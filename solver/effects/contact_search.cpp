@@ -149,8 +149,8 @@ void ContactSearch::search_nodes(int first, int second, const Points& x, SearchT
   task.pairs.push_back({{first, second}, gap, task.near.size()});
 }
 
-/// Searches the pairs that are asked for. Each task has every so manieth, since bodies, which take longest,
-/// stand together; what a pair gives depends on no other.
+/// Searches the pairs that are asked for. With k tasks each takes every k-th pair, since those of bodies,
+/// which take longest, follow each other. What a pair gives depends on no other.
 void ContactSearch::search_asked(const Configuration& start) {
   tasks_.resize(threads_ > 1 ? most_tasks : 1);
   each_task(threads_, tasks_.size(), [&](std::size_t k) {

@@ -238,6 +238,7 @@ class ContactSearch {
   double beside(const std::array<int, 2>& pair) const;
   bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
+  double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;
   std::optional<ActiveContact> as_edges(const ActiveContact& contact, const Configuration& start,

@@ -33,16 +33,32 @@ bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration&
   return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
 }
 
-/// False of a contact of what goes round, whose normal turns as it moves, where its shapes are in each other
-/// by other features, as where a ball has rolled from an edge over a face.
+/// m, how far apart the convex shapes of a contact are along its normal.
+double ContactSearch::apart_along_normal(const ActiveContact& contact, const Configuration& at) const {
+  const Vec3 normal = touching_at(contact, at).normal;
+  const auto least = [&](int side, const Vec3& direction) {
+    const int collider = contact.collider[static_cast<std::size_t>(side)];
+    return least_along(*motions_[collider].shape, placed_frame(collider, at), direction);
+  };
+  return least(0, normal) + least(1, -normal);
+}
+
+/// False of a contact of convex shapes of which one is round, where these are in each other by other
+/// features, as where a ball has rolled from an edge over a face; of a contact whose normal does not turn as
+/// it moves, where they are so along that, as where a rim has come to dip below the face that it touches.
 bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration& start,
                                const Configuration& end) {
   using Kind = ContactPoint::Kind;
   const Kind kind = contact.features.kind;
-  if (kind == Kind::face || kind == Kind::edges) return true;
   if (!goes_round_apart({contact.pair()}, 0)) return true;
-  const double slack = beside(contact.pair()), deep = std::min(touching_at(contact, end).gap, 0.0) - slack;
-  if (!(generate_between({contact.pair()}, start, end, 1, slack) < deep)) return true;
+  const double slack = beside(contact.pair()), gap = std::min(touching_at(contact, end).gap, 0.0);
+  if (kind == Kind::face || kind == Kind::edges) {
+    const auto& [a, b] = contact.collider;
+    const double round = round_radius_of(motions_[a], motions_[b]);
+    if (!(apart_along_normal(contact, end) < gap - overlooked * round)) return true;
+  } else if (!(generate_between({contact.pair()}, start, end, 1, slack) < gap - slack)) {
+    return true;
+  }
   return !goes_round_apart(begun(contact.pair(), start), slack);
 }
 

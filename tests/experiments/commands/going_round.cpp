@@ -21,10 +21,7 @@ held="fixed"
 name="falls"
 {}
 mass_kg=1
-position_m=[0.195,{},0.24]
-rotation_rad=[0.7,-1.1,0.4]
-velocity_m_s=[-1.6,-0.3,-1.4]
-angular_velocity_rad_s=[3,-2,5]
+{}
 [gravity]
 [contact]
 friction={}
@@ -34,6 +31,21 @@ duration_s=0.15
 [method]
 integrator="implicit_euler"
 tolerance=1e-9
+)";
+
+constexpr const char* from_aside = R"(
+position_m=[0.195,{},0.24]
+rotation_rad=[0.7,-1.1,0.4]
+velocity_m_s=[-1.6,-0.3,-1.4]
+angular_velocity_rad_s=[3,-2,5]
+)";
+
+/// A cylinder of 0.04 x 0.07 m whose rim comes to dip below the cap that it touched.
+constexpr const char* dipping = R"(
+position_m=[-0.19659,0.01956,0.24756]
+rotation_rad=[0.3446,-0.7804,-2.9840]
+velocity_m_s=[1.5767,-0.3821,-1.3867]
+angular_velocity_rad_s=[-7.4466,1.4600,-0.8351]
 )";
 
 /// A ball of 0.05 m touches a fixed base's edge, goes over its face at 0.1 m/s and stays there.
@@ -91,10 +103,17 @@ TEST_CASE("what falls on a cylinder's rim ends each step where the judge does") 
   for (const double aside : {-0.05, 0.0, 0.03})
     for (const double friction : {0.0, 0.3}) {
       INFO(shape << " aside " << aside << " friction " << friction);
-      folder.write("scene.toml", fmt::format(on_rim, shape, aside, friction));
+      folder.write("scene.toml", fmt::format(on_rim, shape, fmt::format(from_aside, aside), friction));
       touching += check_judged(folder);
     }
   CHECK(touching > 5);
+}
+
+TEST_CASE("a rim that dips below the cap that it touched is not borne by the cap") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml",
+               fmt::format(on_rim, "shape=\"cylinder\"\nradius_m=0.04\nlength_m=0.07", dipping, 0.3));
+  CHECK(check_judged(folder) > 2);
 }
 
 TEST_CASE("a ball that goes from an edge over a face is borne by the face") {

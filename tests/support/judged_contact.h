@@ -19,7 +19,7 @@ inline reference::ContactJudgement judged(const Scene& scene, const State& state
                                           Friction friction = Friction::coulomb,
                                           reference::ConeSolver solver = reference::cone_interior_point,
                                           const reference::ContactStart& start = {}) {
-  const auto j = reference::contact_newton(scene, state, judged_step_s, friction, solver, start);
+  auto j = reference::contact_newton(scene, state, judged_step_s, friction, solver, start);
   INFO(j.reason);
   CHECK(j.outcome == reference::Outcome::ok);
   return j;

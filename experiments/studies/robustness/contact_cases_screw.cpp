@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/probes.h"
 #include "studies/robustness/contact_cases.h"
 
 namespace pbdcheck {

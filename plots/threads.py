@@ -33,7 +33,7 @@ def gains(frame, bar, what):
             ax.text(value, name, f" {number(value)}", va="center", fontsize=7)
         guide(ax, most, f"{number(most)} at best", horizontal=False)
         ax.grid(axis="y", visible=False)
-        ax.set(xlabel=f"times as fast, {scene}", xlim=(0, 1.15 * most))
+        ax.set(xlabel=f"times as fast, {scene}", xlim=(0, 1.15 * max(most, several["speedup"].max())))
     axes[0].invert_yaxis()
     finding(fig, f"{number(most)} threads {what} {span(several['speedup'])} times as fast as one; "
             f"{(several['same_bits'] == 1).sum()} of {len(several)} runs end in the same bits" if len(several)
@@ -98,7 +98,7 @@ def roofline(frame):
     shares.set_yticks(range(len(names)), names, fontsize=6)
     shares.invert_yaxis()
     guide(shares, 1, "roof", horizontal=False)
-    shares.set(xlabel="share of the roof, Gauss-Seidel", xlim=(0, 1.3))
+    shares.set(xlabel="share of the roof, Gauss-Seidel", xlim=(0, None))
     shares.legend(loc="upper left", fontsize=6)
     one = rows[(rows["threads"] == 1) & (rows["relaxation"] == "gauss_seidel")]
     finding(fig, f"One thread sweeps {number(len(one))} kinds of rows by Gauss-Seidel at {span(one['share_of_roof'])} of what the machine "

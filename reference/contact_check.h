@@ -31,9 +31,9 @@ namespace pbd::reference {
 
 void check_contacts(const StepClaim& claim, const Contact& contact, double level, Findings& findings);
 
-/// Depth of all pairs of colliders, and of nodes and triangles in colliders (depth_check.cpp). Of the round
-/// radius `overlooked` is not told. Returns what parts soonest the pairs of colliders and nodes that are too
-/// deep.
+/// Depth of all pairs of colliders, and of nodes and triangles in colliders (depth_check.cpp). Depths
+/// below `overlooked` times the smaller round radius pass. Returns, for each pair of colliders and nodes that
+/// is too deep, the direction that parts it soonest.
 WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, double overlooked,
                      Findings& findings);
 

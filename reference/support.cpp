@@ -160,15 +160,15 @@ Parting least_parting(const PlacedShape& a, const PlacedShape& b, const std::vec
   const double beyond = std::min(size_of(*a.shape).outer, size_of(*b.shape).outer) / 100;
   constexpr double still = 1e-12;  // of `beyond`: a step forward that is none
   for (const Vec3& way : ways) {
-    Vec3 n = way;
-    for (double apart = -infinity; separation(a, b, n) > apart + still * beyond;) {
-      apart = separation(a, b, n);
-      const Vec3 shift = (beyond - apart) * n;
+    Parting here{separation(a, b, way), way};
+    for (double before = -infinity; here.apart > before + still * beyond;) {
+      before = here.apart;
+      const Vec3 shift = (beyond - before) * here.along;
       const DistanceBounds shifted = distance_of(
           [&](const Vec3& u) -> Vec3 { return farthest_point(a, -u) - farthest_point(b, u) + shift; });
       if (!(shifted.proved > 0)) break;
-      n = shifted.along;
-      better(n);
+      here = {separation(a, b, shifted.along), shifted.along};
+      if (here.apart > best.apart) best = here;
     }
   }
   return best;

@@ -25,11 +25,10 @@ struct ConeSolver {
 
 /// Judges, the solver's relaxations, and rivals; the first is the default.
 const std::vector<ConeSolver>& cone_solvers();
+std::vector<std::string> cone_solver_names();
 
 /// Names of all laws.
 std::vector<std::string> cone_laws();
-
-std::vector<std::string> cone_solver_names();
 
 /// The solver of that name for that law. Throws SetupError naming those there are.
 const ConeSolver& find_cone_solver(const std::string& name, const std::string& law);

@@ -27,11 +27,11 @@
 //
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
 // one of its shapes, by more than the tolerance's share of r there, leaves the step, unless the shapes have
-// it there, as those that lie corner on corner do; and so does one of what is round where convex shapes have
-// come to be in each other by other features. Its pair is looked at again from then on, along the way from
-// the start, too, so that nothing thin is passed for it. What takes its place is as far apart there as it is:
-// what slides under the convex law hovers. A contact of two edges that is stated as a plane is stated as the
-// edges.
+// it there, as those that lie corner on corner do; and so does one of convex shapes of which one is round
+// where these have come to be in each other by other features, or along its normal. Its pair is looked at
+// again from then on, along the way from the start, too, so that nothing thin is passed for it. What takes
+// its place is as far apart there as it is: what slides under the convex law hovers. A contact of two edges
+// that is stated as a plane is stated as the edges.
 #pragma once
 
 #include <array>

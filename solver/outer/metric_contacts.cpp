@@ -49,7 +49,8 @@ bool MetricContacts::engage(Rows& rows, const std::vector<bool>& eliminated, con
   return any;
 }
 
-/// Sets `node_` to what can move of the contacts that take part.
+/// Sets `node_` to what can move of the contacts that take part: of each something, or its law asked for
+/// nothing.
 void MetricContacts::place_nodes(Rows& rows, const std::vector<bool>& eliminated, const Metric& metric) {
   node_.clear();
   number_.assign(rows.inverse_mass.size(), -1);
@@ -87,7 +88,6 @@ void MetricContacts::find_response(LocalContacts& local) const {
       local.end_node();
     }
   }
-  if (place_.empty()) local.end_node();
 }
 
 /// States the local problem of the contacts that take part, where its impulses are the rows' and the nodes go
@@ -99,11 +99,10 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
   local.resize_contacts(static_cast<std::size_t>(std::count(engaged_.begin(), engaged_.end(), true)));
   place_nodes(rows, eliminated, metric);
   find_response(local);
-  const std::size_t columns = std::max<std::size_t>(node_.size(), 1);  // that contacts of none may name
-  local_.inverse_mass.assign(columns, 0);
+  local_.inverse_mass.assign(node_.size(), 0);
   local_.contacts = true;
   ++local_.generation;
-  velocity_.setZero(3, static_cast<Eigen::Index>(columns));
+  velocity_.resize(3, static_cast<Eigen::Index>(node_.size()));
   for (std::size_t k = 0; k < node_.size(); ++k)
     velocity_.col(static_cast<Eigen::Index>(k)) = metric.rotation(node_[k]).transpose() * v.col(node_[k]);
   std::size_t next = 0, k = 0;

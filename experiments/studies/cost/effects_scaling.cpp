@@ -10,26 +10,25 @@
 #include "harness/measure.h"
 #include "harness/order_fit.h"
 #include "harness/rows_of_step.h"
-#include "linear/linear_solver.h"
-#include "rows/rows.h"
 #include "scenes/standard.h"
-#include "studies/cost/repeated_seconds.h"
+#include "studies/cost/swept.h"
 
 namespace pbdcheck {
 namespace {
 
 using namespace pbd;
 
-/// Seconds a sweep of `relaxation` over the rows of a step, of each repeat.
-std::vector<double> sweep_seconds(LinearStep step, std::string_view relaxation) {
-  std::vector<double> seconds;
-  LinearSolver any = make_linear_solver(relaxation);
-  std::visit(
-      [&](auto& kind) {
-        kind.begin(step.rows, step.v_free, true);
-        seconds = repeated_seconds([&] { kind.sweep(step.rows, step.v_free, nullptr); });
-      },
-      any);
+/// Seconds a sweep of each step by repeats, [size][repeat]: each repeat goes through all sizes, so that what
+/// else the machine does meets all of them.
+std::vector<std::vector<double>> sweep_seconds(const std::vector<LinearStep>& steps,
+                                               std::string_view relaxation) {
+  constexpr int repeats = 5;
+  std::vector<Sweeps> sweeps;
+  for (const LinearStep& step : steps) sweeps.emplace_back(step.rows, step.v_free, relaxation);
+  std::vector<std::vector<double>> seconds(steps.size());
+  for (int repeat = 0; repeat < repeats; ++repeat)
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      seconds[i].push_back(least_seconds([&] { sweeps[i].sweep(); }));
   return seconds;
 }
 
@@ -69,16 +68,16 @@ Scene chain_of(int links) {
 void scale(Context& context, Table& table, const Family& family) {
   const std::vector<std::string> relaxations{"gauss_seidel", "nesterov_jacobi"};
   std::vector<double> rows, memory;
-  std::vector<std::vector<std::vector<double>>> time(relaxations.size());
+  std::vector<LinearStep> steps;
   for (const int size : family.sizes) {
     const Scene scene = family.make(size);
-    const LinearStep step = linear_step(scene, scene.initial, 1.0 / 240);
-    rows.push_back(static_cast<double>(row_count(step.rows)));
-    memory.push_back(static_cast<double>(bytes(step.rows.blocks)));
-    for (std::size_t r = 0; r < relaxations.size(); ++r)
-      time[r].push_back(sweep_seconds(step, relaxations[r]));
+    steps.push_back(linear_step(scene, scene.initial, 1.0 / 240));
+    rows.push_back(static_cast<double>(row_count(steps.back().rows)));
+    memory.push_back(static_cast<double>(bytes(steps.back().rows.blocks)));
     context.advance(family.name);
   }
+  std::vector<std::vector<std::vector<double>>> time;  // [relaxation][size][repeat]
+  for (const std::string& relaxation : relaxations) time.push_back(sweep_seconds(steps, relaxation));
   const std::size_t first = first_beyond_caches(memory);
   WorstSpread worst;
   for (std::size_t r = 0; r < relaxations.size(); ++r) {

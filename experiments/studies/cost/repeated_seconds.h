@@ -9,20 +9,28 @@
 
 namespace pbdcheck {
 
-/// Seconds that f() takes: of each of five repeats the smallest of three, after a call that is thrown away.
+/// Seconds that f() takes, the least of three times, after a call that is thrown away.
 template <class F>
-std::vector<double> repeated_seconds(F&& f) {
+double least_seconds(F&& f) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::size_t repeats = 5, tries = 3;
+  constexpr int tries = 3;
   f();
-  std::vector<double> best(repeats, pbd::infinity);
-  for (std::size_t k = 0; k < repeats * tries; ++k) {
+  double least = pbd::infinity;
+  for (int k = 0; k < tries; ++k) {
     const auto start = Clock::now();
     f();
-    double& smallest = best[k / tries];
-    smallest = std::min(smallest, std::chrono::duration<double>(Clock::now() - start).count());
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
   }
-  return best;
+  return least;
+}
+
+/// The same five times.
+template <class F>
+std::vector<double> repeated_seconds(F&& f) {
+  constexpr int repeats = 5;
+  std::vector<double> all;
+  for (int k = 0; k < repeats; ++k) all.push_back(least_seconds(f));
+  return all;
 }
 
 }  // namespace pbdcheck

@@ -10,23 +10,32 @@
 
 namespace pbdcheck {
 
+/// A relaxation that goes on over the same rows.
+struct Sweeps {
+  pbd::Rows rows;
+  pbd::Points v;  // m/s
+  pbd::LinearSolver solver;
+
+  Sweeps(const pbd::Rows& of, const pbd::Points& from, std::string_view relaxation, int threads = 1)
+      : rows(of), v(from), solver(pbd::make_linear_solver(relaxation)) {
+    divide(rows, threads);
+    std::visit([&](auto& kind) { kind.begin(rows, v, true); }, solver);
+  }
+  void sweep() {
+    std::visit([&](auto& kind) { kind.sweep(rows, v, nullptr); }, solver);
+  }
+};
+
 struct Swept {
   std::vector<double> seconds;  // of a sweep, by repeats
   pbd::Points v;                // m/s, after so many sweeps
 };
 
 /// Sweeps of `relaxation` from velocities v.
-inline Swept swept(pbd::Rows rows, const pbd::Points& v, std::string_view relaxation, int threads) {
-  Swept result{{}, v};
-  divide(rows, threads);
-  pbd::LinearSolver any = pbd::make_linear_solver(relaxation);
-  std::visit(
-      [&](auto& kind) {
-        kind.begin(rows, result.v, true);
-        result.seconds = repeated_seconds([&] { kind.sweep(rows, result.v, nullptr); });
-      },
-      any);
-  return result;
+inline Swept swept(const pbd::Rows& rows, const pbd::Points& v, std::string_view relaxation, int threads) {
+  Sweeps sweeps(rows, v, relaxation, threads);
+  const std::vector<double> seconds = repeated_seconds([&] { sweeps.sweep(); });
+  return {seconds, sweeps.v};
 }
 
 }  // namespace pbdcheck

@@ -114,8 +114,7 @@ ContactCase soft_on_rigid_on_cloth(double young, double h, double duration, int 
   constexpr double height = 0.05;
   build.box(Vec3(0.25, 0.25, height), 0.008, {Vec3(0, 0, half_thickness + height / 2)});
   Scene scene = build.finish();
-  const int first = add_touching_cloth(scene, grid_sheet({6, 6}, {1, 1}, {-0.5, -0.5, 0}), 0.5, 1e-4);
-  for (const int corner : {0, 6, 42, 48}) scene.mass[static_cast<std::size_t>(first + corner)] = infinity;
+  add_held_cloth(scene, 6, 1, 0.5, 1e-4);
   add_soft(scene, mat({cells, cells, cells}, Vec3::Constant(0.2), {0.01, 0.02, 2 * half_thickness + height}),
            young);
   ContactCase made{fmt::format("soft cube on a box on cloth, 1000:1, {:.0e} Pa, h = {:.2g} s", young, h),
@@ -138,8 +137,7 @@ ContactCase cow_on_boxes_on_cloth(double young, double h) {
     for (const double y : {-0.13, 0.13})
       build.box(Vec3(0.5, 0.25, height), density * volume / 4000, {Vec3(x, y, half_thickness + height / 2)});
   Scene scene = build.finish();
-  const int first = add_touching_cloth(scene, grid_sheet({8, 8}, {1.6, 1.6}, {-0.8, -0.8, 0}), 0.5, 1e-5);
-  for (const int corner : {0, 8, 72, 80}) scene.mass[static_cast<std::size_t>(first + corner)] = infinity;
+  add_held_cloth(scene, 8, 1.6, 0.5, 1e-5);
   add_soft(scene, cow, young, density);
   ContactCase made{fmt::format("soft cow on boxes on cloth, 1000:1, {:.0e} Pa, h = {:.2g} s", young, h),
                    std::move(scene), h, 1, height};

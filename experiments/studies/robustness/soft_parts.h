@@ -28,6 +28,17 @@ inline int add_touching_cloth(pbd::Scene& scene, const pbd::TriangleMesh& mesh, 
   return first;
 }
 
+/// A square of such cloth about the origin, held at its corners.
+inline void add_held_cloth(pbd::Scene& scene, int cells, double side, double area_density,
+                           double compliance) {
+  const pbd::Vec3 corner(-side / 2, -side / 2, 0);
+  const int first = add_touching_cloth(scene, pbd::grid_sheet({cells, cells}, {side, side}, corner),
+                                       area_density, compliance);
+  const int across = cells * (cells + 1);  // from the first edge's nodes to the last one's
+  for (const int held : {0, cells, across, across + cells})
+    scene.mass[static_cast<std::size_t>(first + held)] = pbd::infinity;
+}
+
 /// A ball of `radius` about `centre`: a cube's mesh, each of whose cubes about its centre becomes a sphere.
 inline pbd::TetMesh soft_ball(int cells, double radius, const pbd::Vec3& centre) {
   pbd::TetMesh mesh = pbd::kuhn_grid({cells, cells, cells}, pbd::Vec3::Constant(2), -pbd::Vec3::Ones());

@@ -1,0 +1,140 @@
+// Rows of one effect: constraints of R rows and K nodes each (rows.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "friction.h"
+#include "rows/chunks.h"
+#include "rows/constraint.h"
+
+namespace pbd {
+
+/// What an impulse may be: as its bounds and its law of friction let it, anything, or nothing.
+enum class Freedom : std::uint8_t { lawful, free, held };
+
+/// Of an impulse (R = 1), or of a contact's normal one, while it is `lawful`.
+struct Bounds {
+  double lower = 0, upper = infinity;  // N s
+  Freedom freedom = Freedom::lawful;
+};
+
+template <int R, int K>
+struct RowBlock : ConstraintShape<R, K> {
+  using Shape = ConstraintShape<R, K>;
+  using Velocities = Eigen::Matrix<double, 3 * K, 1>;
+
+  static constexpr std::size_t row_bytes = sizeof(typename Shape::Jacobian) +
+                                           2 * sizeof(typename Shape::Square) +
+                                           2 * sizeof(typename Shape::Value);  // of a constraint, about
+
+  std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
+  std::vector<typename Shape::Nodes> node;
+  std::vector<typename Shape::Jacobian> jacobian;
+  std::vector<typename Shape::Value> bias;
+  std::vector<typename Shape::Square> compliance;  // Sigma
+  std::vector<typename Shape::Square> inverse_diagonal;
+  std::vector<typename Shape::Value> impulse;
+  std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
+  std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
+  std::vector<typename Shape::Value> begin_value;  // where there is none
+  std::vector<Bounds> bounds;                      // empty where every impulse is free
+  std::vector<double> friction;                    // mu, for R = 3; empty where there is none
+  std::vector<typename Shape::Square> delassus;    // N_ii, kept where there is friction
+  Friction law = Friction::coulomb;
+  Chunks chunks;  // of its constraints; one where it was not divided since they were others
+
+  std::size_t size() const { return node.size(); }
+  std::size_t chunk_length() const { return pbd::chunk_length(size(), row_bytes, frictional()); }
+
+  /// Index in the effect of constraint i.
+  std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
+
+  /// Contacts: impulses with bounds, and with friction for R = 3.
+  void resize_contacts(std::size_t count) {
+    resize(count);
+    bounds.assign(count, {});
+    if constexpr (R == 3) {
+      friction.resize(count);
+      delassus.resize(count);
+    }
+  }
+
+  void resize(std::size_t count) {
+    node.resize(count);
+    jacobian.resize(count);
+    bias.resize(count);
+    compliance.resize(count);
+    inverse_diagonal.resize(count);
+    impulse.assign(count, Shape::Value::Zero());
+  }
+
+  std::int64_t bytes() const {
+    return static_cast<std::int64_t>(
+        entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
+        bounds.size() * sizeof(Bounds) + friction.size() * sizeof(double) +
+        (delassus.size() + stiffness.size()) * sizeof(compliance[0]) +
+        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
+  }
+
+  /// Velocities of constraint i's nodes, three entries a node.
+  Velocities gather(const Points& v, std::size_t i) const {
+    Velocities local;
+    for (int a = 0; a < K; ++a) local.template segment<3>(3 * a) = v.col(node[i][a]);
+    return local;
+  }
+
+  /// v += W J_i^T p
+  void apply(const std::vector<double>& inverse_mass, std::size_t i, const typename Shape::Value& p,
+             Points& v) const {
+    apply(inverse_mass, i, jacobian[i], p, v);
+  }
+
+  /// v += W J^T p with other directions for constraint i
+  void apply(const std::vector<double>& inverse_mass, std::size_t i,
+             const typename Shape::Jacobian& directions, const typename Shape::Value& p, Points& v) const {
+    for (int a = 0; a < K; ++a) {
+      const int index = node[i][a];
+      if (bounded() && inverse_mass[index] == 0) continue;  // other chunks of its colour may have it, too
+      v.col(index) += inverse_mass[index] * (directions.template middleCols<3>(3 * a).transpose() * p);
+    }
+  }
+
+  /// Divides its constraints in chunks, for so many threads. Many contacts share nothing but what cannot
+  /// move: with `fixed_are_shared` these columns keep no chunks apart, and nothing may write to them
+  /// (`apply`).
+  void divide(const std::vector<double>& inverse_mass, int threads, bool fixed_are_shared = false) {
+    chunks.threads = threads;
+    pbd::divide({node.empty() ? nullptr : node[0].data(), K * node.size()}, K, chunk_length(), inverse_mass,
+                fixed_are_shared, chunks);
+  }
+
+  bool bounded() const { return !bounds.empty(); }
+  bool frictional() const { return !friction.empty(); }
+
+  /// |W J_i^T p|_M^2 of constraint i's impulse p, J.
+  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i) const {
+    const Velocities push = jacobian[i].transpose() * impulse[i];
+    double sum = 0;
+    for (int a = 0; a < K; ++a)
+      sum += inverse_mass[node[i][a]] * push.template segment<3>(3 * a).squaredNorm();
+    return sum;
+  }
+
+  /// J_i v + b_i + Sigma_i p
+  typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
+    // Node by node: what is gathered in parts would be read as a whole before it is written. Apart from the
+    // bias, since what fast nodes do to a row may cancel. A single row has its shortest chain of sums by
+    // nodes, several rows by columns.
+    typename Shape::Value rate = Shape::Value::Zero();
+    for (int a = 0; a < K; ++a) {
+      if constexpr (R == 1)
+        rate += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
+      else
+        for (int axis = 0; axis < 3; ++axis) rate += jacobian[i].col(3 * a + axis) * v(axis, node[i][a]);
+    }
+    return bias[i] + compliance[i] * p + rate;
+  }
+};
+
+}  // namespace pbd

@@ -55,36 +55,37 @@ Matrix3d box_derivative(double mu, const Vector3d& z) {
 }
 
 /// A contact that slides by Coulomb's law: u_n = 0, |p_t| = mu p_n, u_t = -lambda p_t. Without p_n, by u_n =
-/// 0, (A + lambda) p_t = -b: an equation in lambda = t/(1 - t) tr A. At t = 0 it sticks, which has been
-/// refused: |p_t| > mu p_n; at t = 1 p_t vanishes and p_n > 0, since q_n < 0. Between them regula falsi
-/// (Illinois: dowell1971modified).
-Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q) {
+/// 0, (A + lambda) p_t = -b. At lambda = 0 it sticks, which has been refused: |p_t| > mu p_n; as lambda grows
+/// p_t vanishes and p_n > 0 is left, since q_n < 0. Between them Newton's method on mu p_n/|p_t| = 1, whose
+/// left side is a line in lambda where A has equal eigenvalues (more1983computing of |p_t| = 1), from the
+/// start's lambda; where it leaves what is known to hold a root, that is halved.
+Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q, const Vector3d& start) {
   const double pressed = -q[0] / n(0, 0);
   if (mu == 0) return {pressed, 0, 0};
   const Eigen::Vector2d coupling = n.bottomLeftCorner<2, 1>() / n(0, 0);
   const Eigen::Matrix2d a = n.bottomRightCorner<2, 2>() - coupling * n.topRightCorner<1, 2>();
   const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
-  const Eigen::Matrix2d scale = a.trace() * Eigen::Matrix2d::Identity();
+  const double equal = a.trace() / 2;  // eigenvalues, at first
+  double low = 0, high = infinity;
+  const double begun = -(n * start + q).tail<2>().dot(start.tail<2>()) / start.tail<2>().squaredNorm();
+  double lambda = begun > 0 ? begun : std::max(0.0, (b.norm() / mu - coupling.dot(b)) / pressed - equal);
   Vector3d p;
-  double rounding = 0;
-  const auto excess_at = [&](double t) {
-    p.tail<2>() = (t - 1) * ((1 - t) * a + t * scale).inverse() * b;
-    const double lifted = coupling.dot(p.tail<2>()), tangential = length_of(p[1], p[2]);
+  constexpr int most = 100;
+  for (int k = 0; k < most; ++k) {
+    const Eigen::Matrix2d inverse = (a + lambda * Eigen::Matrix2d::Identity()).inverse();
+    p.tail<2>() = -inverse * b;
+    const double lifted = coupling.dot(p.tail<2>()), squared = p.tail<2>().squaredNorm();
+    const double tangential = std::sqrt(squared);
     p[0] = pressed - lifted;
-    rounding = 16 * std::numeric_limits<double>::epsilon() * (tangential + mu * (pressed + std::abs(lifted)));
-    return tangential - mu * p[0];
-  };
-  constexpr int most = 60;
-  double low = 0, high = 1, over = excess_at(low), under = -mu * pressed;
-  double found = over;
-  for (int k = 0, last = 0; k < most && !(std::abs(found) <= rounding); ++k) {
-    const double t = low + (high - low) * over / (over - under);
-    found = excess_at(t);
-    const int side = found > 0 ? 1 : -1;
-    (side > 0 ? low : high) = t;
-    (side > 0 ? over : under) = found;
-    if (side == last) (side > 0 ? under : over) /= 2;
-    last = side;
+    const double excess = tangential - mu * p[0];
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    if (std::abs(excess) <= rounding * (tangential + mu * (pressed + std::abs(lifted)))) break;
+    (excess > 0 ? low : high) = lambda;
+    const Eigen::Vector2d derivative = -inverse * p.tail<2>();  // of p_t by lambda
+    const double rise =
+        -mu * (coupling.dot(derivative) * squared + p[0] * derivative.dot(p.tail<2>()));  // times |p_t|^3
+    lambda += excess * squared / rise;
+    if (!(lambda > low && lambda < high)) lambda = high < infinity ? low + (high - low) / 2 : 2 * low + equal;
   }
   return project(Friction::disc, mu, p, Vector3d::Zero());
 }
@@ -117,7 +118,7 @@ Eigen::Vector3d solve_contact(Friction law, double mu, const Eigen::Matrix3d& n,
   if (n.determinant() > singular * mean * mean * mean) {
     Eigen::Vector3d sticking = -n.inverse() * q;
     if (project(law, mu, sticking, Eigen::Vector3d::Zero()) == sticking) return sticking;
-    if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q);
+    if (law == Friction::coulomb || law == Friction::disc) return slide(mu, n, q, start);
   }
 
   constexpr int most = 30;

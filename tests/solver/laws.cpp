@@ -94,7 +94,8 @@ TEST_CASE("one contact's impulse obeys its law") {
       const Matrix3d n = random_delassus(random);
       const Vector3d q = random();
       INFO("mu " << mu << " q " << q.transpose());
-      const Vector3d p = solve_contact(Friction::coulomb, mu, n, q, Vector3d::Zero());
+      const std::array<Vector3d, 3> starts{Vector3d::Zero(), random(), {1, 1e-9, 1e-9}};
+      const Vector3d p = solve_contact(Friction::coulomb, mu, n, q, starts[k % starts.size()]);
       const Vector3d u = n * p + q;
       const double slip = u.tail<2>().norm(), slack = 1e-9 * (1 + q.norm());
       CHECK(in_cone(mu, p, slack));
@@ -119,6 +120,16 @@ TEST_CASE("one contact's impulse obeys its law") {
     CHECK(kinds[2] > slid_before + 20);
   }
   for (const int kind : kinds) CHECK(kind > 20);
+}
+
+TEST_CASE("one contact slides whose friction turns far on its way from sticking") {
+  Matrix3d n;
+  n << 635, 386, 616, 386, 238, 363, 616, 363,
+      638;  // condition 2e4: Newton's method alone goes round
+  const Vector3d q(-6, -4, -3), p = solve_contact(Friction::coulomb, 1, n, q, Vector3d::Zero()),
+                                u = n * p + q;
+  CHECK(std::abs(u[0]) <= 1e-9 * q.norm());
+  CHECK((p.tail<2>() * u.tail<2>().norm() + p[0] * u.tail<2>()).norm() <= 1e-9 * p.norm() * u.norm());
 }
 
 TEST_CASE("one contact whose Delassus matrix is singular, and one without friction") {

@@ -58,16 +58,16 @@ def absent(frame):
 
 @figure("effects_cost", "stripped", table="stripped")
 def stripped(frame):
-    """Time of a sweep over links by the solver over that of the least loop that does the same."""
+    """Time of a sweep by the solver over that of the least loop that does the same."""
     rows = good(frame, "ratio")
     fig, (ax,) = panels(1, height=0.2 * max(len(rows), 2) + 0.6)
     ax.errorbar(rows["ratio"], rows["scene"], xerr=[(rows["ratio"] - rows["ratio_low"]).clip(lower=0), (rows["ratio_high"] - rows["ratio"]).clip(lower=0)],
                 fmt="o", color=BLUE, markersize=4, capsize=2)
     ax.axvline(1, color="black", linewidth=0.8)
     ax.set(xlabel="time of a sweep over that of the least loop", xlim=(0, None))
-    finding(fig, f"A sweep over links takes {span(rows['ratio'])} of the time of the least loop" if len(rows)
-            else f"None of {counted(len(frame), 'chain')} has a number")
-    footnote(fig, "The least loop knows links alone and sums no residual. Bars: range of the repeats.")
+    finding(fig, f"A sweep takes {span(rows['ratio'])} of the time of the least loop" if len(rows)
+            else f"None of {counted(len(frame), 'scene')} has a number")
+    footnote(fig, "The least loop knows one kind of rows and sums no residual. Bars: range of the repeats.")
     return fig
 
 

@@ -107,7 +107,7 @@ def effects_cost(directory):
           [(e, state, 1 + d, 0.99 + d, 1.01 + d, 1, 0) for e, state, d in (
               ("none", "the same scene", 0), ("gravity", "empty", 0.001), ("bending", "empty", -0.002), ("contact", "never touches", 0.15))])
     write(directory, "effects_cost", "stripped", tables.TABLES["effects_cost", "stripped"],
-          [(f"chain of {n} links", n, 1e-8 * n, 1.2e-8 * n, 0.83, 0.82, 0.84, 1e-16) for n in (100, 100000)])
+          [(f"{n} links", n, 1e-8 * n, 1.2e-8 * n, 0.83, 0.82, 0.84, 1e-16) for n in (100, 100000)])
     rows = [("cantilever", r, n, n // 6, 1e-8 * n * (2 if r == "jacobi" else 1), 1.01, "ok", "")
             for r in RELAXATIONS[:3] for n in (1000, 10000, 100000)]
     write(directory, "effects_cost", "scaling", "scene relaxation rows elements wall_s_per_sweep exponent status reason",

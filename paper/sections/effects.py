@@ -10,7 +10,7 @@ def effects_cost(results):
         figures=[
             Figure("effects_cost_scaling", "Wall time of one sweep and row over the number of rows: level where cost is in proportion."),
             Figure("effects_cost_absent", "Change of a step's time by an effect that is listed and that nothing uses."),
-            Figure("effects_cost_stripped", "A sweep over links beside the least loop that does the same."),
+            Figure("effects_cost_stripped", "Sweeps over links, joints and contacts beside the least loops that do the same."),
             Figure("effects_cost_bytes", "Memory of each effect's rows."),
             Figure("effects_cost_seconds", "Wall time of each effect per row and step, linearising and relaxing.")])
     scaling, costs = results.table("effects_cost", "scaling"), results.table("effects_cost", "costs")
@@ -44,6 +44,6 @@ def absent_text(absent):
 
 def stripped_text(stripped):
     """What a sweep takes beside the least loop over one kind of rows."""
-    return ("A sweep of Gauss-Seidel over links, beside a loop that knows links alone: " + "; ".join(
-        f"{r['scene']} {number(1e9 * r['wall_s_per_sweep'] / r['rows'])} ns a link beside {number(1e9 * r['stripped_s_per_sweep'] / r['rows'])} ns, "
+    return ("A sweep of Gauss-Seidel over rows of one kind, beside a loop that knows this kind alone: " + "; ".join(
+        f"{r['scene']} {number(1e9 * r['wall_s_per_sweep'] / r['rows'])} ns a row beside {number(1e9 * r['stripped_s_per_sweep'] / r['rows'])} ns, "
         f"{number(r['ratio'])} times as long" for _, r in stripped.iterrows()) + ".")

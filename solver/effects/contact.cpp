@@ -76,15 +76,19 @@ void ContactRows::allocate(bool, BlockList& blocks) {
   blocks.add(RowBlock<1, 5>{});
 }
 
+SearchedStep ContactRows::searched_step(const StepBegin& begin) const {
+  return {begin.bodies, begin.at, straight_, free_.x, begin.inverse_mass, threads_};
+}
+
 bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   if (blocks.empty()) return false;
   start_v_ = begin.v;
   recovering_ = begin.after_miss || (begin.continued && recovering_);
   free_.x = begin.map.x0 + begin.map.d * begin.map.v_free;
   begin.bodies.place(free_.x, free_.pose);
-  const int threads = std::visit([](const auto& block) { return block.chunks.threads; }, blocks.front());
-  search_.begin(begin.bodies, begin.at, begin.map.x0 + begin.map.d * begin.v, free_.x, begin.inverse_mass,
-                threads);
+  straight_ = begin.map.x0 + begin.map.d * begin.v;
+  threads_ = std::visit([](const auto& block) { return block.chunks.threads; }, blocks.front());
+  search_.begin(searched_step(begin));
   collided_.clear();
   strikes_ = false;
   keep_impulses(blocks);
@@ -109,7 +113,7 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
       contacts[i].acts = block.impulse[i][0] > begin.tolerance * most;
   });
   const Configuration free{free_.x, free_.pose, begin.at.time};
-  const bool farther = search_.extend(begin.bodies, begin.at, reached.x);
+  const bool farther = search_.extend(searched_step(begin), reached.x);
   if (farther) {
     search_.find(begin.at, found_);
     waiting_.renew(found_, contacts_);
@@ -118,13 +122,16 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   const bool others = search_.look_again(begin.at, reached, free, begin.tolerance, contacts_);
   if (!more && !others) return Widened::no;
   keep_impulses(blocks);
-  return fill(begin, std::array{begin.at, free, reached}, reached, blocks) ? Widened::others : Widened::alike;
+  const bool none_before = row_count(blocks) == 0;
+  const bool others_now = fill(begin, std::array{begin.at, free, reached}, reached, blocks);
+  if (none_before && row_count(blocks) == 0) return Widened::no;
+  return others_now ? Widened::others : Widened::alike;
 }
 
 bool ContactRows::hold_back(const StepBegin& begin, const Configuration& reached,
                             std::vector<double>& share) {
   if (!effect_.continuous) return false;
-  if (search_.extend(begin.bodies, begin.at, reached.x)) search_.find(begin.at, found_);
+  if (search_.extend(searched_step(begin), reached.x)) search_.find(begin.at, found_);
   return search_.hold_back(begin.bodies, begin.at, reached, share);
 }
 

@@ -77,6 +77,7 @@ class ContactRows final : public Source {
 
   /// By the convex law what slides acts from afar.
   bool may_wait() const { return law_ != Friction::cone; }
+  SearchedStep searched_step(const StepBegin& begin) const;
   void keep_impulses(ConstBlockSpan blocks);
   bool fill(const StepBegin& begin, std::span<const Configuration> places, const Configuration& last,
             BlockSpan blocks);
@@ -96,7 +97,9 @@ class ContactRows final : public Source {
   ContactLists contacts_, found_;
   WaitingContacts waiting_;
   ContactSeeds seeds_;
+  int threads_ = 1;
   Points start_v_;                                                   // m/s, where the step begins
+  Points straight_;                                                  // m, where that takes it by itself
   FreeEnd free_;                                                     // where the step's free motion ends
   std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
   bool bounces_ = false;                                             // some law has restitution

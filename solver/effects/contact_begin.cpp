@@ -105,6 +105,12 @@ bool ContactRows::fill(const StepBegin& begin, std::span<const Configuration> pl
                        const Configuration& last, BlockSpan blocks) {
   search_.find(begin.at, contacts_);
   if (may_wait()) waiting_.take(places, contacts_);
+  const bool none =
+      std::all_of(contacts_.begin(), contacts_.end(), [](const auto& list) { return list.empty(); });
+  if (none && row_count(blocks) == 0) {
+    recovering_ = false;
+    return false;
+  }
   const Shifts shifts{begin.map.x0 + begin.map.d * begin.map.v_free - begin.at.x, begin.map.x0 - begin.at.x,
                       begin.map.d * (begin.map.v_free - begin.v)};
   bool others = false, apart = true;

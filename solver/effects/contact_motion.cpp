@@ -70,18 +70,24 @@ void ContactSearch::place_colliders(const Bodies& bodies, const Configuration& s
   }
 }
 
-void ContactSearch::begin(const Bodies& bodies, const Configuration& start, const Points& straight,
-                          const Points& free, const std::vector<double>& inverse_mass, int threads) {
-  threads_ = threads;
-  place_colliders(bodies, start, inverse_mass);
+void ContactSearch::begin(const SearchedStep& step) {
   searched_ = false;
   near_.clear();
   near_pairs_.clear();
   late_.clear();
   left_.clear();
+  far_.clear();
+  clearance_.begin(step.bodies, step.start, step.straight);
+  clear_ = clearance_.holds(step.bodies, step.start, step.free);
+  if (!clear_) set_out(step);
+}
+
+void ContactSearch::set_out(const SearchedStep& step) {
+  threads_ = step.threads;
+  place_colliders(step.bodies, step.start, step.inverse_mass);
   for (Motion& motion : motions_) {
-    motion.course = shift_of(motion, bodies, start.x, straight);
-    const Displacement moved = displacement(motion, bodies, start, free);
+    motion.course = shift_of(motion, step.bodies, step.start.x, step.straight);
+    const Displacement moved = displacement(motion, step.bodies, step.start, step.free);
     motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
     motion.turn = moved.turn;
     motion.grown = true;
@@ -90,11 +96,17 @@ void ContactSearch::begin(const Bodies& bodies, const Configuration& start, cons
   }
   if (!surfaces_) return;
   surfaces_grown_ = true;
-  node_travel_.assign(bodies.nodes(), 0.0);
-  for (const int node : surfaces_->nodes()) node_travel_[node] = (free.col(node) - start.x.col(node)).norm();
+  node_travel_.assign(step.bodies.nodes(), 0.0);
+  for (const int node : surfaces_->nodes())
+    node_travel_[node] = (step.free.col(node) - step.start.x.col(node)).norm();
 }
 
-bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, const Points& x) {
+bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
+  if (clear_) {
+    if (clearance_.holds(step.bodies, step.start, x)) return false;
+    clear_ = false;
+    set_out(step);
+  }
   bool farther = false;
   const auto grow = [&](double& searched, double reached, bool& grown) {
     if (!(reached > (1 + rounding) * searched)) return;
@@ -102,13 +114,13 @@ bool ContactSearch::extend(const Bodies& bodies, const Configuration& start, con
     grown = farther = true;
   };
   for (Motion& motion : motions_) {
-    const Displacement moved = displacement(motion, bodies, start, x);
+    const Displacement moved = displacement(motion, step.bodies, step.start, x);
     grow(motion.travel, farthest_travel(motion, moved), motion.grown);
     grow(motion.turn, moved.turn, motion.grown);
   }
   if (surfaces_)
     for (const int node : surfaces_->nodes())
-      grow(node_travel_[node], (x.col(node) - start.x.col(node)).norm(), surfaces_grown_);
+      grow(node_travel_[node], (x.col(node) - step.start.x.col(node)).norm(), surfaces_grown_);
   if (farther) searched_ = false;
   return farther;
 }

@@ -11,6 +11,7 @@ namespace pbd {
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
     : effect_(effect),
       allowed_(scene, effect),
+      clearance_(effect),
       motions_(effect.collider.size() + effect.node.size() +
                (effect.collider.empty() ? 0 : effect.triangle.size())) {
   points_.triangle.radius = effect.thickness / 2;
@@ -201,6 +202,17 @@ void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_
   for (ContactPoint& point : points.found) point.swapped = !point.swapped;
 }
 
+/// True if one is a half space and the other one goes on above it.
+bool ContactSearch::is_above(int first, int second) const {
+  const auto above = [&](int lower, int other) {
+    const Motion& motion = motions_[lower];
+    return motion.kind == Carrier::body && std::holds_alternative<HalfSpace>(*motion.shape) &&
+           height_above(motion.frame, boxes_[other].box) >
+               motion.course.norm() + travel_near(motion, motions_[other]);
+  };
+  return above(first, second) || above(second, first);
+}
+
 /// Pairs are as they were found before in the step unless one of them goes farther now; so are surfaces.
 void ContactSearch::search(const Configuration& start) {
   near_before_.swap(near_);
@@ -228,7 +240,7 @@ void ContactSearch::search(const Configuration& start) {
                        !motions_[pair[0]].grown && !motions_[pair[1]].grown;
     if (known)
       views_.push_back({pair, before->nearest, std::span(near_before_).subspan(begin, before->end - begin)});
-    else
+    else if (!is_above(pair[0], pair[1]))
       asked_.push_back(pair);
   }
   search_asked(start);
@@ -251,11 +263,19 @@ void ContactSearch::search(const Configuration& start) {
     surfaces_->find(start.x, node_travel_, effect_.thickness, surface_contacts_);
   }
   searched_ = true;
+  if (near_.empty() && late_.empty() && !(surfaces_ && effect_.surfaces_touch)) look_for_clearance(start);
+}
+
+void ContactSearch::look_for_clearance(const Configuration& start) {
+  double way = 0;
+  for (const Motion& motion : motions_) way = std::max(way, motion.course.norm() + motion.travel);
+  clearance_.look(boxes_, start, way, [&](int first, int second) { return may_touch(first, second); });
 }
 
 void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
-  if (!searched_) search(start);
   for (auto& list : contacts) list.clear();
+  if (clear_) return;
+  if (!searched_) search(start);
   far_.clear();
   std::size_t begin = 0;
   for (const NearPair& pair : near_pairs_) {

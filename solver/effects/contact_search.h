@@ -25,6 +25,9 @@
 // generate.h says of them, which may be too large; a triangle that begins cut by one may end cut by other
 // features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
+// Where nothing was near at all, boxes many times their motions apart say for how long that holds: until then
+// no step is searched (clearance.h).
+//
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
 // one of its shapes, by more than the tolerance's share of r there, leaves the step, unless the shapes have
 // it there, as those that lie corner on corner do; and so does one of convex shapes of which one is round
@@ -47,6 +50,7 @@
 #include "collision/generate.h"
 #include "effects/active_contact.h"
 #include "effects/allowed_pairs.h"
+#include "effects/clearance.h"
 
 namespace pbd {
 
@@ -64,17 +68,25 @@ enum ContactGroup : std::size_t {
 };
 using ContactLists = std::array<std::vector<ActiveContact>, contact_groups>;
 
+/// A step whose contacts are searched for.
+struct SearchedStep {
+  const Bodies& bodies;
+  const Configuration& start;
+  const Points& straight;  // where courses end
+  const Points& free;      // where the free motion ends
+  const std::vector<double>& inverse_mass;
+  int threads;  // that pairs are searched on
+};
+
 class ContactSearch {
  public:
   ContactSearch(const Scene& scene, const Contact& effect);
 
-  /// Places the colliders where a step begins; they go as far as to `free`, the free motion's end. Courses
-  /// end at `straight`. Pairs are searched on so many threads.
-  void begin(const Bodies& bodies, const Configuration& start, const Points& straight, const Points& free,
-             const std::vector<double>& inverse_mass, int threads);
+  /// Places the colliders where a step begins; they go as far as to the free motion's end.
+  void begin(const SearchedStep& step);
 
   /// True if some collider goes farther to x than was thought of; it is thought to go a quarter farther then.
-  bool extend(const Bodies& bodies, const Configuration& start, const Points& x);
+  bool extend(const SearchedStep& step, const Points& x);
 
   /// The contacts of what is as near as that.
   void find(const Configuration& start, ContactLists& contacts);
@@ -174,6 +186,7 @@ class ContactSearch {
   };
 
   // How far colliders go: contact_motion.cpp, with begin and extend.
+  void set_out(const SearchedStep& step);
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
   Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
@@ -187,6 +200,8 @@ class ContactSearch {
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
+  bool is_above(int first, int second) const;
+  void look_for_clearance(const Configuration& start);
   void search_pair(int first, int second, const Configuration& start, SearchTask& task) const;
   void search_nodes(int first, int second, const Points& x, SearchTask& task) const;
   void search_asked(const Configuration& start);
@@ -255,6 +270,8 @@ class ContactSearch {
 
   const Contact& effect_;
   AllowedPairs allowed_;
+  Clearance clearance_;
+  bool clear_ = false;  // of this step: nothing is placed, and nothing found
   std::vector<Motion> motions_;
   bool searched_ = false;  // `near_` holds what is as near as motions go
   std::vector<NearPair> near_pairs_;

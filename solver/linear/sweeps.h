@@ -21,17 +21,20 @@ struct Sweep {
   bool exhausted = false;
 };
 
-/// f(block, index of its first row) for every block, its time added to `seconds`.
+/// f(block, index of its first row) for every block that has rows, its time added to `seconds`.
 template <class F>
 void visit_blocks(std::vector<AnyBlock>& blocks, BlockSeconds seconds, F&& f) {
   using Clock = std::chrono::steady_clock;
   std::size_t first_row = 0;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  const auto visit = [&](auto& block, std::size_t b) {
+    if (block.size() == 0) return;
     const auto start = seconds ? Clock::now() : Clock::time_point{};
-    std::visit([&](auto& block) { f(block, first_row); }, blocks[b]);
+    f(block, first_row);
     if (seconds) (*seconds)[b] += std::chrono::duration<double>(Clock::now() - start).count();
-    first_row += static_cast<std::size_t>(row_count(blocks[b]));
-  }
+    first_row += block.size() * block.rows;
+  };
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    std::visit([&](auto& block) { visit(block, b); }, blocks[b]);
 }
 
 /// The R entries of constraint i in an array with one entry a row.

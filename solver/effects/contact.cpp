@@ -122,9 +122,7 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   const bool others = search_.look_again(begin.at, reached, free, begin.tolerance, contacts_);
   if (!more && !others) return Widened::no;
   keep_impulses(blocks);
-  const bool none_before = row_count(blocks) == 0;
   const bool others_now = fill(begin, std::array{begin.at, free, reached}, reached, blocks);
-  if (none_before && row_count(blocks) == 0) return Widened::no;
   return others_now ? Widened::others : Widened::alike;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "step/step.h"
 #include "studies/robustness/thrown_pair.h"
 #include "validate.h"
 
@@ -97,4 +98,23 @@ TEST_CASE("thrown pairs are valid scenes, begin apart, and are the same each tim
       CHECK(apart(once.scene, once.whole[0], once.whole[1], once.scene.initial) >= 0.999 * once.apart);
     }
   }
+}
+
+TEST_CASE("what is thrown passes through nothing in a solved step") {
+  constexpr std::array<std::array<Thing, 2>, 4> all{{{Thing::box, Thing::box},
+                                                     {Thing::hull, Thing::hull},
+                                                     {Thing::point, Thing::mesh},
+                                                     {Thing::sphere, Thing::half_space}}};
+  int solved = 0;
+  for (const auto& kinds : all)
+    for (int i = 0; i < 30; ++i) {
+      const ThrownPair pair = thrown_pair(kinds, i, true);
+      pbd::Workspace workspace(pair.scene, pbd::Method{});
+      pbd::State state = pair.scene.initial;
+      if (step(workspace, pair.h, state).status != pbd::Status::ok) continue;
+      INFO(thing_names[static_cast<std::size_t>(kinds[0])] << ", scene " << i);
+      CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], pair.scene.initial, state));
+      ++solved;
+    }
+  CHECK(solved > 40);
 }

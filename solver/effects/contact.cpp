@@ -122,8 +122,7 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
   const bool others = search_.look_again(begin.at, reached, free, begin.tolerance, contacts_);
   if (!more && !others) return Widened::no;
   keep_impulses(blocks);
-  const bool others_now = fill(begin, std::array{begin.at, free, reached}, reached, blocks);
-  return others_now ? Widened::others : Widened::alike;
+  return fill(begin, std::array{begin.at, free, reached}, reached, blocks) ? Widened::others : Widened::alike;
 }
 
 bool ContactRows::hold_back(const StepBegin& begin, const Configuration& reached,

@@ -8,8 +8,7 @@
 namespace pbd {
 namespace {
 
-// A way and a course are searched for with a quarter to spare; a way is what goes beside its course.
-constexpr double with_room = 1.25;
+constexpr double with_room = 1 + search_room;
 
 /// m, that no column went farther; NaN if one is. By the largest coordinate, which is quick.
 double farthest(const Points& from, const Points& to, Eigen::Index columns) {
@@ -40,6 +39,7 @@ Clearance::Clearance(const Contact& effect) : effect_(effect) {
 void Clearance::begin(const Bodies& bodies, const Configuration& start, const Points& straight) {
   if (distance_ == 0) return;
   const Eigen::Index nodes = bodies.nodes();
+  // A way is what goes beside its course: that counts twice.
   spent_ = farthest(x_, start.x, nodes) + 2 * with_room * farthest(start.x, straight, nodes);
 }
 
@@ -114,7 +114,7 @@ void Clearance::look(const std::vector<MovingBox>& boxes, const Configuration& s
   }
   const double above = above_half_spaces(boxes, start.pose, may_touch);
   for (const double ways : {4096, 256, 16}) {  // the fewer, the sooner it is looked again
-    if (!(ways * way < above) || !none_within(ways * way, boxes, may_touch)) continue;
+    if (!(way > 0) || !(ways * way < above) || !none_within(ways * way, boxes, may_touch)) continue;
     distance_ = ways * way;
     x_ = start.x;
     pose_ = start.pose;

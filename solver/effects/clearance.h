@@ -9,6 +9,9 @@
 
 namespace pbd {
 
+/// By how much of it ways and courses are searched for farther than they are known to go.
+inline constexpr double search_room = 0.25;
+
 class Clearance {
  public:
   explicit Clearance(const Contact& effect);

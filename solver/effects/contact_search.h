@@ -115,7 +115,8 @@ class ContactSearch {
   static constexpr double least_beside = 1e-9;  // what lies edge on edge comes and goes by rounding
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
   static constexpr double rounding = 1e-9;      // of a way
-  static constexpr double room = 0.25;          // of a way, so that few steps are searched anew
+  static constexpr int most_places = 10000;     // of a way: a hundred sizes take some hundred
+  static constexpr double room = search_room;   // so that few steps are searched anew
   static constexpr double near = 0.5;           // of a way: what is farther may wait
 
   enum class Carrier : std::uint8_t { body, node, triangle };
@@ -239,6 +240,7 @@ class ContactSearch {
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
                     const Configuration& end) const;
+  bool passes_through(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
   bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);

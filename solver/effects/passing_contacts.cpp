@@ -40,16 +40,37 @@ bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, co
   return false;
 }
 
-/// Sets `overlapping_` to the planes between what of a pair touches round where the step begins, and has
-/// passed at `end`; true if there are any.
+/// True if a pair that begins in touch goes into each other on its way, deeper than a tenth of its radius,
+/// and out again: what clips a corner by less has passed nothing.
+bool ContactSearch::passes_through(const Pair& pair, const Configuration& start, const Configuration& end,
+                                   double slack) {
+  constexpr double clipped = 0.1;
+  const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
+  const double travel = travel_between(one, two), round = round_radius_of(one, two);
+  double gap = pair.nearest, share = 0, touching_for = 0;
+  bool inside = false;
+  for (int k = 0; k < most_places && share < 1; ++k) {
+    touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
+    share = std::min(1.0, share + std::max(gap, touching_for) / travel);
+    gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
+    inside |= gap < pair.deepest - clipped * round;
+    if (inside && gap > slack) return true;
+  }
+  return false;
+}
+
+/// Sets `overlapping_` to the planes between what of a pair touches where the step begins, and has passed at
+/// `end`; true if it has.
 bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
                                 double slack) {
+  const bool through = passes_through(pair, start, end, slack);
   generate_between(pair, start, end, 0, 2 * slack);
-  std::erase_if(points_.found,
-                [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
+  if (!through)
+    std::erase_if(points_.found,
+                  [&](const ContactPoint& point) { return !passes_round(point, pair, start, end); });
   part_by_planes(pair, start, end, 0);
   keep_overlapping(pair, start, end, -slack, -infinity);
-  return !overlapping_.empty();
+  return through || !overlapping_.empty();
 }
 
 /// Walks the way of a pair that begins apart. True where it touches by features that overlap at `end` by more
@@ -58,12 +79,11 @@ bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, co
 /// looked at; what touches goes on by half a radius at most.
 bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Configuration& end,
                           double allowed, double slack) {
-  constexpr int most = 10000;  // of places that are looked at: a hundred sizes take some hundred
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double travel = travel_between(one, two), round = round_radius_of(one, two);
   double gap = pair.nearest, share = 0, touching_for = 0;
   apart_ = 0;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most_places; ++k) {
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
     share += std::max(gap, touching_for) / travel;
     if (!(share < 1)) return false;

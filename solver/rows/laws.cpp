@@ -67,8 +67,10 @@ Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q, const Vector3d& 
   const Eigen::Vector2d b = q.tail<2>() - coupling * q[0];
   const double equal = a.trace() / 2;  // eigenvalues, at first
   double low = 0, high = infinity;
+  double lambda = std::max(0.0, (b.norm() / mu - coupling.dot(b)) / pressed - equal);
   const double begun = -(n * start + q).tail<2>().dot(start.tail<2>()) / start.tail<2>().squaredNorm();
-  double lambda = begun > 0 ? begun : std::max(0.0, (b.norm() / mu - coupling.dot(b)) / pressed - equal);
+  constexpr double far = 1e3;  // beyond it digits are lost: a start that hardly rubs asks for any lambda
+  if (begun > 0 && begun < far * (lambda + equal)) lambda = begun;
   Vector3d p;
   constexpr int most = 100;
   for (int k = 0; k < most; ++k) {

@@ -94,7 +94,7 @@ TEST_CASE("one contact's impulse obeys its law") {
       const Matrix3d n = random_delassus(random);
       const Vector3d q = random();
       INFO("mu " << mu << " q " << q.transpose());
-      const std::array<Vector3d, 3> starts{Vector3d::Zero(), random(), {1, 1e-9, 1e-9}};
+      const std::array<Vector3d, 4> starts{Vector3d::Zero(), random(), {1, 1e-9, 1e-9}, {1, 1e-40, 1e-40}};
       const Vector3d p = solve_contact(Friction::coulomb, mu, n, q, starts[k % starts.size()]);
       const Vector3d u = n * p + q;
       const double slip = u.tail<2>().norm(), slack = 1e-9 * (1 + q.norm());

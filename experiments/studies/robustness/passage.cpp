@@ -14,8 +14,8 @@ using namespace pbd;
 namespace {
 
 constexpr double touching = 1e-9;  // of the sizes: cores that are no farther apart meet
-// Of the farthest way in a step: what a tolerance of 1e-8 leaves where one is a thousand times as heavy as
-// the other, 2 sqrt(1000) 1e-8, rounded up.
+// Of the farthest way in a step, hindered or not: what a tolerance of 1e-8 leaves where one is a thousand
+// times as heavy as the other, 2 sqrt(1000) 1e-8, rounded up.
 constexpr double solved = 1e-6;
 
 struct PiecesOf {
@@ -176,7 +176,11 @@ double apart(const Scene& scene, const Core& a, const Core& b, const State& at) 
 }
 
 bool pass_through(const Scene& scene, const Core& a, const Core& b, const State& from, const State& to) {
-  if (b.plane) return least_height(scene, a, b, to) < -solved * (to.x - from.x).colwise().norm().maxCoeff();
+  if (b.plane) {
+    const auto farthest = [](const Points& ways) { return ways.colwise().norm().maxCoeff(); };
+    const double way = std::max(farthest(to.x - from.x), (to.time - from.time) * farthest(from.v));
+    return least_height(scene, a, b, to) < -solved * way;
+  }
   const MovingCore one(scene, a, from, to), two(scene, b, from, to);
   for (std::size_t i = 0; i < a.pieces(); ++i)
     for (std::size_t j = 0; j < b.pieces(); ++j)

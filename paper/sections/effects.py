@@ -38,7 +38,7 @@ def absent_text(absent):
             f" Together they change {absent['entries_that_differ'].sum():.0f} numbers of the result.")
     if len(idle):
         told += (f" Contact of nodes that never touch the ground takes {span(100 * (idle['time_ratio'] - 1))} % more of a step that does little "
-                 "else: boxes are made and compared.")
+                 "else: how far all went since it was seen to be far apart.")
     return told
 
 

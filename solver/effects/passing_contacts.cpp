@@ -54,7 +54,7 @@ bool ContactSearch::passes_through(const Pair& pair, const Configuration& start,
     share = std::min(1.0, share + std::max(gap, touching_for) / travel);
     gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
     inside |= gap < pair.deepest - clipped * round;
-    if (inside && gap > slack) return true;
+    if (inside && gap > -slack) return true;
   }
   return false;
 }

@@ -35,11 +35,11 @@ struct Collider {
 /// connects, or of bodies named in `apart` do not touch, nor does a node, or a triangle of it, the body that
 /// it is attached to; nodes touch each other with `nodes_touch` alone, but not those of one link, hinge,
 /// triangle or tetrahedron. `law` has an entry for each pair of materials, row by row of a symmetric table.
-/// Gaps g
-/// >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery` (m/s).
-/// Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved step
-/// colliders do not pass through colliders, nodes and triangles that they begin apart from either, on
-/// straight ways and constant turns.
+/// Gaps g >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery`
+/// (m/s). Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved
+/// step colliders do not pass through colliders, nodes and triangles either, on straight ways and constant
+/// turns: through what they begin apart from not at all, through what they begin in touch with no deeper than
+/// a tenth of its half width and out again.
 struct Contact {
   static constexpr std::string_view name = "contact";
   std::vector<Collider> collider;

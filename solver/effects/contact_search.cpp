@@ -202,15 +202,16 @@ void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_
   for (ContactPoint& point : points.found) point.swapped = !point.swapped;
 }
 
-/// True if one is a half space and the other one goes on above it.
+/// True if one is a half space and the other one begins farther above it than a gap may fall. Where it goes
+/// on above it is no less searched for: what slides by the convex law is held from afar.
 bool ContactSearch::is_above(int first, int second) const {
-  const auto above = [&](int lower, int other) {
-    const Motion& motion = motions_[lower];
-    return motion.kind == Carrier::body && std::holds_alternative<HalfSpace>(*motion.shape) &&
-           height_above(motion.frame, boxes_[other].box) >
-               motion.course.norm() + travel_near(motion, motions_[other]);
+  const auto above = [&](const Motion& lower, const Motion& other) {
+    return lower.kind == Carrier::body && std::holds_alternative<HalfSpace>(*lower.shape) &&
+           lower.frame.rotation.col(2).dot(other.centre - lower.frame.origin) - other.radius >
+               effect_.margin + travel_between(lower, other);
   };
-  return above(first, second) || above(second, first);
+  const Motion &one = motions_[first], &two = motions_[second];
+  return above(one, two) || above(two, one);
 }
 
 /// Pairs are as they were found before in the step unless one of them goes farther now; so are surfaces.

@@ -179,7 +179,8 @@ bool pass_through(const Scene& scene, const Core& a, const Core& b, const State&
   if (b.plane) {
     const auto farthest = [](const Points& ways) { return ways.colwise().norm().maxCoeff(); };
     const double way = std::max(farthest(to.x - from.x), (to.time - from.time) * farthest(from.v));
-    return least_height(scene, a, b, to) < -solved * way;
+    constexpr double rounding = 1e-12;  // of a coordinate
+    return least_height(scene, a, b, to) < -(solved * way + rounding * to.x.cwiseAbs().maxCoeff());
   }
   const MovingCore one(scene, a, from, to), two(scene, b, from, to);
   for (std::size_t i = 0; i < a.pieces(); ++i)

@@ -92,11 +92,6 @@ double least_along(const Shape& shape, const Frame& at, const Vec3& direction) {
   return direction.dot(at.origin) + std::visit(LeastAlong{at.rotation.transpose() * direction}, shape);
 }
 
-double height_above(const Frame& half_space, const Eigen::AlignedBox3d& box) {
-  const Vec3 normal = half_space.rotation.col(2);
-  return normal.dot(box.center() - half_space.origin) - normal.cwiseAbs().dot(box.sizes()) / 2;
-}
-
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at) {
   const Vec3 half = std::visit(HalfSize{at.rotation}, shape);
   return {at.origin - half, at.origin + half};

@@ -18,9 +18,6 @@ double round_radius(const Shape& shape);
 /// A box along the world's axes that holds the shape; infinite for a half space.
 Eigen::AlignedBox3d bounds_of(const Shape& shape, const Frame& at);
 
-/// m, of the lowest point of a box above a half space.
-double height_above(const Frame& half_space, const Eigen::AlignedBox3d& box);
-
 /// Least of `direction` . x over the shape (m), by a unit vector; minus infinity for a half space.
 double least_along(const Shape& shape, const Frame& at, const Vec3& direction);
 

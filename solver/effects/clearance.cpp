@@ -24,6 +24,12 @@ bool is_finite(const AxisBox& box) {
   return box.min().allFinite() && box.max().allFinite();
 }
 
+/// m, of a box's lowest point.
+double height_above(const Frame& half_space, const AxisBox& box) {
+  const Vec3 normal = half_space.rotation.col(2);
+  return normal.dot(box.center() - half_space.origin) - normal.cwiseAbs().dot(box.sizes()) / 2;
+}
+
 bool may_meet(const std::vector<MovingBox>& boxes, int i, int j, const Clearance::MayTouch& may_touch) {
   const MovingBox &one = boxes[i], &two = boxes[j];
   return (one.moves || two.moves) && one.group != two.group && may_touch(std::min(i, j), std::max(i, j));

@@ -80,19 +80,13 @@ Vector3d slide(double mu, const Matrix3d& n, const Vector3d& q, const Vector3d& 
     const double tangential = std::sqrt(squared);
     p[0] = pressed - lifted;
     const double excess = tangential - mu * p[0];
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    if (std::abs(excess) <= rounding * (tangential + mu * (pressed + std::abs(lifted)))) break;
+    (excess > 0 ? low : high) = lambda;
     const Eigen::Vector2d derivative = -inverse * p.tail<2>();  // of p_t by lambda
     const double rise =
         -mu * (coupling.dot(derivative) * squared + p[0] * derivative.dot(p.tail<2>()));  // times |p_t|^3
-    const double change = excess * squared / rise;
-    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-    if (std::abs(excess) <= rounding * (tangential + mu * (pressed + std::abs(lifted)))) {
-      // The last step, too: many sweeps would add up what is left.
-      p.tail<2>() += change * derivative;
-      p[0] = pressed - coupling.dot(p.tail<2>());
-      break;
-    }
-    (excess > 0 ? low : high) = lambda;
-    lambda += change;
+    lambda += excess * squared / rise;
     if (!(lambda > low && lambda < high)) lambda = high < infinity ? low + (high - low) / 2 : 2 * low + equal;
   }
   return project(Friction::disc, mu, p, Vector3d::Zero());

@@ -37,9 +37,12 @@ bool may_meet(const std::vector<MovingBox>& boxes, int i, int j, const Clearance
 
 }  // namespace
 
+double farthest_point(const Collider& collider) {
+  return collider.frame.origin.norm() + bounding_radius(collider.shape);
+}
+
 Clearance::Clearance(const Contact& effect) : effect_(effect) {
-  for (const Collider& collider : effect.collider)
-    radius_.push_back(collider.frame.origin.norm() + bounding_radius(collider.shape));
+  for (const Collider& collider : effect.collider) radius_.push_back(farthest_point(collider));
 }
 
 void Clearance::begin(const Bodies& bodies, const Configuration& start, const Points& straight) {

@@ -12,6 +12,9 @@ namespace pbd {
 /// By how much of it ways and courses are searched for farther than they are known to go.
 inline constexpr double search_room = 0.25;
 
+/// m, of a collider's farthest point about its body's centre; infinite for a half space.
+double farthest_point(const Collider& collider);
+
 class Clearance {
  public:
   explicit Clearance(const Contact& effect);
@@ -36,7 +39,7 @@ class Clearance {
                            const MayTouch& may_touch) const;
 
   const Contact& effect_;
-  std::vector<double> radius_;  // m, of a collider's farthest point about its body's centre
+  std::vector<double> radius_;  // m, the farthest points of the colliders
   double distance_ = 0;         // m, that anything may go from where it was seen; 0 if that is not known
   double spent_ = 0;            // m, of that where the step begins, and by courses
   int to_wait_ = 0;             // searches, until it is looked again

@@ -33,7 +33,7 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
     }
     const Collider& collider = effect.collider[k];
     motion.carrier = collider.body;
-    motion.radius = collider.frame.origin.norm() + bounding_radius(collider.shape);
+    motion.radius = farthest_point(collider);
     motion.round = round_radius(collider.shape);
   }
 }

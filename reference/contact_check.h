@@ -13,16 +13,16 @@
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
-//            radius (`round` of support.h), whichever is more, and (1 + mu) s h. Convex shapes
-//            and half spaces alone (support.h), with each other and in triangles of surfaces, which keep half
-//            a thickness free on both sides
+//            radius (`round` of support.h), whichever is more, and (1 + mu) s h: with each
+//            other and in triangles of surfaces, which keep half a thickness free on both sides. Convex
+//            shapes and half spaces as support.h tells, closed meshes as far as mesh_depth.h proves it
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
 // step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
-// bounces under other integrators, which place it by more than its velocity at the end, closed meshes beside
-// other than half spaces, surfaces in each other, and triangles that a body cuts as a step begins.
+// bounces under other integrators, which place it by more than its velocity at the end, surfaces in each
+// other, and triangles that a body cuts as a step begins.
 #pragma once
 
 #include "step_claim.h"

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "contact_check.h"
+#include "mesh_depth.h"
 #include "touching_sides.h"
 #include "ways_apart.h"
 
@@ -79,25 +80,34 @@ void Depths::check(int i, int j) {
   const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
   if (far(i, j, a, b) || !(sides_.inverse_mass(i, 1) + sides_.inverse_mass(j, 1) > 0)) return;
   if (!may_touch(claim_.scene, contact_, sides_.side(i), sides_.side(j))) return;
-  const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
-  if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space)
-    return findings_.leave_out("depth: closed meshes");
   const ContactLaw& law = sides_.law(i, j);
   if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
   if (law.restitution > 0 && !is_euler_step(claim_))
     return findings_.leave_out("depth: where shapes bounce, by this integrator");
   double most = allowed(i, j, 0);
+  const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
+  if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space) {
+    const double depth = proved_depth(a, b);
+    if (depth > most)
+      most = allowed(i, j, proved_depth(sides_.placed(i, claim_.start), sides_.placed(j, claim_.start)));
+    return findings_.require("depth", name_of(i, j) + ", m", depth, most);
+  }
   const Parting end = parting(i, j, claim_.end, -most);
   if (end.apart < -most) most = allowed(i, j, -parting(i, j, claim_.start, 0).apart);
   findings_.require("depth", name_of(i, j) + ", m", -end.apart, most);
   if (!(end.apart >= -most)) refuted_[{i, j}] = {end.along};
 }
 
-/// Of collider i over the triangle's middle plane; of a half space the least of its nodes.
+/// Of collider i over the triangle's middle plane; of a half space the least of its nodes; of a closed mesh
+/// what it leaves of half the thickness.
 DistanceBounds Depths::over_triangle(int i, const std::array<int, 3>& nodes, const State& state) const {
   const PlacedShape shape = sides_.placed(i, state);
   std::array<Vec3, 3> corner;
   for (const std::size_t k : {0, 1, 2}) corner[k] = state.x.col(nodes[k]);
+  if (std::holds_alternative<ClosedMesh>(*shape.shape)) {
+    const double radius = contact_.thickness / 2, left = radius - proved_depth(shape, corner, radius);
+    return {left, left};
+  }
   if (!is_half_space(*shape.shape)) return distance(shape, corner);
   double least = infinity;
   for (const Vec3& x : corner)
@@ -142,9 +152,7 @@ void Depths::check_triangles() {
   findings_.leave_out("depth: surfaces in surfaces");
   for (int i = 0; i < static_cast<int>(contact_.collider.size()); ++i) {
     const ContactLaw& law = sides_.law(i, sides_.count());
-    if (!is_convex(contact_.collider[static_cast<std::size_t>(i)].shape)) {
-      findings_.leave_out("depth: closed meshes");
-    } else if (law.compliance > 0) {
+    if (law.compliance > 0) {
       findings_.leave_out("depth: where shapes give way");
     } else if (law.restitution > 0 && !is_euler_step(claim_)) {
       findings_.leave_out("depth: where shapes bounce, by this integrator");

@@ -1,0 +1,217 @@
+#include "mesh_depth.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace pbd::reference {
+namespace {
+
+/// What a shape holds about `centre` in its frame, m.
+struct Ball {
+  Vec3 centre;
+  double radius = 0;
+};
+
+struct Segment {
+  Vec3 from, to;
+};
+
+std::array<Vec3, 3> corners(const ClosedMesh& mesh, const std::array<int, 3>& triangle) {
+  return {mesh.surface.x.col(triangle[0]), mesh.surface.x.col(triangle[1]), mesh.surface.x.col(triangle[2])};
+}
+
+double distance_of_segment(const Vec3& x, const Vec3& p, const Vec3& q) {
+  const Vec3 along = q - p;
+  const double length = along.squaredNorm();
+  const double share = length > 0 ? std::clamp(along.dot(x - p) / length, 0.0, 1.0) : 0.0;
+  return (x - p - share * along).norm();
+}
+
+double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
+  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  bool over = normal.squaredNorm() > 0;
+  double least = infinity;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &p = corner[k], &q = corner[(k + 1) % 3];
+    over = over && normal.dot((q - p).cross(x - p)) >= 0;
+    least = std::min(least, distance_of_segment(x, p, q));
+  }
+  return over ? std::abs(normal.normalized().dot(x - corner[0])) : least;
+}
+
+/// The triangle as it is seen from x, sr.
+double solid_angle(const Vec3& x, const std::array<Vec3, 3>& corner) {
+  const Vec3 a = corner[0] - x, b = corner[1] - x, c = corner[2] - x;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+bool holds(const ClosedMesh& mesh, const Vec3& x) {
+  if (!mesh.box.contains(x)) return false;
+  double all = 0;
+  for (const auto& triangle : mesh.surface.triangles) all += solid_angle(x, corners(mesh, triangle));
+  return all > 2 * std::numbers::pi;
+}
+
+/// What a ball in the mesh's frame is deep in the mesh; 0 where it is not.
+double depth_of_ball(const ClosedMesh& mesh, const Ball& ball) {
+  if (mesh.box.exteriorDistance(ball.centre) > ball.radius) return 0;
+  const bool inside = holds(mesh, ball.centre);
+  if (!inside && ball.radius == 0) return 0;
+  double least = infinity;
+  for (const auto& triangle : mesh.surface.triangles)
+    least = std::min(least, distance_of_triangle(ball.centre, corners(mesh, triangle)));
+  return std::max(0.0, ball.radius + (inside ? least : -least));
+}
+
+/// Where the segment goes through the triangle's inside, in shares of it; infinite where it does not.
+double crossing(const Segment& segment, const std::array<Vec3, 3>& corner) {
+  const Vec3 along = segment.to - segment.from;
+  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  const double from = normal.dot(segment.from - corner[0]), to = normal.dot(segment.to - corner[0]);
+  if (!(from * to < 0)) return infinity;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 side = corner[(k + 1) % 3] - corner[k];
+    if (along.dot((corner[k] - segment.from).cross(side)) * (from - to) > 0) return infinity;
+  }
+  return from / (from - to);
+}
+
+/// Where the segment goes through the mesh's triangles, in shares of it, both ends among them.
+std::vector<double> crossings(const ClosedMesh& mesh, const Segment& segment) {
+  std::vector<double> shares{0, 1};
+  AxisBox box(segment.from);
+  box.extend(segment.to);
+  mesh.tree.find(box, [&](int triangle) {
+    const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(triangle)];
+    if (const double share = crossing(segment, corners(mesh, nodes)); share < 1) shares.push_back(share);
+  });
+  std::sort(shares.begin(), shares.end());
+  return shares;
+}
+
+/// Balls that the shape holds, in its frame.
+struct Balls {
+  std::vector<Ball> operator()(std::monostate) const { return {}; }
+  std::vector<Ball> operator()(const Sphere& shape) const { return {{Vec3::Zero(), shape.radius}}; }
+  std::vector<Ball> operator()(const Capsule& shape) const {
+    return along(shape.length, [&](double) { return shape.radius; });
+  }
+  std::vector<Ball> operator()(const Cylinder& shape) const {
+    return along(shape.length,
+                 [&](double z) { return std::min(shape.radius, shape.length / 2 - std::abs(z)); });
+  }
+  std::vector<Ball> operator()(const Box& shape) const { return of(box_surface(shape.size)); }
+  std::vector<Ball> operator()(const ClosedMesh& shape) const { return of(shape.surface); }
+  std::vector<Ball> operator()(const ConvexHull& shape) const { return of(shape.surface); }
+  std::vector<Ball> operator()(const HalfSpace&) const { return {}; }
+
+  /// Four to each half of an axis.
+  template <class Radius>
+  static std::vector<Ball> along(double length, Radius radius) {
+    std::vector<Ball> balls;
+    for (int k = -4; k <= 4; ++k) balls.push_back({k * length / 8 * Vec3::UnitZ(), radius(k * length / 8)});
+    return balls;
+  }
+  static std::vector<Ball> of(const TriangleMesh& surface) {
+    std::vector<Ball> balls;
+    for (const auto& node : surface.x.colwise()) balls.push_back({node});
+    for (const auto& [i, j, k] : surface.triangles)
+      balls.push_back({(surface.x.col(i) + surface.x.col(j) + surface.x.col(k)) / 3});
+    return balls;
+  }
+};
+
+std::vector<Segment> edges_of(const Shape& shape) {
+  const auto of = [](const Polyhedron& solid) {
+    std::vector<Segment> edges;
+    for (const Polyhedron::Edge& edge : solid.edges)
+      edges.push_back({solid.x.col(edge.node[0]), solid.x.col(edge.node[1])});
+    return edges;
+  };
+  if (const auto* box = std::get_if<Box>(&shape)) return of(plane_faces(box_surface(box->size)));
+  if (const auto* hull = std::get_if<ConvexHull>(&shape)) return of(hull->solid);
+  if (const auto* mesh = std::get_if<ClosedMesh>(&shape)) return of(mesh->solid);
+  return {};
+}
+
+/// What a point in the shape's frame is deep in it; not positive where it is not, or where the shape is a
+/// mesh.
+struct DepthOfPoint {
+  const Vec3& x;
+
+  double operator()(std::monostate) const { return 0; }
+  double operator()(const ClosedMesh&) const { return 0; }
+  double operator()(const HalfSpace&) const { return 0; }
+  double operator()(const Sphere& shape) const { return shape.radius - x.norm(); }
+  double operator()(const Box& shape) const { return (shape.size / 2 - x.cwiseAbs()).minCoeff(); }
+  double operator()(const Cylinder& shape) const {
+    return std::min(shape.radius - x.head<2>().norm(), shape.length / 2 - std::abs(x.z()));
+  }
+  double operator()(const Capsule& shape) const {
+    const double beyond = std::max(0.0, std::abs(x.z()) - shape.length / 2);
+    return shape.radius - std::hypot(x.x(), x.y(), beyond);
+  }
+  double operator()(const ConvexHull& shape) const {
+    double least = infinity;
+    for (const Polyhedron::Face& face : shape.solid.faces)
+      least = std::min(least, face.offset - face.normal.dot(x));
+    return least;
+  }
+};
+
+/// What points of a prove, the mesh b's nodes in a among them.
+double depth_in_mesh(const PlacedShape& a, const PlacedShape& b, const ClosedMesh& mesh) {
+  const Eigen::Matrix3d turn = b.frame.rotation.transpose() * a.frame.rotation;
+  const Frame to_b{b.frame.rotation.transpose() * (a.frame.origin - b.frame.origin), turn};
+  double most = 0;
+  for (const Ball& ball : std::visit(Balls{}, *a.shape))
+    most = std::max(most, depth_of_ball(mesh, {to_b.place(ball.centre), ball.radius}));
+  for (const Segment& edge : edges_of(*a.shape)) {
+    const Segment placed{to_b.place(edge.from), to_b.place(edge.to)};
+    const std::vector<double> shares = crossings(mesh, placed);
+    for (std::size_t i = 0; i + 1 < shares.size() && shares.size() > 2; ++i) {
+      const double middle = (shares[i] + shares[i + 1]) / 2;
+      most = std::max(most, depth_of_ball(mesh, {placed.from + middle * (placed.to - placed.from)}));
+    }
+  }
+  for (const auto& column : mesh.surface.x.colwise()) {
+    const Vec3 in_a = turn.transpose() * (column - to_b.origin);
+    most = std::max(most, std::visit(DepthOfPoint{in_a}, *a.shape));
+  }
+  return most;
+}
+
+}  // namespace
+
+double proved_depth(const PlacedShape& a, const PlacedShape& b) {
+  double most = 0;
+  if (const auto* mesh = std::get_if<ClosedMesh>(b.shape)) most = depth_in_mesh(a, b, *mesh);
+  if (const auto* mesh = std::get_if<ClosedMesh>(a.shape)) most = std::max(most, depth_in_mesh(b, a, *mesh));
+  return most;
+}
+
+double proved_depth(const PlacedShape& placed, const std::array<Vec3, 3>& triangle, double radius) {
+  const auto& mesh = std::get<ClosedMesh>(*placed.shape);
+  std::array<Vec3, 3> corner;
+  AxisBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = placed.frame.rotation.transpose() * (triangle[k] - placed.frame.origin);
+    box.extend(corner[k]);
+  }
+  double most = depth_of_ball(mesh, {(corner[0] + corner[1] + corner[2]) / 3, radius});
+  for (const Vec3& x : corner) most = std::max(most, depth_of_ball(mesh, {x, radius}));
+  box.min().array() -= radius;
+  box.max().array() += radius;
+  mesh.tree.find(box, [&](int near) {
+    const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(near)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Segment edge{mesh.surface.x.col(nodes[k]), mesh.surface.x.col(nodes[(k + 1) % 3])};
+      const double apart = crossing(edge, corner) < 1 ? 0.0 : distance_of_triangle(edge.from, corner);
+      most = std::max(most, radius - apart);
+    }
+  });
+  return most;
+}
+
+}  // namespace pbd::reference

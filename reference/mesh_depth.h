@@ -1,0 +1,26 @@
+// How deep a closed mesh and another shape are in each other at least: a proof for each point that both hold.
+//
+//   sd(x)  the signed distance of x from a shape's surface (m), negative inside: 1-Lipschitz, so that a shape
+//          that holds the ball of radius r about x has to go at least r - sd(x) to leave the other one
+//
+// x are nodes, the middles of triangles and of what of an edge lies between two triangles of the mesh, and
+// points on the axes of what is round. Of a mesh |sd| is the distance of the nearest triangle
+// (ericson2005collision, section 5.1.5), its sign that of 1/2 - w, w the winding number: the sum of the
+// triangles' solid angles over 4 pi (vanoosterom1983solid).
+//
+// Limits: what overlaps between these points alone is missed, a cylinder's rim in a face among it.
+#pragma once
+
+#include "support.h"
+
+namespace pbd::reference {
+
+/// The depth (m) that some point proves, at least one shape a closed mesh and none a half space; 0 where none
+/// does.
+double proved_depth(const PlacedShape& a, const PlacedShape& b);
+
+/// Of a closed mesh in a triangle that keeps `radius` (m) free on both of its sides: `radius` at least where
+/// one of the mesh's edges goes through it.
+double proved_depth(const PlacedShape& mesh, const std::array<Vec3, 3>& triangle, double radius);
+
+}  // namespace pbd::reference

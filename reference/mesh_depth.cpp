@@ -135,8 +135,7 @@ std::vector<Segment> edges_of(const Shape& shape) {
   return {};
 }
 
-/// What a point in the shape's frame is deep in it; not positive where it is not, or where the shape is a
-/// mesh.
+/// What a point in a convex shape's frame is deep in it; not positive where it is not.
 struct DepthOfPoint {
   const Vec3& x;
 
@@ -160,7 +159,46 @@ struct DepthOfPoint {
   }
 };
 
-/// What points of a prove, the mesh b's nodes in a among them.
+/// Of a concave function from 0 to `end`.
+template <class Function>
+double largest(const Function& f, double end) {
+  constexpr int narrowings = 40;  // each to 0.618 of the way: to 1e-8 of it
+  constexpr double golden = 1 / std::numbers::phi;
+  double from = 0, to = end, left = to - golden * end, right = golden * end;
+  double at_left = f(left), at_right = f(right);
+  for (int k = 0; k < narrowings; ++k) {
+    if (at_left > at_right) {
+      to = right, right = left, at_right = at_left;
+      left = to - golden * (to - from), at_left = f(left);
+    } else {
+      from = left, left = right, at_left = at_right;
+      right = from + golden * (to - from), at_right = f(right);
+    }
+  }
+  return std::max({f(0), f(end), at_left, at_right});
+}
+
+/// What the mesh's triangles are deep in a shape a, which is convex: the depth of a point is concave.
+double depth_of_triangles(const ClosedMesh& mesh, const Shape& a, const Frame& to_a) {
+  const auto depth = [&](const Vec3& x) { return std::visit(DepthOfPoint{x}, a); };
+  double most = 0;
+  for (const auto& triangle : mesh.surface.triangles) {
+    std::array<Vec3, 3> corner = corners(mesh, triangle);
+    for (Vec3& x : corner) x = to_a.place(x);
+    const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3;
+    double reach = 0;
+    for (const Vec3& x : corner) reach = std::max(reach, (x - middle).norm());
+    if (depth(middle) + reach <= most) continue;
+    const Vec3 one = corner[1] - corner[0], two = corner[2] - corner[0];
+    const auto along = [&](double u) {
+      return largest([&](double v) { return depth(corner[0] + u * one + v * two); }, 1 - u);
+    };
+    most = std::max(most, largest(along, 1));
+  }
+  return most;
+}
+
+/// What points of a prove, the triangles of the mesh b in a convex a among them.
 double depth_in_mesh(const PlacedShape& a, const PlacedShape& b, const ClosedMesh& mesh) {
   const Eigen::Matrix3d turn = b.frame.rotation.transpose() * a.frame.rotation;
   const Frame to_b{b.frame.rotation.transpose() * (a.frame.origin - b.frame.origin), turn};
@@ -175,11 +213,9 @@ double depth_in_mesh(const PlacedShape& a, const PlacedShape& b, const ClosedMes
       most = std::max(most, depth_of_ball(mesh, {placed.from + middle * (placed.to - placed.from)}));
     }
   }
-  for (const auto& column : mesh.surface.x.colwise()) {
-    const Vec3 in_a = turn.transpose() * (column - to_b.origin);
-    most = std::max(most, std::visit(DepthOfPoint{in_a}, *a.shape));
-  }
-  return most;
+  if (!is_convex(*a.shape)) return most;
+  return std::max(most,
+                  depth_of_triangles(mesh, *a.shape, {-(turn.transpose() * to_b.origin), turn.transpose()}));
 }
 
 }  // namespace

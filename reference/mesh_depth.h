@@ -4,11 +4,12 @@
 //          that holds the ball of radius r about x has to go at least r - sd(x) to leave the other one
 //
 // x are nodes, the middles of triangles and of what of an edge lies between two triangles of the mesh, and
-// points on the axes of what is round. Of a mesh |sd| is the distance of the nearest triangle
-// (ericson2005collision, section 5.1.5), its sign that of 1/2 - w, w the winding number: the sum of the
-// triangles' solid angles over 4 pi (vanoosterom1983solid).
+// points on the axes of what is round; of a mesh in a convex shape all points of its triangles: -sd is
+// concave there. Of a mesh |sd| is the distance of the nearest triangle (ericson2005collision, 5.1.5), its
+// sign that of 1/2 - w, w the winding number: the sum of the triangles' solid angles over 4 pi
+// (vanoosterom1983solid).
 //
-// Limits: what overlaps between these points alone is missed, a cylinder's rim in a face among it.
+// Limits: meshes may be deeper in each other than these points are, and so may what is round in a mesh.
 #pragma once
 
 #include "support.h"

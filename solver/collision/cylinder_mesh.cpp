@@ -8,20 +8,34 @@
 namespace pbd {
 namespace {
 
+/// How deep the edge is below the cap or the side that is nearest to its deepest point, m.
+double below_part(const Segment& edge, const PlacedCylinder::Place& deepest, const PlacedCylinder& cylinder) {
+  const Vec3 from = edge.from - cylinder.centre;
+  const double height = cylinder.axis.dot(from), rise = cylinder.axis.dot(edge.along);
+  if (deepest.part == PlacedCylinder::Part::cap)
+    return cylinder.half - std::min(deepest.end * height, deepest.end * (height + rise * edge.length));
+  const Vec3 across = from - height * cylinder.axis, along = edge.along - rise * cylinder.axis;
+  const double bent = along.squaredNorm();
+  const double arc = bent > 0 ? std::clamp(-across.dot(along) / bent, 0.0, edge.length) : 0.0;
+  return cylinder.radius - (across + arc * along).norm();
+}
+
 /// Of an edge whose point y is in the cylinder: across it and the rim next to y, if both are lowest along
-/// that. As lines where they are nearest to each other elsewhere, as in one plane.
+/// that, and overlap by no more than `most` (m). As lines where they are nearest to each other elsewhere, as
+/// in one plane.
 template <class Lowest>
-bool write_across_rim(const Segment& edge, const Vec3& y, int number, const PlacedCylinder& cylinder,
-                      const ContactWriter& writer, Lowest&& lowest) {
+bool write_across_rim(const Segment& edge, const Vec3& y, double most, int number,
+                      const PlacedCylinder& cylinder, const ContactWriter& writer, Lowest&& lowest) {
   const Vec3 tangent = cylinder.rim_tangent(y), on_rim = cylinder.rim_at(y);
   const int end = cylinder.end_at(y);
   Vec3 normal = edge.along.cross(tangent);
   if (!(normal.norm() > rounding)) return false;
   normal = (normal.dot(tangent.cross(cylinder.axis)) < 0 ? -1 : 1) * normal.normalized();
-  if (end * normal.dot(cylinder.axis) < 0 || !lowest(normal)) return false;
+  const double gap = normal.dot(y - on_rim);
+  if (end * normal.dot(cylinder.axis) < 0 || -gap > most || !lowest(normal)) return false;
   const auto key = writer.key(Feature::edge, number, Feature::rim, end + 1);
   if (!write_beside_rim(edge, 0, y, normal, cylinder, end, -infinity, key, writer, lowest))
-    writer.write(on_edges(y, edge.along, 0, on_rim, tangent, 0, normal), key, normal.dot(y - on_rim));
+    writer.write(on_edges(y, edge.along, 0, on_rim, tangent, 0, normal), key, gap);
   return true;
 }
 
@@ -40,20 +54,24 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
   if (at.distance <= 0) {
-    const bool told = write_across_rim(all, all.at(arc), j, cylinder, writer, lowest);
+    const double most = below_part(all, at, cylinder) + rounding * cylinder.size();
+    const bool told = write_across_rim(all, all.at(arc), most, j, cylinder, writer, lowest);
     return !told && at.distance <= -rounding * cylinder.size();
   }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
-  if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
+  // An edge that leaves a cap is nearest to the rim: beside it but for rounding.
+  const bool at_rim = (at.nearest - cylinder.rim_at(at.nearest)).norm() <= rounding * cylinder.size();
+  if (arc > 0 && arc < length && at_rim && lowest(at.normal))
     writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0, -at.normal),
                              writer.key(Feature::edge, j, Feature::rim, at.end + 1), at.distance);
   return false;
 }
 
-/// True if x is in the mesh, or nearer than `slack` (m): behind a face it may be beyond the mesh.
-bool is_in(const ClosedMesh& mesh, const Vec3& x, double slack) {
+/// True if nothing of the mesh is nearer to x than the face over which x is by `above` (m): behind it, x may
+/// be beyond the mesh, or go out of it by another face sooner.
+bool is_nearest(const ClosedMesh& mesh, const Vec3& x, double above, double slack) {
   MeshPlace place{};
-  return nearest_of_mesh(mesh, x, slack, place);
+  return above >= 0 || (nearest_of_mesh(mesh, x, slack, place) && above >= place.distance - slack);
 }
 
 /// True if the cylinder goes through the triangle and does not end in its plane: then, unless it cuts the
@@ -75,7 +93,6 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
   scratch.a.place(Capsule{cylinder.radius, cylinder.length}, writer.frame_a);
   const MeshPair side{scratch.a, b, writer, scratch};
   side.edges();
-  side.nodes_of_mesh();
   const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.reach.margin);
   const ContactWriter exchanged = writer.exchanged();
   double shallowest = -infinity;  // of the faces that go through the cylinder
@@ -88,13 +105,12 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     if (above >= 0)
       write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, [&](const Vec3& x) {
         if (nearest_of_triangle(b, triangle, x).feature != MeshPlace::Feature::face) return false;
-        return face.normal.dot(x - on_plane) >= 0 || is_in(b, x, rounding * a.size());
+        return is_nearest(b, x, face.normal.dot(x - on_plane), rounding * a.size());
       });
     for (const int node : nodes) {
       const Vec3 y = b.surface.x.col(node);
       const PlacedCylinder::Place at = a.place(y);
-      if (at.part != PlacedCylinder::Part::side &&
-          lowest_about(b, node, at.normal, flat_slope + (at.distance > 0 ? writer.reach.turn : 0)))
+      if (lowest_about(b, node, at.normal, flat_slope + (at.distance > 0 ? writer.reach.turn : 0)))
         write_point(y, 0, Feature::node, node, a, exchanged);
     }
     bool cuts = pierces(a, b, triangle, above, support);

@@ -138,9 +138,10 @@ void MeshPair::crossing(int i, int j) const {
   const auto normal_a = [&](int f) -> const Vec3& { return a.face_normal(f); };
   const auto normal_b = [&](int f) -> const Vec3& { return b.solid.faces[f].normal; };
   const Vec3 outward = normal_b(of_b.face[0]) + normal_b(of_b.face[1]);
-  const bool crossed = along_a.cross(along_b).norm() >= crossing_sine;
-  if (!crossed && (distance <= tiny || at_node || at_node_of_a)) return;
-  Vec3 normal = crossed ? Vec3(along_a.cross(along_b).normalized()) : Vec3(at.apart / distance);
+  const Vec3 across = along_a.cross(along_b);
+  const bool crossed = across.norm() >= crossing_sine, touches = distance <= tiny;
+  if (!crossed && (at_node || at_node_of_a || (touches && across.norm() <= rounding))) return;
+  Vec3 normal = crossed || touches ? Vec3(across.normalized()) : Vec3(at.apart / distance);
   if (normal.dot(outward) < 0) normal = -normal;
   const bool inside = normal.dot(at.apart) < 0;
   if (!inside && distance - a.radius > writer.reach.margin) return;
@@ -156,8 +157,9 @@ void MeshPair::crossing(int i, int j) const {
       return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));
     };
     const double depth_b = below_faces(of_b, at.apart, normal_b);
-    const double depth_a = of_a.face[0] >= 0 ? below_faces(of_a, -at.apart, normal_a) : infinity;
-    if (distance > tiny && std::min(depth_a, depth_b) <= tiny) return;  // beside a face, not below
+    const double depth_a = of_a.face[0] >= 0 ? below_faces(of_a, -at.apart, normal_a) : -infinity;
+    // Of sharp edges that cross, the point of one may be beside the other's faces.
+    if (distance > tiny && std::max(depth_a, depth_b) <= tiny) return;
     MeshPlace place{};
     if (!nearest_of_mesh(b, y_a, distance, place) || -place.distance < depth_b - tiny) return;
     if (of_a.face[0] >= 0 && depth_in_a(y_b, distance) < depth_a - tiny) return;

@@ -2,8 +2,10 @@
 #include "mesh_depth.h"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "claimed_contacts.h"
+#include "hollow_meshes.h"
 
 using namespace pbd;
 using reference::proved_depth;
@@ -19,26 +21,6 @@ double depth_in_cube(const Shape& other, const Frame& at, const Frame& of_cube =
   return depth;
 }
 
-/// What is left of a cube of 2 m without its quarter x > 0, y > 0.
-TriangleMesh angle_profile() {
-  const std::vector<Eigen::Vector2d> outline{{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
-  TriangleMesh mesh;
-  mesh.x.resize(3, 12);
-  for (int i = 0; i < 6; ++i)
-    for (const int top : {0, 1}) mesh.x.col(i + 6 * top) << outline[std::size_t(i)], 2.0 * top - 1;
-  for (int i = 0; i < 6; ++i) {
-    const int next = (i + 1) % 6;
-    mesh.triangles.push_back({i, next, next + 6});
-    mesh.triangles.push_back({i, next + 6, i + 6});
-  }
-  for (const std::array<int, 3>& cap :
-       std::vector<std::array<int, 3>>{{3, 0, 1}, {3, 1, 2}, {3, 4, 5}, {3, 5, 0}}) {
-    mesh.triangles.push_back({cap[0] + 6, cap[1] + 6, cap[2] + 6});
-    mesh.triangles.push_back({cap[0], cap[2], cap[1]});
-  }
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("depth of closed meshes: nodes, balls and edges in a cube, and a cube's nodes in shapes") {
@@ -52,6 +34,10 @@ TEST_CASE("depth of closed meshes: nodes, balls and edges in a cube, and a cube'
   CHECK(is(depth_in_cube(ClosedMesh(box_surface({0.5, 0.5, 0.5})), {{0.2, -1.1, 0}}), 0.15));
   CHECK(is(depth_in_cube(Box{{6, 6, 6}}, {{3.9, 0, 0}}), 0.1));  // its own nodes are outside
   CHECK(is(depth_in_cube(Cylinder{6, 2}, {{0, 0, 1.9}}), 0.1));  // the cube's nodes
+  // An edge of the cube that lies in a cylinder between its nodes, and one that cuts a corner off a box.
+  const Eigen::Matrix3d lying = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()).toRotationMatrix();
+  CHECK(std::abs(depth_in_cube(Cylinder{0.3, 1}, {{1.2, 0.1, 1}, lying}) - 0.1) <= 1e-7);
+  CHECK(std::abs(depth_in_cube(Capsule{0.3, 1}, {{1.2, 0.1, 1}, lying}) - 0.1) <= 1e-7);
   // A spit: no node of either is in the other.
   CHECK(is(depth_in_cube(Box{{0.2, 0.2, 8}}, {{0.3, 0, 0}}), 0.8));
   CHECK(is(depth_in_cube(ClosedMesh(box_surface({0.2, 0.2, 8})), {{0.3, 0, 0}}), 0.8));
@@ -60,7 +46,7 @@ TEST_CASE("depth of closed meshes: nodes, balls and edges in a cube, and a cube'
 }
 
 TEST_CASE("depth of closed meshes: what stands in the hollow of one is in none of it") {
-  const Shape profile = ClosedMesh(angle_profile()), ball = Sphere{0.2}, pin = Box{{0.1, 0.1, 0.1}};
+  const Shape profile = ClosedMesh(test::angle_profile()), ball = Sphere{0.2}, pin = Box{{0.1, 0.1, 0.1}};
   const reference::PlacedShape hollow{&profile, {}};
   CHECK(proved_depth({&ball, {{0.3, 0.3, 0}}}, hollow) == 0);
   CHECK(proved_depth({&pin, {{0.3, 0.3, 0}}}, hollow) == 0);

@@ -9,6 +9,43 @@
 namespace pbd {
 namespace {
 
+constexpr double some_roundings = 8 * rounding_unit;
+
+/// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each.
+double beyond_own_rounding(const StepSystem& system) {
+  const auto& inverse_mass = system.problem.inverse_mass;
+  std::vector<double> effects(inverse_mass.size(), 0.0);  // m/s, sum of the sizes of impulses times w
+  for (const Slot& slot : system.slots) {
+    if (slot.eliminated) continue;  // its impulses are no part of the rounding
+    for_each_block(slot.view(system.rows), [&](const auto& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const auto push = (block.jacobian[i].transpose() * block.impulse[i]).eval();
+        for (std::size_t a = 0; a < block.node[i].size(); ++a) {
+          const auto node = static_cast<std::size_t>(block.node[i][a]);
+          effects[node] +=
+              inverse_mass[node] * push.template segment<3>(3 * static_cast<Eigen::Index>(a)).norm();
+        }
+      }
+    });
+  }
+  double sum = 0;
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node) {
+    if (!(inverse_mass[node] > 0)) continue;
+    const auto column = static_cast<Eigen::Index>(node);
+    const double missed = (system.at.v.col(column) - system.at.rebuilt.col(column)).norm();
+    const double own = some_roundings * (effects[node] + system.problem.map.v_free.col(column).norm());
+    if (!(missed <= own)) sum += missed * missed / inverse_mass[node];
+  }
+  return std::sqrt(sum);
+}
+
+/// The rounding of one body or node does not excuse another.
+bool primal_met(const Method& method, const Levels& levels, const Progress& progress) {
+  const double asked = method.tolerance * progress.scale;
+  return progress.primal <= asked || (progress.primal <= levels.primal_rounding &&
+                                      levels.primal_beyond <= std::max(asked, levels.velocity_rounding));
+}
+
 /// The rounding of one constraint does not excuse another.
 bool dual_met(const Method& method, const Levels& levels, const Progress& progress) {
   const double asked = method.tolerance * progress.scale;
@@ -26,8 +63,9 @@ void measure(const StepSystem& system, const RowResidual& found, Levels& levels,
   progress.scale = mass_distance(inverse_mass, system.at.v, system.problem.start_v) + levels.free_change;
   const double impulses = std::sqrt(found.impulses_squared);
   const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
-  levels.primal_rounding = 8 * rounding_unit * (levels.free_speed + (balance ? impulses : 0.0));
-  levels.velocity_rounding = 8 * rounding_unit * levels.free_speed;
+  levels.velocity_rounding = some_roundings * levels.free_speed;
+  levels.primal_rounding = levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0);
+  levels.primal_beyond = balance ? beyond_own_rounding(system) : 0.0;
   levels.dual_rounding = levels.velocity_rounding + std::sqrt(found.rounding_squared);
   levels.beyond_rounding = std::sqrt(found.beyond_rounding_squared);
 }
@@ -37,8 +75,7 @@ bool finished(const Method& method, const Levels& levels, const Progress& progre
   if (!std::isfinite(progress.primal) || !std::isfinite(progress.dual) || !std::isfinite(progress.scale)) {
     report.status = Status::diverged;
     report.reason = not_finite;
-  } else if (progress.primal <= std::max(method.tolerance * progress.scale, levels.primal_rounding) &&
-             dual_met(method, levels, progress)) {
+  } else if (primal_met(method, levels, progress) && dual_met(method, levels, progress)) {
     report.status = Status::ok;
     report.reason = "";
   } else if (progress.residual() > blown_up * levels.first) {

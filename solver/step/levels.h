@@ -19,7 +19,7 @@ struct Levels {
   double free_change = 0, free_speed = 0;         // |v_free - v_l|_M, |v_free|_M
   double primal_rounding = 0, dual_rounding = 0;  // what rounding makes of the residuals
   double velocity_rounding = 0;                   // of it, that of velocities
-  double beyond_rounding = 0;                     // dual residual of what misses more than its own rounding
+  double primal_beyond = 0, beyond_rounding = 0;  // primal and dual one of what misses more than its own
   double first = 0;                               // the larger of residual and scale at the first iterate
   double last_residual = infinity;                // of this step
 };

@@ -12,9 +12,9 @@ namespace {
 constexpr double some_roundings = 8 * rounding_unit;
 
 /// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each.
-double beyond_own_rounding(const StepSystem& system) {
+double beyond_own_rounding(const StepSystem& system, std::vector<double>& effects) {
   const auto& inverse_mass = system.problem.inverse_mass;
-  std::vector<double> effects(inverse_mass.size(), 0.0);  // m/s, sum of the sizes of impulses times w
+  effects.assign(inverse_mass.size(), 0);
   for (const Slot& slot : system.slots) {
     if (slot.eliminated) continue;  // its impulses are no part of the rounding
     for_each_block(slot.view(system.rows), [&](const auto& block) {
@@ -55,7 +55,8 @@ bool dual_met(const Method& method, const Levels& levels, const Progress& progre
 
 }  // namespace
 
-void measure(const StepSystem& system, const RowResidual& found, Levels& levels, Progress& progress) {
+void measure(const StepSystem& system, const RowResidual& found, std::vector<double>& effects, Levels& levels,
+             Progress& progress) {
   const auto& inverse_mass = system.problem.inverse_mass;
   progress.dual = std::sqrt(found.squared);
   progress.primal = std::hypot(mass_distance(inverse_mass, system.at.v, system.at.rebuilt),
@@ -65,7 +66,7 @@ void measure(const StepSystem& system, const RowResidual& found, Levels& levels,
   const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
   levels.velocity_rounding = some_roundings * levels.free_speed;
   levels.primal_rounding = levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0);
-  levels.primal_beyond = balance ? beyond_own_rounding(system) : 0.0;
+  levels.primal_beyond = balance ? beyond_own_rounding(system, effects) : 0.0;
   levels.dual_rounding = levels.velocity_rounding + std::sqrt(found.rounding_squared);
   levels.beyond_rounding = std::sqrt(found.beyond_rounding_squared);
 }

@@ -24,8 +24,9 @@ struct Levels {
   double last_residual = infinity;                // of this step
 };
 
-/// Residuals, scale and rounding level of the iterate.
-void measure(const StepSystem& system, const RowResidual& found, Levels& levels, Progress& progress);
+/// Residuals, scale and rounding level of the iterate. `effects` is scratch.
+void measure(const StepSystem& system, const RowResidual& found, std::vector<double>& effects, Levels& levels,
+             Progress& progress);
 
 /// Sets status and reason; true if the outer iteration is to end.
 bool finished(const Method& method, const Levels& levels, const Progress& progress, Report& report);

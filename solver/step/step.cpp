@@ -54,7 +54,7 @@ struct StepRun {
   bool find_other_rows();
   void begin_rows();
   void take_best();
-  void measure_here() { measure(w.system, refresh(w.outer, w.system), levels, progress); }
+  void measure_here() { measure(w.system, refresh(w.outer, w.system), w.effects, levels, progress); }
 };
 
 void StepRun::begin(double h, const State& state) {
@@ -90,7 +90,7 @@ bool StepRun::stalls() {
 bool StepRun::settle_here(bool stalled) {
   const auto found = settle(w.outer, w.system, progress, stalled);
   if (!found) return false;
-  measure(w.system, *found, levels, progress);
+  measure(w.system, *found, w.effects, levels, progress);
   if (finished(w.method, levels, progress, report)) return true;
   unsettle(w.outer, w.system);
   return false;

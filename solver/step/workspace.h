@@ -25,8 +25,9 @@ struct WorkspaceData {
   ContractionEstimate contraction;
   BestIterate best_early, best;  // of the first iterates with the rows, and of those after
   Restraint restraint;
-  Points previous;            // m/s, v of the last outer iteration
-  std::vector<double> share;  // of its way that each column of a missed step may go
+  Points previous;              // m/s, v of the last outer iteration
+  std::vector<double> effects;  // m/s, w times the sizes of the impulses on each column
+  std::vector<double> share;    // of its way that each column of a missed step may go
 
   WorkspaceData(Scene stated_scene, Method stated_method);
   // Sources and the problem refer to scene and method.

@@ -111,7 +111,8 @@ WorkspaceData::WorkspaceData(Scene stated_scene, Method stated_method)
       system(system_of(scene, method)),
       history(find_named(integrators(), "integrator", method.integrator)),
       outer(make_outer(method.outer, system)),
-      contraction(system) {
+      contraction(system),
+      effects(system.problem.inverse_mass.size()) {
   if (system.rows.contacts) require_contact(history.integrator(), method);
   require_solvable(system.solver, system.rows, friction_by_name(method.friction));
 }

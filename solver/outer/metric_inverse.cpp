@@ -17,20 +17,24 @@ Eigen::Matrix3d product(const FactorReach& a, const FactorReach& b) {
 
 void MetricInverse::begin(const Metric& metric, std::size_t expected) {
   constexpr std::size_t spare = 64;
-  if (factored_ == metric.factored() && reach_.size() <= 2 * expected + spare) return;
+  if (factored_ == metric.factored() && places_.size() <= 2 * expected + spare) return;
   factored_ = metric.factored();
-  place_.assign(place_.size(), -1);
-  reach_.clear();
-  lower_.clear();
+  place_.assign(metric.nodes(), -1);
+  of_root_.assign(metric.nodes(), {});
+  places_.clear();
 }
 
 int MetricInverse::place(const Metric& metric, int node) {
-  if (place_.empty()) place_.assign(metric.nodes(), -1);
   int& own = place_[static_cast<std::size_t>(node)];
   if (own >= 0) return own;
-  own = static_cast<int>(reach_.size());
-  reach_.push_back(metric.reach(node));
-  for (const FactorReach& other : reach_) lower_.push_back(product(reach_.back(), other));
+  own = static_cast<int>(places_.size());
+  Place& added = places_.emplace_back();
+  added.reach = metric.reach(node);
+  auto& others = of_root_[static_cast<std::size_t>(root(own))];
+  added.number = static_cast<int>(others.size());
+  others.push_back(own);
+  added.row.reserve(others.size());
+  for (const int other : others) added.row.push_back(product(added.reach, at(other).reach));
   return own;
 }
 

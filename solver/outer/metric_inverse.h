@@ -1,5 +1,5 @@
 // Blocks of P^-1, unturned, between some of the nodes: those that contacts touch. They stay as they are until
-// P is factored anew.
+// P is factored anew. Memory grows with the square of the places of one root, as of one solid.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,25 +17,29 @@ class MetricInverse {
   /// Place of a node of finite mass, found if it is a new one.
   int place(const Metric& metric, int node);
 
-  std::size_t places() const { return reach_.size(); }
-
   /// The same for all places that P^-1 couples with each other.
-  int root(int place) const { return reach_[static_cast<std::size_t>(place)].column.back(); }
+  int root(int place) const { return at(place).reach.column.back(); }
 
-  /// Block (a, b) of R^T P^-1 R by places, 1/kg.
+  /// Block (a, b) of R^T P^-1 R by places of one root, 1/kg.
   Eigen::Matrix3d block(int a, int b) const {
-    return a >= b ? lower_[index(a, b)] : Eigen::Matrix3d(lower_[index(b, a)].transpose());
+    const Place &one = at(a), &other = at(b);
+    return one.number >= other.number
+               ? one.row[static_cast<std::size_t>(other.number)]
+               : Eigen::Matrix3d(other.row[static_cast<std::size_t>(one.number)].transpose());
   }
 
  private:
-  static std::size_t index(int a, int b) {
-    return static_cast<std::size_t>(a) * (static_cast<std::size_t>(a) + 1) / 2 + static_cast<std::size_t>(b);
-  }
+  struct Place {
+    FactorReach reach;
+    int number = 0;                    // of its root's
+    std::vector<Eigen::Matrix3d> row;  // blocks with its root's places up to itself
+  };
+  const Place& at(int place) const { return places_[static_cast<std::size_t>(place)]; }
 
-  int factored_ = 0;                // which of the metric's factors
-  std::vector<int> place_;          // of each node, -1 if it has none
-  std::vector<FactorReach> reach_;  // of each place
-  std::vector<Eigen::Matrix3d> lower_;
+  int factored_ = -1;       // which of the metric's factors
+  std::vector<int> place_;  // of each node, -1 if it has none
+  std::vector<Place> places_;
+  std::vector<std::vector<int>> of_root_;  // places, by their root
 };
 
 }  // namespace pbd

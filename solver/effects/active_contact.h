@@ -197,4 +197,18 @@ typename Block::Nodes columns_of_contact(const ActiveContact& contact, const Bod
   return columns;
 }
 
+/// Contacts of bodies with friction and without, of nodes with bodies, of surfaces, of triangles with bodies.
+enum ContactGroup : std::size_t {
+  bodies_rough,
+  bodies_smooth,
+  nodes_rough,
+  nodes_smooth,
+  surfaces_rough,
+  surfaces_smooth,
+  triangles_rough,
+  triangles_smooth,
+  contact_groups
+};
+using ContactLists = std::array<std::vector<ActiveContact>, contact_groups>;
+
 }  // namespace pbd

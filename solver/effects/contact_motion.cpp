@@ -16,31 +16,13 @@ Vec3 ContactSearch::shift_of(const Motion& motion, const Bodies& bodies, const P
   return (shift(a) + shift(b) + shift(c)) / 3;
 }
 
-ContactSearch::Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
-                                                        const Configuration& start, const Points& to) const {
+Displacement ContactSearch::displacement(const Motion& motion, const Bodies& bodies,
+                                         const Configuration& start, const Points& to) const {
   if (motion.kind == Carrier::triangle) return triangle_displacement(motion, start.x, to);
   const double shift = (shift_of(motion, bodies, start.x, to) - motion.course).norm();
   if (motion.kind == Carrier::node) return {shift, 0};
   const Eigen::Index column = bodies.column(motion.carrier);
   return {shift, (start.pose[motion.carrier].turn_per_arc * (to.col(column) - start.x.col(column))).norm()};
-}
-
-/// Of the points of the collider, beside its course; of a half space, of its body's centre.
-double ContactSearch::farthest_travel(const Motion& motion, const Displacement& moved) {
-  if (motion.kind == Carrier::triangle) return moved.shift;
-  return std::isfinite(motion.radius) ? moved.shift + motion.radius * moved.turn : moved.shift;
-}
-
-/// Of the points that the other one may reach.
-double ContactSearch::travel_near(const Motion& motion, const Motion& other) {
-  if (std::isfinite(motion.radius)) return motion.travel;
-  const double apart = (other.centre - motion.centre).norm() + (other.course - motion.course).norm();
-  return motion.travel + motion.turn * (apart + other.radius + other.travel);
-}
-
-/// By how much a gap between two falls at most.
-double ContactSearch::travel_between(const Motion& one, const Motion& two) {
-  return (one.course - two.course).norm() + travel_near(one, two) + travel_near(two, one);
 }
 
 Frame ContactSearch::placed_frame(int collider, const Configuration& at) const {

@@ -51,22 +51,9 @@
 #include "effects/active_contact.h"
 #include "effects/allowed_pairs.h"
 #include "effects/clearance.h"
+#include "effects/collider_motion.h"
 
 namespace pbd {
-
-/// Contacts of bodies with friction and without, of nodes with bodies, of surfaces, of triangles with bodies.
-enum ContactGroup : std::size_t {
-  bodies_rough,
-  bodies_smooth,
-  nodes_rough,
-  nodes_smooth,
-  surfaces_rough,
-  surfaces_smooth,
-  triangles_rough,
-  triangles_smooth,
-  contact_groups
-};
-using ContactLists = std::array<std::vector<ActiveContact>, contact_groups>;
 
 /// A step whose contacts are searched for.
 struct SearchedStep {
@@ -119,24 +106,8 @@ class ContactSearch {
   static constexpr double room = search_room;   // so that few steps are searched anew
   static constexpr double near = 0.5;           // of a way: what is farther may wait
 
-  enum class Carrier : std::uint8_t { body, node, triangle };
+  using Motion = ColliderMotion;
 
-  struct Motion {        // of a collider in this step
-    Shape node_shape;    // of a node
-    const Shape* shape;  // in `frame`; of a triangle none
-    Frame frame;         // in the world
-    Carrier kind = Carrier::body;
-    int carrier = -1;            // body, node or triangle
-    bool moves = false;          // by impulses
-    Vec3 centre;                 // m, of the body; of a triangle the mean of its nodes
-    double radius = 0;           // m, of the farthest point about it; infinite for a half space
-    double round = 0;            // m, radius of what is round of the shape
-    Vec3 course = Vec3::Zero();  // m, where its velocity takes it
-    double travel = 0;   // m, that its points move at most beside its course; of a half space, its centre
-    double turn = 0;     // rad, that it turns at most
-    bool grown = false;  // it goes farther than it was searched for
-    double height = 0;   // m, the least one of a triangle
-  };
   struct Pair {
     std::array<int, 2> collider;
     double nearest = infinity;    // m, gap as it begins
@@ -182,10 +153,6 @@ class ContactSearch {
       return std::tie(body, key, early, i) < std::tie(other.body, other.key, other.early, other.i);
     }
   };
-  struct Displacement {
-    double shift, turn;  // m, rad
-  };
-
   // How far colliders go: contact_motion.cpp, with begin and extend.
   void set_out(const SearchedStep& step);
   void place_colliders(const Bodies& bodies, const Configuration& start,
@@ -193,11 +160,7 @@ class ContactSearch {
   Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
   Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                             const Points& to) const;
-  static double farthest_travel(const Motion& motion, const Displacement& moved);
-  static double travel_near(const Motion& motion, const Motion& other);
-  static double travel_between(const Motion& one, const Motion& two);
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
-  static double round_radius_of(const Motion& one, const Motion& two);
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);

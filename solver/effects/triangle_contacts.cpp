@@ -31,8 +31,8 @@ void ContactSearch::place_triangle(const Points& x, const std::vector<double>& i
 }
 
 /// A node that goes by d against the others turns the triangle by at most d over its height.
-ContactSearch::Displacement ContactSearch::triangle_displacement(const Motion& motion, const Points& from,
-                                                                 const Points& to) const {
+Displacement ContactSearch::triangle_displacement(const Motion& motion, const Points& from,
+                                                  const Points& to) const {
   const auto before = corners(motion, from), after = corners(motion, to);
   Displacement moved{0, 0};
   double apart = 0;

@@ -15,14 +15,15 @@
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (`round` of support.h), whichever is more, and (1 + mu) s h: with each
 //            other and in triangles of surfaces, which keep half a thickness free on both sides. Convex
-//            shapes and half spaces as support.h tells, closed meshes as far as mesh_depth.h proves it
+//            shapes and half spaces as support.h tells, closed meshes as far as mesh_depth.h proves it, where
+//            they do not begin deeper than the rest of this
 //
 // Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
 // step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
 // bounces under other integrators, which place it by more than its velocity at the end, surfaces in each
-// other, and triangles that a body cuts as a step begins.
+// other, and triangles that a body cuts and closed meshes that are in something as a step begins.
 #pragma once
 
 #include "step_claim.h"

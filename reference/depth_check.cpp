@@ -87,9 +87,9 @@ void Depths::check(int i, int j) {
   double most = allowed(i, j, 0);
   const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
   if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space) {
-    const double depth = proved_depth(a, b);
-    const bool deep =
-        depth > most && proved_depth(sides_.placed(i, claim_.start), sides_.placed(j, claim_.start)) > most;
+    const double depth = proved_depth(a, b, most);
+    const bool deep = depth > most && proved_depth(sides_.placed(i, claim_.start),
+                                                   sides_.placed(j, claim_.start), most) > most;
     if (deep) return findings_.leave_out("depth: closed meshes that begin in something");
     return findings_.require("depth", name_of(i, j) + ", m", depth, most);
   }

@@ -53,15 +53,25 @@ bool holds(const ClosedMesh& mesh, const Vec3& x) {
   return all > 2 * std::numbers::pi;
 }
 
-/// What a ball in the mesh's frame is deep in the mesh; 0 where it is not.
-double depth_of_ball(const ClosedMesh& mesh, const Ball& ball) {
-  if (mesh.box.exteriorDistance(ball.centre) > ball.radius) return 0;
-  const bool inside = holds(mesh, ball.centre);
-  if (!inside && ball.radius == 0) return 0;
+double distance_of_mesh(const ClosedMesh& mesh, const Vec3& x) {
   double least = infinity;
-  for (const auto& triangle : mesh.surface.triangles)
-    least = std::min(least, distance_of_triangle(ball.centre, corners(mesh, triangle)));
-  return std::max(0.0, ball.radius + (inside ? least : -least));
+  for (double reach = mesh.size / 64; std::isinf(least); reach *= 2) {
+    AxisBox box(x.array() - reach, x.array() + reach);
+    mesh.tree.find(box, [&](int triangle) {
+      const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(triangle)];
+      const double here = distance_of_triangle(x, corners(mesh, nodes));
+      if (here <= reach) least = std::min(least, here);
+    });
+  }
+  return least;
+}
+
+/// What a ball in the mesh's frame is deep in the mesh; `floor` where it is no deeper.
+double depth_of_ball(const ClosedMesh& mesh, const Ball& ball, double floor) {
+  if (mesh.box.exteriorDistance(ball.centre) > ball.radius) return floor;
+  const double apart = distance_of_mesh(mesh, ball.centre);
+  if (ball.radius + apart <= floor) return floor;
+  return std::max(floor, ball.radius + (holds(mesh, ball.centre) ? apart : -apart));
 }
 
 /// Where the segment goes through the triangle's inside, in shares of it; infinite where it does not.
@@ -178,20 +188,47 @@ double largest(const Function& f, double end) {
   return std::max({f(0), f(end), at_left, at_right});
 }
 
-/// What the mesh's triangles are deep in a shape a, which is convex: the depth of a point is concave.
-double depth_of_triangles(const ClosedMesh& mesh, const Shape& a, const Frame& to_a) {
-  const auto depth = [&](const Vec3& x) { return std::visit(DepthOfPoint{x}, a); };
-  double most = 0;
-  for (const auto& triangle : mesh.surface.triangles) {
-    std::array<Vec3, 3> corner = corners(mesh, triangle);
-    for (Vec3& x : corner) x = to_a.place(x);
+/// A bound of what points of a triangle in a convex shape's frame are deep in it.
+struct BoundOfTriangle {
+  const std::array<Vec3, 3>& corner;
+
+  template <class Other>
+  double operator()(const Other& shape) const {
     const Vec3 middle = (corner[0] + corner[1] + corner[2]) / 3;
     double reach = 0;
     for (const Vec3& x : corner) reach = std::max(reach, (x - middle).norm());
-    if (depth(middle) + reach <= most) continue;
+    return DepthOfPoint{middle}(shape) + reach;
+  }
+  double operator()(const Box& shape) const {
+    double bound = infinity;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0})
+        bound = std::min(bound, below(side * Vec3::Unit(axis), shape.size[axis] / 2));
+    return bound;
+  }
+  double operator()(const ConvexHull& shape) const {
+    double bound = infinity;
+    for (const Polyhedron::Face& face : shape.solid.faces)
+      bound = std::min(bound, below(face.normal, face.offset));
+    return bound;
+  }
+
+  double below(const Vec3& normal, double offset) const {
+    return offset - std::min({normal.dot(corner[0]), normal.dot(corner[1]), normal.dot(corner[2])});
+  }
+};
+
+/// What the mesh's triangles are deep in a shape a, which is convex: the depth of a point is concave.
+double depth_of_triangles(const ClosedMesh& mesh, const Shape& a, const Frame& to_a, double floor) {
+  double most = floor;
+  for (const auto& triangle : mesh.surface.triangles) {
+    std::array<Vec3, 3> corner = corners(mesh, triangle);
+    for (Vec3& x : corner) x = to_a.place(x);
+    if (std::visit(BoundOfTriangle{corner}, a) <= most) continue;
     const Vec3 one = corner[1] - corner[0], two = corner[2] - corner[0];
     const auto along = [&](double u) {
-      return largest([&](double v) { return depth(corner[0] + u * one + v * two); }, 1 - u);
+      return largest([&](double v) { return std::visit(DepthOfPoint{corner[0] + u * one + v * two}, a); },
+                     1 - u);
     };
     most = std::max(most, largest(along, 1));
   }
@@ -199,31 +236,31 @@ double depth_of_triangles(const ClosedMesh& mesh, const Shape& a, const Frame& t
 }
 
 /// What points of a prove, the triangles of the mesh b in a convex a among them.
-double depth_in_mesh(const PlacedShape& a, const PlacedShape& b, const ClosedMesh& mesh) {
+double depth_in_mesh(const PlacedShape& a, const PlacedShape& b, const ClosedMesh& mesh, double floor) {
   const Eigen::Matrix3d turn = b.frame.rotation.transpose() * a.frame.rotation;
   const Frame to_b{b.frame.rotation.transpose() * (a.frame.origin - b.frame.origin), turn};
-  double most = 0;
+  double most = floor;
   for (const Ball& ball : std::visit(Balls{}, *a.shape))
-    most = std::max(most, depth_of_ball(mesh, {to_b.place(ball.centre), ball.radius}));
+    most = depth_of_ball(mesh, {to_b.place(ball.centre), ball.radius}, most);
   for (const Segment& edge : edges_of(*a.shape)) {
     const Segment placed{to_b.place(edge.from), to_b.place(edge.to)};
     const std::vector<double> shares = crossings(mesh, placed);
-    for (std::size_t i = 0; i + 1 < shares.size() && shares.size() > 2; ++i) {
+    if (shares.size() == 2) continue;  // its ends, which are nodes
+    for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
       const double middle = (shares[i] + shares[i + 1]) / 2;
-      most = std::max(most, depth_of_ball(mesh, {placed.from + middle * (placed.to - placed.from)}));
+      most = depth_of_ball(mesh, {placed.from + middle * (placed.to - placed.from)}, most);
     }
   }
   if (!is_convex(*a.shape)) return most;
-  return std::max(most,
-                  depth_of_triangles(mesh, *a.shape, {-(turn.transpose() * to_b.origin), turn.transpose()}));
+  return depth_of_triangles(mesh, *a.shape, {-(turn.transpose() * to_b.origin), turn.transpose()}, most);
 }
 
 }  // namespace
 
-double proved_depth(const PlacedShape& a, const PlacedShape& b) {
-  double most = 0;
-  if (const auto* mesh = std::get_if<ClosedMesh>(b.shape)) most = depth_in_mesh(a, b, *mesh);
-  if (const auto* mesh = std::get_if<ClosedMesh>(a.shape)) most = std::max(most, depth_in_mesh(b, a, *mesh));
+double proved_depth(const PlacedShape& a, const PlacedShape& b, double floor) {
+  double most = floor;
+  if (const auto* mesh = std::get_if<ClosedMesh>(b.shape)) most = depth_in_mesh(a, b, *mesh, most);
+  if (const auto* mesh = std::get_if<ClosedMesh>(a.shape)) most = depth_in_mesh(b, a, *mesh, most);
   return most;
 }
 
@@ -235,13 +272,13 @@ double proved_depth(const PlacedShape& placed, const std::array<Vec3, 3>& triang
     corner[k] = placed.frame.rotation.transpose() * (triangle[k] - placed.frame.origin);
     box.extend(corner[k]);
   }
-  double most = depth_of_ball(mesh, {(corner[0] + corner[1] + corner[2]) / 3, radius});
-  for (const Vec3& x : corner) most = std::max(most, depth_of_ball(mesh, {x, radius}));
+  double most = depth_of_ball(mesh, {(corner[0] + corner[1] + corner[2]) / 3, radius}, 0);
+  for (const Vec3& x : corner) most = depth_of_ball(mesh, {x, radius}, most);
   box.min().array() -= radius;
   box.max().array() += radius;
   mesh.tree.find(box, [&](int near) {
     const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(near)];
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {  // each node is the first one of a side
       const Segment edge{mesh.surface.x.col(nodes[k]), mesh.surface.x.col(nodes[(k + 1) % 3])};
       const double apart = crossing(edge, corner) < 1 ? 0.0 : distance_of_triangle(edge.from, corner);
       most = std::max(most, radius - apart);

@@ -9,16 +9,18 @@
 // sign that of 1/2 - w, w the winding number: the sum of the triangles' solid angles over 4 pi
 // (vanoosterom1983solid).
 //
-// Limits: meshes may be deeper in each other than these points are, and so may what is round in a mesh.
+// Limits: meshes may be deeper in each other than these points are, and so may what is round in a mesh. A
+// triangle of a surface is in a mesh by its corners and middle, or where an edge of the mesh goes through it,
+// by its radius at most; by an edge of its own that goes through the mesh alone it is not.
 #pragma once
 
 #include "support.h"
 
 namespace pbd::reference {
 
-/// The depth (m) that some point proves, at least one shape a closed mesh and none a half space; 0 where none
-/// does.
-double proved_depth(const PlacedShape& a, const PlacedShape& b);
+/// The depth (m) that some point proves, at least one shape a closed mesh and none a half space; `floor`
+/// where none proves more.
+double proved_depth(const PlacedShape& a, const PlacedShape& b, double floor = 0);
 
 /// Of a closed mesh in a triangle that keeps `radius` (m) free on both of its sides: `radius` at least where
 /// one of the mesh's edges goes through it.

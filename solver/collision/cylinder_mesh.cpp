@@ -39,10 +39,34 @@ bool write_across_rim(const Segment& edge, const Vec3& y, double most, int numbe
   return true;
 }
 
-/// Of the mesh's edge j, the point nearest to the cylinder, if that is nearest to a rim. True if it is
-/// inside and no contact tells so.
-bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
-                       const ContactWriter& writer) {
+/// Where an edge that is nearest to a cap leaves it, if it lies across the axis: the edge itself tells
+/// nothing of that where it is level. False if nothing is written.
+template <class Lowest>
+bool write_across_cap(const Segment& edge, const PlacedCylinder::Place& nearest, int number,
+                      const PlacedCylinder& cylinder, const ContactWriter& writer, Lowest&& lowest) {
+  constexpr double steep = 0.25;  // cosine squared of 60 degrees to the axis
+  const Vec3 from = edge.from - cylinder.centre;
+  const double cosine = cylinder.axis.dot(edge.along);
+  const Vec3 across = from - cylinder.axis.dot(from) * cylinder.axis,
+             along = edge.along - cosine * cylinder.axis;
+  const double sine_squared = along.squaredNorm(), middle = -across.dot(along) / sine_squared;
+  const double left = cylinder.radius * cylinder.radius - (across + middle * along).squaredNorm();
+  if (cosine * cosine > steep || !(left > 0)) return false;
+  bool any = false;
+  for (const int sign : {-1, 1}) {
+    const double s = middle + sign * std::sqrt(left / sine_squared);
+    if (!(s > 0 && s < edge.length)) continue;
+    const auto key = writer.key(Feature::edge, number, Feature::cap, crossed_cap(nearest.end, sign));
+    any |= write_beside_rim(edge, 0, edge.at(s), nearest.end * cylinder.axis, cylinder, nearest.end,
+                            nearest.distance - rounding * cylinder.size(), key, writer, lowest);
+  }
+  return any;
+}
+
+/// Of the mesh's edge j, what is nearest to the cylinder, if that is nearest to a cap or a rim. Returns how
+/// deep it is inside (m) where no contact tells so.
+double write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cylinder,
+                         const ContactWriter& writer) {
   const auto& edge = mesh.solid.edges[j];
   const Vec3 from = mesh.surface.x.col(edge.node[0]), whole = mesh.surface.x.col(edge.node[1]) - from;
   const double length = whole.norm();
@@ -53,21 +77,21 @@ bool write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cyli
   const auto lowest = [&](const Vec3& apart) {
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
+  const bool level = at.part == PlacedCylinder::Part::cap && lowest(at.normal) &&
+                     write_across_cap(all, at, j, cylinder, writer, lowest);
   if (at.distance <= 0) {
     const double most = below_part(all, at, cylinder) + rounding * cylinder.size();
     const bool told = write_across_rim(all, all.at(arc), most, j, cylinder, writer, lowest);
-    return !told && at.distance <= -rounding * cylinder.size();
+    return told || level ? 0 : -at.distance;
   }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
-  // An edge that leaves a cap is nearest to the rim: beside it but for rounding.
-  const bool at_rim = (at.nearest - cylinder.rim_at(at.nearest)).norm() <= rounding * cylinder.size();
-  if (arc > 0 && arc < length && at_rim && lowest(at.normal))
+  if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
     writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0, -at.normal),
                              writer.key(Feature::edge, j, Feature::rim, at.end + 1), at.distance);
-  return false;
+  return 0;
 }
 
-/// True if nothing of the mesh is nearer to x than the face over which x is by `above` (m): behind it, x may
+/// True if x is over a face, by `above` (m), or in the mesh with nothing of it nearer: behind a face, x may
 /// be beyond the mesh, or go out of it by another face sooner.
 bool is_nearest(const ClosedMesh& mesh, const Vec3& x, double above, double slack) {
   MeshPlace place{};
@@ -91,11 +115,13 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
                    CollisionScratch& scratch) {
   const PlacedCylinder a(cylinder, writer.frame_a);
   scratch.a.place(Capsule{cylinder.radius, cylinder.length}, writer.frame_a);
-  const MeshPair side{scratch.a, b, writer, scratch};
+  const MeshPair side{scratch.a, b, writer, scratch, nullptr, true};
   side.edges();
   const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.reach.margin);
   const ContactWriter exchanged = writer.exchanged();
-  double shallowest = -infinity;  // of the faces that go through the cylinder
+  const double tiny = rounding * a.size();
+  double shallowest = -infinity,
+         untold = tiny;  // m, of faces that go through it; how deep these are at least
   int cut = -1;
   b.tree.find(AxisBox(a.centre - reach, a.centre + reach), [&](int triangle) {
     const auto& face = b.solid.faces[triangle];
@@ -105,7 +131,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     if (above >= 0)
       write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, [&](const Vec3& x) {
         if (nearest_of_triangle(b, triangle, x).feature != MeshPlace::Feature::face) return false;
-        return is_nearest(b, x, face.normal.dot(x - on_plane), rounding * a.size());
+        return is_nearest(b, x, face.normal.dot(x - on_plane), tiny);
       });
     for (const int node : nodes) {
       const Vec3 y = b.surface.x.col(node);
@@ -114,13 +140,16 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
         write_point(y, 0, Feature::node, node, a, exchanged);
     }
     bool cuts = pierces(a, b, triangle, above, support);
-    for (std::size_t k = 0; k < 3; ++k)
-      cuts |= write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double depth = write_edge_beside(b, b.solid.sides[face.first + k], a, exchanged);
+      cuts |= depth >= tiny;
+      untold = std::max(untold, depth);
+    }
     if (!cuts || above - support <= shallowest) return;
     shallowest = above - support;
     cut = triangle;
   });
-  if (writer.least() <= -rounding * a.size()) return;
+  if (writer.least() <= -std::max(tiny, untold / 2)) return;  // another feature tells of it, if less
   MeshPlace place{};
   if (cut >= 0)
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,

@@ -132,7 +132,9 @@ void MeshPair::crossing(int i, int j) const {
   const Nearest at = nearest({from_a, along_a, length_a}, {from_b, along_b, length_b});
   const double distance = at.apart.norm();
   const bool is_flush = distance <= flush, at_node = at.t <= 0 || at.t >= length_b;
-  const bool at_node_of_a = at.s <= 0 || at.s >= length_a;
+  // Beside an end that is flat, what is deeper below the side than below the cap is the cap's.
+  const double end = flat_ends ? std::max(tiny, a.radius - distance) : 0;
+  const bool at_node_of_a = at.s <= end || at.s >= length_a - end;
   if ((at_node_of_a || at_node) && !is_flush) return;
   const Vec3 y_a = from_a + at.s * along_a, y_b = from_b + at.t * along_b;
   const auto normal_a = [&](int f) -> const Vec3& { return a.face_normal(f); };

@@ -21,6 +21,7 @@ struct MeshPair {
   const ContactWriter& writer;
   CollisionScratch& scratch;
   const ClosedMesh* mesh_a = nullptr;  // if a is one
+  bool flat_ends = false;              // a is the side of a cylinder
   double limit = writer.reach.margin + a.radius, tiny = rounding * a.size, turn = writer.reach.turn;
   double flush = (a.radius > 0 ? 0 : flush_part) * a.size;  // m: nodes so near lie on the mesh
 

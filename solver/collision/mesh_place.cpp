@@ -87,7 +87,7 @@ bool nearest_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshPl
       found = true;
       cube = cube_about(x, (1 + rounding) * std::abs(at.distance));
     });
-    if (found || reach >= most) return found;
+    if (found || reach >= most) return found && place.distance <= limit;
   }
 }
 

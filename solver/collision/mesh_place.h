@@ -22,7 +22,7 @@ Vec3 direction(const ClosedMesh& mesh, const MeshPlace& place, const Vec3& x);
 /// Of the triangle, what is nearest to x.
 MeshPlace nearest_of_triangle(const ClosedMesh& mesh, int triangle, const Vec3& x);
 
-/// What is nearest to x, if that is inside or nearer than `limit` (m).
+/// What is nearest to x, if x is inside or no farther than `limit` (m).
 bool nearest_of_mesh(const ClosedMesh& mesh, const Vec3& x, double limit, MeshPlace& place);
 
 /// What `minima_of_mesh` found, and its scratch: what is no face, and of all edges and nodes how many

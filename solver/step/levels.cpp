@@ -11,7 +11,8 @@ namespace {
 
 constexpr double some_roundings = 8 * rounding_unit;
 
-/// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each.
+/// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each, and what is missed
+/// of gyroscopic torques.
 double beyond_own_rounding(const StepSystem& system, std::vector<double>& effects) {
   const auto& inverse_mass = system.problem.inverse_mass;
   effects.assign(inverse_mass.size(), 0);
@@ -28,7 +29,7 @@ double beyond_own_rounding(const StepSystem& system, std::vector<double>& effect
       }
     });
   }
-  double sum = 0;
+  double sum = system.at.torque_missed;
   for (std::size_t node = 0; node < inverse_mass.size(); ++node) {
     if (!(inverse_mass[node] > 0)) continue;
     const auto column = static_cast<Eigen::Index>(node);
@@ -39,7 +40,7 @@ double beyond_own_rounding(const StepSystem& system, std::vector<double>& effect
   return std::sqrt(sum);
 }
 
-/// The rounding of one body or node does not excuse another.
+/// What rounds impulses on one body or node does not excuse another.
 bool primal_met(const Method& method, const Levels& levels, const Progress& progress) {
   const double asked = method.tolerance * progress.scale;
   return progress.primal <= asked || (progress.primal <= levels.primal_rounding &&
@@ -66,7 +67,8 @@ void measure(const StepSystem& system, const RowResidual& found, std::vector<dou
   const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
   levels.velocity_rounding = some_roundings * levels.free_speed;
   levels.primal_rounding = levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0);
-  levels.primal_beyond = balance ? beyond_own_rounding(system, effects) : 0.0;
+  const bool missed = progress.primal > system.problem.method.tolerance * progress.scale;
+  levels.primal_beyond = balance && missed ? beyond_own_rounding(system, effects) : 0.0;
   levels.dual_rounding = levels.velocity_rounding + std::sqrt(found.rounding_squared);
   levels.beyond_rounding = std::sqrt(found.beyond_rounding_squared);
 }

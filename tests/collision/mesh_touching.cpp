@@ -82,3 +82,45 @@ TEST_CASE("edges of meshes that touch and are nearly parallel have a contact") {
     CHECK(least == Approx(gap).margin(1e-14));
   }
 }
+
+TEST_CASE("a cylinder's cap that lies on a mesh is no side in it") {
+  const auto least = [](const Shape& cylinder, const Frame& at, const Shape& mesh) {
+    double gap = infinity;
+    for (const ContactPoint& contact : contacts(cylinder, at, mesh, {}, 1e-3))
+      gap = std::min(gap, touch(contact, at, {}).gap);
+    return gap;
+  };
+  // The blade's edge goes through its axis, or beside it, just above and below the cap.
+  const Shape edge = ClosedMesh(blade(1)), post = Cylinder{0.3, 0.5};
+  for (const double deep : {0.0, 1e-12, 2e-7, 1e-4})
+    CHECK(least(post, {Vec3(0, 0, deep - 0.25)}, edge) == Approx(-deep).margin(1e-14));
+  // Flush with walls of the profile, whose hollow is nearer to its axis than its radius.
+  const Shape profile = ClosedMesh(angle_profile()), disc = Cylinder{1, 0.1};
+  for (const double deep : {0.0, 1e-12, 2e-7, 1e-4})
+    CHECK(least(disc, {Vec3(0.1, 0.1, 1.05 - deep)}, profile) == Approx(-deep).margin(1e-14));
+}
+
+TEST_CASE("a rim that is in a mesh is deep by the nearest face alone") {
+  // A coin that hangs over a cube's side, with its rim just below the top: the side is far.
+  const Shape cube = ClosedMesh(box_surface(Vec3(0.2, 0.2, 0.2))), coin = Cylinder{0.15, 0.02};
+  constexpr double deep = 1e-5;
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(-0.1, Vec3::UnitY()).toRotationMatrix();
+  const Frame at{Vec3(-0.03, 0, 0.1 - deep) - tilt * Vec3(-0.15, 0, -0.01), tilt};
+  double least = infinity;
+  for (const ContactPoint& contact : contacts(coin, at, cube, {}, 1e-3))
+    least = std::min(least, touch(contact, at, {}).gap);
+  CHECK(least == Approx(-deep).margin(1e-14));
+}
+
+TEST_CASE("what a mesh's edge cuts of a cap is told beside a rim that just touches") {
+  const Shape cube = ClosedMesh(box_surface(Vec3(0.2, 0.2, 0.2))), coin = Cylinder{0.15, 0.02};
+  const Frame at{
+      Vec3(0.0043743370986058872, 0.11289647115346051, 0.046195432159693274),
+      Eigen::Quaterniond(0.54891113392146962, 0.54095214269735403, -0.4184769651916207, 0.48056672374624487)
+          .normalized()
+          .toRotationMatrix()};
+  double least = infinity;
+  for (const ContactPoint& contact : contacts(coin, at, cube, {}, 1e-3))
+    least = std::min(least, touch(contact, at, {}).gap);
+  CHECK(least <= -reference::proved_depth({&coin, at}, {&cube, {}}));
+}

@@ -120,8 +120,8 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
   const Vec3 reach = a.half * a.axis.cwiseAbs() + Vec3::Constant(a.radius + writer.reach.margin);
   const ContactWriter exchanged = writer.exchanged();
   const double tiny = rounding * a.size();
-  double shallowest = -infinity,
-         untold = tiny;  // m, of faces that go through it; how deep these are at least
+  double shallowest = -infinity;  // m, of the faces that go through the cylinder
+  double untold = 0;              // m, how deep their edges are that no contact tells of
   int cut = -1;
   b.tree.find(AxisBox(a.centre - reach, a.centre + reach), [&](int triangle) {
     const auto& face = b.solid.faces[triangle];
@@ -149,7 +149,7 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     shallowest = above - support;
     cut = triangle;
   });
-  if (writer.least() <= -std::max(tiny, untold / 2)) return;  // another feature tells of it, if less
+  if (writer.least() <= -std::max(tiny, untold / 2)) return;  // another feature tells half of it at least
   MeshPlace place{};
   if (cut >= 0)
     write_deepest_rim(a, b.surface.x.col(b.surface.triangles[cut][0]), b.solid.faces[cut].normal,

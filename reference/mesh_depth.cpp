@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "mesh_points.h"
+
 namespace pbd::reference {
 namespace {
 
@@ -12,92 +14,12 @@ struct Ball {
   double radius = 0;
 };
 
-struct Segment {
-  Vec3 from, to;
-};
-
-std::array<Vec3, 3> corners(const ClosedMesh& mesh, const std::array<int, 3>& triangle) {
-  return {mesh.surface.x.col(triangle[0]), mesh.surface.x.col(triangle[1]), mesh.surface.x.col(triangle[2])};
-}
-
-double distance_of_segment(const Vec3& x, const Vec3& p, const Vec3& q) {
-  const Vec3 along = q - p;
-  const double length = along.squaredNorm();
-  const double share = length > 0 ? std::clamp(along.dot(x - p) / length, 0.0, 1.0) : 0.0;
-  return (x - p - share * along).norm();
-}
-
-double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
-  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  bool over = normal.squaredNorm() > 0;
-  double least = infinity;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &p = corner[k], &q = corner[(k + 1) % 3];
-    over = over && normal.dot((q - p).cross(x - p)) >= 0;
-    least = std::min(least, distance_of_segment(x, p, q));
-  }
-  return over ? std::abs(normal.normalized().dot(x - corner[0])) : least;
-}
-
-/// The triangle as it is seen from x, sr.
-double solid_angle(const Vec3& x, const std::array<Vec3, 3>& corner) {
-  const Vec3 a = corner[0] - x, b = corner[1] - x, c = corner[2] - x;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
-
-bool holds(const ClosedMesh& mesh, const Vec3& x) {
-  if (!mesh.box.contains(x)) return false;
-  double all = 0;
-  for (const auto& triangle : mesh.surface.triangles) all += solid_angle(x, corners(mesh, triangle));
-  return all > 2 * std::numbers::pi;
-}
-
-double distance_of_mesh(const ClosedMesh& mesh, const Vec3& x) {
-  double least = infinity;
-  for (double reach = mesh.size / 64; std::isinf(least); reach *= 2) {
-    AxisBox box(x.array() - reach, x.array() + reach);
-    mesh.tree.find(box, [&](int triangle) {
-      const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(triangle)];
-      const double here = distance_of_triangle(x, corners(mesh, nodes));
-      if (here <= reach) least = std::min(least, here);
-    });
-  }
-  return least;
-}
-
 /// What a ball in the mesh's frame is deep in the mesh; `floor` where it is no deeper.
 double depth_of_ball(const ClosedMesh& mesh, const Ball& ball, double floor) {
   if (mesh.box.exteriorDistance(ball.centre) > ball.radius) return floor;
   const double apart = distance_of_mesh(mesh, ball.centre);
   if (ball.radius + apart <= floor) return floor;
   return std::max(floor, ball.radius + (holds(mesh, ball.centre) ? apart : -apart));
-}
-
-/// Where the segment goes through the triangle's inside, in shares of it; infinite where it does not.
-double crossing(const Segment& segment, const std::array<Vec3, 3>& corner) {
-  const Vec3 along = segment.to - segment.from;
-  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  const double from = normal.dot(segment.from - corner[0]), to = normal.dot(segment.to - corner[0]);
-  if (!(from * to < 0)) return infinity;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 side = corner[(k + 1) % 3] - corner[k];
-    if (along.dot((corner[k] - segment.from).cross(side)) * (from - to) > 0) return infinity;
-  }
-  return from / (from - to);
-}
-
-/// Where the segment goes through the mesh's triangles, in shares of it, both ends among them.
-std::vector<double> crossings(const ClosedMesh& mesh, const Segment& segment) {
-  std::vector<double> shares{0, 1};
-  AxisBox box(segment.from);
-  box.extend(segment.to);
-  mesh.tree.find(box, [&](int triangle) {
-    const auto& nodes = mesh.surface.triangles[static_cast<std::size_t>(triangle)];
-    if (const double share = crossing(segment, corners(mesh, nodes)); share < 1) shares.push_back(share);
-  });
-  std::sort(shares.begin(), shares.end());
-  return shares;
 }
 
 /// Balls that the shape holds, in its frame.
@@ -274,6 +196,8 @@ double proved_depth(const PlacedShape& placed, const std::array<Vec3, 3>& triang
   }
   double most = depth_of_ball(mesh, {(corner[0] + corner[1] + corner[2]) / 3, radius}, 0);
   for (const Vec3& x : corner) most = depth_of_ball(mesh, {x, radius}, most);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (crossings(mesh, {corner[k], corner[(k + 1) % 3]}).size() > 2) most = std::max(most, radius);
   box.min().array() -= radius;
   box.max().array() += radius;
   mesh.tree.find(box, [&](int near) {

@@ -5,13 +5,11 @@
 //
 // x are nodes, the middles of triangles and of what of an edge lies between two triangles of the mesh, and
 // points on the axes of what is round; of a mesh in a convex shape all points of its triangles: -sd is
-// concave there. Of a mesh |sd| is the distance of the nearest triangle (ericson2005collision, 5.1.5), its
-// sign that of 1/2 - w, w the winding number: the sum of the triangles' solid angles over 4 pi
-// (vanoosterom1983solid).
+// concave there. Of a mesh |sd| is the distance of the nearest triangle, its sign that of mesh_points.h.
 //
 // Limits: meshes may be deeper in each other than these points are, and so may what is round in a mesh. A
-// triangle of a surface is in a mesh by its corners and middle, or where an edge of the mesh goes through it,
-// by its radius at most; by an edge of its own that goes through the mesh alone it is not.
+// triangle of a surface that an edge of the mesh goes through, or that has an edge through the mesh, is told
+// as no deeper than its corners and middle are, or its radius.
 #pragma once
 
 #include "support.h"
@@ -23,7 +21,7 @@ namespace pbd::reference {
 double proved_depth(const PlacedShape& a, const PlacedShape& b, double floor = 0);
 
 /// Of a closed mesh in a triangle that keeps `radius` (m) free on both of its sides: `radius` at least where
-/// one of the mesh's edges goes through it.
+/// an edge of one goes through the other.
 double proved_depth(const PlacedShape& mesh, const std::array<Vec3, 3>& triangle, double radius);
 
 }  // namespace pbd::reference

@@ -34,7 +34,7 @@ TEST_CASE("depth of closed meshes: nodes, balls and edges in a cube, and a cube'
   CHECK(is(depth_in_cube(ClosedMesh(box_surface({0.5, 0.5, 0.5})), {{0.2, -1.1, 0}}), 0.15));
   CHECK(is(depth_in_cube(Box{{6, 6, 6}}, {{3.9, 0, 0}}), 0.1));  // its own nodes are outside
   CHECK(is(depth_in_cube(Cylinder{6, 2}, {{0, 0, 1.9}}), 0.1));  // the cube's nodes
-  // An edge of the cube that lies in a cylinder between its nodes, and one that cuts a corner off a box.
+  // An edge of the cube that lies in a cylinder between its nodes.
   const Eigen::Matrix3d lying = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()).toRotationMatrix();
   CHECK(std::abs(depth_in_cube(Cylinder{0.3, 1}, {{1.2, 0.1, 1}, lying}) - 0.1) <= 1e-7);
   CHECK(std::abs(depth_in_cube(Capsule{0.3, 1}, {{1.2, 0.1, 1}, lying}) - 0.1) <= 1e-7);
@@ -66,6 +66,9 @@ TEST_CASE("depth of closed meshes in triangles that keep a radius free") {
   CHECK(is(depth(0.97, 0.5, 0.05), 0.08));
   CHECK(depth(0.97, 9, 0.05) >= 0.05);  // cut by edges
   CHECK(depth(0.97, 9, 0) == 0);
+  // Through the cube by its own sides alone: the cube's edges, and its corners and middle, are outside.
+  const std::array<Vec3, 3> beside{Vec3(-2, 0, 0), Vec3(2, 0, 0), Vec3(0, 9, 0.1)};
+  CHECK(proved_depth({&cube, {}}, beside, 0.05) >= 0.05);
 }
 
 TEST_CASE("depth: closed meshes that a step pushes into each other") {

@@ -67,7 +67,7 @@ TEST_CASE("depth of closed meshes in triangles that keep a radius free") {
   CHECK(depth(0.97, 9, 0.05) >= 0.05);  // cut by edges
   CHECK(depth(0.97, 9, 0) == 0);
   // Through the cube by its own sides alone: the cube's edges, and its corners and middle, are outside.
-  const std::array<Vec3, 3> beside{Vec3(-2, 0, 0), Vec3(8, 0, 0), Vec3(8, 0.1, 0)};
+  const std::array<Vec3, 3> beside{Vec3(-2, 0.3, 0), Vec3(8, 0.3, 0), Vec3(8, 0.4, 0)};
   CHECK(proved_depth({&cube, {}}, beside, 0.05) >= 0.05);
 }
 

@@ -28,28 +28,45 @@ bool goes_through(const RoundedPolyhedron& a, const Vec3& p, const Vec3& q, doub
   return begin < end;
 }
 
-/// That a's edge goes through the mesh's triangle, by more than `flush` on both sides and from the lines of
-/// its own edges: what goes on both sides of one of them is no deeper than it is from that.
-bool pierces(const MeshPair& pair, const Polyhedron::Edge& edge, int triangle) {
-  const Vec3& normal = pair.b.solid.faces[triangle].normal;
-  const Vec3 from = pair.a.node(edge.node[0]), along = pair.a.node(edge.node[1]) - from;
-  const double begin = normal.dot(from - corner(pair.b, triangle, 0)), end = begin + normal.dot(along);
-  if (!(std::max(begin, end) > pair.flush && std::min(begin, end) <= -pair.flush)) return false;
-  const Vec3 x = from + begin / (begin - end) * along;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 p = corner(pair.b, triangle, k), side = corner(pair.b, triangle, (k + 1) % 3) - p;
-    if (!(normal.cross(side).dot(x - p) > 0)) return false;
+struct Corners {
+  std::array<Vec3, 3> x;  // m
+  const Vec3& normal;     // unit
+};
+
+/// That the segment from p to q goes through the triangle, by more than `flush` (m) on both sides and from
+/// the lines of its edges: what goes on both sides of one of them is no deeper than it is from that.
+bool pierces(const Vec3& p, const Vec3& q, const Corners& triangle, double flush) {
+  const auto& [corner, normal] = triangle;
+  const Vec3 along = q - p;
+  const double begin = normal.dot(p - corner[0]), end = begin + normal.dot(along);
+  if (!(std::max(begin, end) > flush && std::min(begin, end) <= -flush)) return false;
+  const Vec3 x = p + begin / (begin - end) * along;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 side = corner[(k + 1) % 3] - corner[k], to_x = x - corner[k];
+    if (!(normal.cross(side).dot(to_x) > 0)) return false;
     const Vec3 across = along.cross(side);
-    if (!(std::abs(across.dot(x - p)) > pair.flush * across.norm())) return false;
+    if (!(std::abs(across.dot(to_x)) > flush * across.norm())) return false;
   }
   return true;
 }
 
-/// That one of the triangle's edges goes through a convex a.
+/// That a's edge goes through the mesh's triangle.
+bool pierces(const MeshPair& pair, const Polyhedron::Edge& edge, int triangle) {
+  const Corners corners{
+      {corner(pair.b, triangle, 0), corner(pair.b, triangle, 1), corner(pair.b, triangle, 2)},
+      pair.b.solid.faces[triangle].normal};
+  return pierces(pair.a.node(edge.node[0]), pair.a.node(edge.node[1]), corners, pair.flush);
+}
+
+/// That one of the triangle's edges goes through a convex a, or through its face if it is flat.
 bool goes_through_a(const MeshPair& pair, int triangle) {
+  const RoundedPolyhedron& a = pair.a;
+  const auto cuts = [&](const Vec3& p, const Vec3& q) {
+    if (a.face_count() > 2) return goes_through(a, p, q, pair.flush);
+    return pierces(p, q, {{a.node(0), a.node(1), a.node(2)}, a.face_normal(0)}, pair.flush);
+  };
   for (int k = 0; k < 3; ++k)
-    if (goes_through(pair.a, corner(pair.b, triangle, k), corner(pair.b, triangle, (k + 1) % 3), pair.flush))
-      return true;
+    if (cuts(corner(pair.b, triangle, k), corner(pair.b, triangle, (k + 1) % 3))) return true;
   return false;
 }
 

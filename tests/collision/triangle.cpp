@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "contact_shapes.h"
+#include "hollow_meshes.h"
+#include "mesh_depth.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -106,6 +108,26 @@ TEST_CASE("the least gap over a triangle is the signed distance from it") {
   CHECK(worst < accuracy);
   CHECK(normal < 1e-14);
   CHECK(apart > 100);
+}
+
+TEST_CASE("what of a mesh is in a triangle, or goes through it, is told to be in it") {
+  const int kind = GENERATE(0, 1, 2);
+  const Shape mesh = ClosedMesh(kind == 0 ? star() : kind == 1 ? angle_profile() : blade(0.3));
+  Random random(37);
+  int through = 0, shallow = 0;
+  for (int number = 0; number < 2000; ++number) {
+    const Frame at{random.vector(), random.rotation()};
+    const Placed placed = random_triangle(random);
+    const double radius = placed.triangle.radius;
+    if (!(reference::proved_depth({&mesh, at}, placed.corner, radius) >= radius)) continue;
+    ++through;
+    double least = infinity;
+    for (const ContactPoint& contact : contacts(placed, mesh, at, 0))
+      least = std::min(least, touch(contact, {}, at).gap);
+    if (!(least <= -radius)) ++shallow;
+  }
+  CHECK(through > 100);
+  CHECK(shallow == 0);
 }
 
 TEST_CASE("what a contact holds on to of a triangle follows its nodes") {

@@ -3,6 +3,7 @@
 
 #include "contact_check.h"
 #include "mesh_depth.h"
+#include "surface_depth.h"
 #include "touching_sides.h"
 #include "ways_apart.h"
 
@@ -25,6 +26,7 @@ class Depths {
  private:
   void check(int i, int j);
   void check_triangles();
+  void check_surfaces();
   void check_triangle(int i, const std::array<int, 3>& nodes);
   DistanceBounds over_triangle(int i, const std::array<int, 3>& nodes, const State& state) const;
   bool far(int i, int j, const PlacedShape& a, const PlacedShape& b) const;
@@ -148,9 +150,31 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
                     radius - end.found, most);
 }
 
+/// What begins with an edge through a triangle is no deeper where it ends with one.
+void Depths::check_surfaces() {
+  if (!contact_.surfaces_touch) return;
+  const int surface = sides_.count();
+  const ContactLaw& law = sides_.law(surface, surface);
+  if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
+  if (law.restitution > 0 && !is_euler_step(claim_))
+    return findings_.leave_out("depth: where shapes bounce, by this integrator");
+  const double missed = (1 + law.friction) * level_ * std::sqrt(sides_.inverse_mass(surface, 0)) * claim_.h +
+                        step_rounding * claim_.end.x.cwiseAbs().maxCoeff();
+  findings_.require("depth", "surfaces in each other, m", 0, missed);
+  for (const SurfaceOverlap& found :
+       surface_overlaps(contact_.triangle, claim_.end.x, contact_.thickness, missed)) {
+    if (found.crease) {
+      findings_.leave_out("depth: surfaces beside their creases");
+      continue;
+    }
+    const double before = depth_of(found, claim_.start.x, contact_.thickness);
+    findings_.require("depth", found.name() + ", m", found.depth, std::max(before, 0.0) + missed);
+  }
+}
+
 void Depths::check_triangles() {
   if (contact_.triangle.empty()) return;
-  findings_.leave_out("depth: surfaces in surfaces");
+  check_surfaces();
   for (int i = 0; i < static_cast<int>(contact_.collider.size()); ++i) {
     const ContactLaw& law = sides_.law(i, sides_.count());
     if (law.compliance > 0) {

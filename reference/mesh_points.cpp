@@ -6,13 +6,6 @@
 namespace pbd::reference {
 namespace {
 
-double distance_of_segment(const Vec3& x, const Vec3& p, const Vec3& q) {
-  const Vec3 along = q - p;
-  const double length = along.squaredNorm();
-  const double share = length > 0 ? std::clamp(along.dot(x - p) / length, 0.0, 1.0) : 0.0;
-  return (x - p - share * along).norm();
-}
-
 /// The triangle as it is seen from x, sr.
 double solid_angle(const Vec3& x, const std::array<Vec3, 3>& corner) {
   const Vec3 a = corner[0] - x, b = corner[1] - x, c = corner[2] - x;
@@ -26,6 +19,13 @@ std::array<Vec3, 3> corners(const ClosedMesh& mesh, const std::array<int, 3>& tr
   return {mesh.surface.x.col(triangle[0]), mesh.surface.x.col(triangle[1]), mesh.surface.x.col(triangle[2])};
 }
 
+double distance_of_segment(const Vec3& x, const Segment& segment) {
+  const Vec3 along = segment.to - segment.from;
+  const double length = along.squaredNorm();
+  const double share = length > 0 ? std::clamp(along.dot(x - segment.from) / length, 0.0, 1.0) : 0.0;
+  return (x - segment.from - share * along).norm();
+}
+
 double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
   const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   bool over = normal.squaredNorm() > 0;
@@ -33,7 +33,7 @@ double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &p = corner[k], &q = corner[(k + 1) % 3];
     over = over && normal.dot((q - p).cross(x - p)) >= 0;
-    least = std::min(least, distance_of_segment(x, p, q));
+    least = std::min(least, distance_of_segment(x, {p, q}));
   }
   return over ? std::abs(normal.normalized().dot(x - corner[0])) : least;
 }

@@ -25,19 +25,13 @@ SurfaceTouching node_triangle(const SurfaceContact& contact, const Points& x) {
   return found;
 }
 
-/// Edges whose cross product is rounding: they have no normal of their own.
-bool along_normal(const Vec3& e, const Vec3& f) {
-  constexpr double least_sine = 1e-10;
-  return !(e.cross(f).squaredNorm() > least_sine * least_sine * e.squaredNorm() * f.squaredNorm());
-}
-
 SurfaceTouching edge_edge(const SurfaceContact& contact, const Points& x) {
   const auto at = [&](std::size_t k) -> Vec3 { return x.col(contact.node[k]); };
   const Vec3 e = at(1) - at(0), f = at(3) - at(2), apart = at(2) - at(0);
   const Vec3 across = e.cross(f);
   const double squared = across.squaredNorm();
   SurfaceTouching found;
-  const bool crossing = !along_normal(e, f);
+  const bool crossing = crossed(e, f);
   found.normal = contact.side * (crossing ? Vec3(across.normalized()) : e.unitOrthogonal());
   const double s = crossing ? apart.cross(f).dot(across) / squared : 0.5;
   const double t = crossing ? apart.cross(e).dot(across) / squared : 0.5;
@@ -68,13 +62,6 @@ void keep_each_once(std::vector<T>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// True if the nearest points lie on the features: no weight has the sign of the other side.
-bool inside(const SurfaceTouching& found, SurfaceContact::Kind kind) {
-  const auto& w = found.weight;
-  const bool first = kind == SurfaceContact::Kind::node_triangle ? w[1] <= 0 : w[0] >= 0 && w[1] >= 0;
-  return first && w[2] <= 0 && w[3] <= 0;
-}
-
 template <std::size_t K>
 AxisBox box_of(const std::array<int, K>& nodes, const Points& x, const std::vector<double>& reach,
                double margin) {
@@ -94,7 +81,7 @@ void add(SurfaceContact contact, const Points& x, const std::vector<double>& rea
   SurfaceTouching found = touching(contact, x);
   if (found.gap + contact.thickness < 0) contact.side = -1;
   found = touching(contact, x);
-  if (found.gap < 2 * most && inside(found, contact.kind)) out.push_back(contact);
+  if (found.gap < 2 * most && on_features(found, contact.kind)) out.push_back(contact);
 }
 
 }  // namespace
@@ -102,6 +89,18 @@ void add(SurfaceContact contact, const Points& x, const std::vector<double>& rea
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
   if (contact.kind == SurfaceContact::Kind::node_edge) return node_edge(contact, x);
   return contact.kind == SurfaceContact::Kind::edge_edge ? edge_edge(contact, x) : node_triangle(contact, x);
+}
+
+bool crossed(const Vec3& e, const Vec3& f) {
+  constexpr double least_sine = 1e-10;
+  return e.cross(f).squaredNorm() > least_sine * least_sine * e.squaredNorm() * f.squaredNorm();
+}
+
+bool on_features(const SurfaceTouching& touching, SurfaceContact::Kind kind, double beside) {
+  const auto& w = touching.weight;
+  const bool first =
+      kind == SurfaceContact::Kind::node_triangle ? w[1] <= beside : w[0] >= -beside && w[1] >= -beside;
+  return first && w[2] <= beside && w[3] <= beside;
 }
 
 SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
@@ -138,31 +137,20 @@ int SurfaceSearch::edge(int from, int to) const {
 
 void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach, double thickness,
                                std::vector<SurfaceContact>& out) {
-  boxes_.clear();
-  for (const auto& triangle : triangles_) boxes_.push_back(box_of(triangle, x, reach, thickness));
-  tree_.build(boxes_);
-  for (const int node : nodes_)
-    tree_.find(box_of(std::array{node}, x, reach, 0), [&](int k) {
-      const auto& [a, b, c] = triangles_[k];
-      if (node != a && node != b && node != c)
-        add({.node = {node, a, b, c}, .thickness = thickness}, x, reach, out);
-    });
+  each_node_and_triangle(
+      [&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
+      [&](const auto& nodes) { add({.node = nodes, .thickness = thickness}, x, reach, out); });
 }
 
 void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach, double thickness,
                                std::vector<SurfaceContact>& out) {
-  boxes_.clear();
-  for (const auto& edge : edges_) boxes_.push_back(box_of(edge, x, reach, thickness / 2));
-  tree_.build(boxes_);
-  for (std::size_t i = 0; i < edges_.size(); ++i)
-    tree_.find(boxes_[i], [&](int j) {
-      const auto& [a, b] = edges_[i];
-      const auto& [c, d] = edges_[j];
-      const bool apart = a != c && a != d && b != c && b != d;
-      if (static_cast<std::size_t>(j) > i && apart && !along_normal(x.col(b) - x.col(a), x.col(d) - x.col(c)))
-        add({.node = {a, b, c, d}, .kind = SurfaceContact::Kind::edge_edge, .thickness = thickness}, x, reach,
-            out);
-    });
+  each_pair_of_edges([&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
+                     [&](const auto& nodes) {
+                       const auto& [a, b, c, d] = nodes;
+                       if (!crossed(x.col(b) - x.col(a), x.col(d) - x.col(c))) return;
+                       add({.node = nodes, .kind = SurfaceContact::Kind::edge_edge, .thickness = thickness},
+                           x, reach, out);
+                     });
 }
 
 /// True if an edge's triangles and a node's neighbours lie away from each other along n, or may when they
@@ -192,28 +180,35 @@ int SurfaceSearch::end_of(const SurfaceContact& contact, const SurfaceTouching& 
   return -touching.weight[3] >= 1 - close ? contact.node[3] : -1;
 }
 
-/// By the tree of `find_edges`. Two nodes touch once, whichever edges end there.
+/// A node that is nearest to an edge, within the thickness and what they move by (m). Two nodes touch once,
+/// whichever edges end there.
+std::optional<SurfaceContact> SurfaceSearch::beside(int node, int edge, const Points& x, double thickness,
+                                                    double moved) {
+  const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
+  const auto others = across(edge);
+  if (node == c || node == d || std::find(others.begin(), others.end(), node) != others.end())
+    return std::nullopt;
+  SurfaceContact contact{
+      .node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness};
+  const SurfaceTouching found = touching(contact, x);
+  if (found.gap >= moved || !away_from(contact, edge, found, x, moved)) return std::nullopt;
+  if (const int end = end_of(contact, found); end >= 0) {
+    const std::array<int, 2> nodes{std::min(node, end), std::max(node, end)};
+    if (std::find(ends_.begin(), ends_.end(), nodes) != ends_.end()) return std::nullopt;
+    ends_.push_back(nodes);
+  }
+  contact.toward = found.normal;
+  return contact;
+}
+
 void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
                                       std::vector<SurfaceContact>& out) {
-  ends_.clear();
-  for (const int node : nodes_)
-    tree_.find(box_of(std::array{node}, x, reach, thickness / 2), [&](int k) {
-      const auto& [c, d] = edges_[static_cast<std::size_t>(k)];
-      const auto others = across(k);
-      if (node == c || node == d || std::find(others.begin(), others.end(), node) != others.end()) return;
-      const SurfaceContact contact{
-          .node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness};
-      const SurfaceTouching found = touching(contact, x);
-      const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
-      if (found.gap >= moved || !away_from(contact, k, found, x, moved)) return;
-      if (const int end = end_of(contact, found); end >= 0) {
-        const std::array<int, 2> nodes{std::min(node, end), std::max(node, end)};
-        if (std::find(ends_.begin(), ends_.end(), nodes) != ends_.end()) return;
-        ends_.push_back(nodes);
-      }
-      out.push_back(contact);
-      out.back().toward = found.normal;
-    });
+  each_node_and_edge([&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
+                     [&](int node, int edge) {
+                       const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
+                       const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
+                       if (const auto found = beside(node, edge, x, thickness, moved)) out.push_back(*found);
+                     });
 }
 
 void SurfaceSearch::find(const Points& x, const std::vector<double>& reach, double thickness,

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,18 @@ struct SurfaceTouching {
 
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x);
 
+/// True of directions that span a plane: their product is more than rounding.
+bool crossed(const Vec3& e, const Vec3& f);
+
+/// True if the nearest points lie on the features, or no farther `beside` them than that share of them.
+bool on_features(const SurfaceTouching& touching, SurfaceContact::Kind kind, double beside = 0);
+
+/// What came to overlap on a way, with the gap that is asked for, m.
+struct PassedContact {
+  SurfaceContact contact;
+  double target = 0;
+};
+
 /// Finds what may touch; keeps triangles' edges and scratch from step to step.
 class SurfaceSearch {
  public:
@@ -66,13 +79,30 @@ class SurfaceSearch {
   void find(const Points& x, const std::vector<double>& reach, double thickness,
             std::vector<SurfaceContact>& out);
 
+  /// Appends nodes and triangles, and edges, that pass each other on the straight ways between two places of
+  /// the nodes, or overlap where these end, by more than where they begin and `slack` (m): each on the side
+  /// from which they came, with the gap at which they began if that was below zero.
+  void find_passed(const Points& from, const Points& to, double thickness, double slack,
+                   std::vector<PassedContact>& out);
+
  private:
+  /// visit(nodes) for each node and triangle, or each two edges, without a common node, whose boxes meet;
+  /// box(nodes) gives a feature's.
+  template <class Box, class Visit>
+  void each_node_and_triangle(Box&& box, Visit&& visit);
+  template <class Box, class Visit>
+  void each_pair_of_edges(Box&& box, Visit&& visit);
+  /// visit(node, edge), by the edges' boxes of the last `each_pair_of_edges`.
+  template <class Box, class Visit>
+  void each_node_and_edge(Box&& box, Visit&& visit);
+
   void find_nodes(const Points& x, const std::vector<double>& reach, double thickness,
                   std::vector<SurfaceContact>& out);
   void find_edges(const Points& x, const std::vector<double>& reach, double thickness,
                   std::vector<SurfaceContact>& out);
   void find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
                          std::vector<SurfaceContact>& out);
+  std::optional<SurfaceContact> beside(int node, int edge, const Points& x, double thickness, double moved);
   bool away_from(const SurfaceContact& contact, int edge, const SurfaceTouching& touching, const Points& x,
                  double moved) const;
   static int end_of(const SurfaceContact& contact, const SurfaceTouching& touching);
@@ -94,7 +124,39 @@ class SurfaceSearch {
   std::vector<int> nodes_;
   std::vector<AxisBox> boxes_;
   BoxTree tree_;
-  std::vector<std::array<int, 2>> ends_;  // nodes that touch each other, in find_nodes_beside
+  std::vector<std::array<int, 2>> ends_;  // nodes that touch each other, of `beside`
 };
+
+template <class Box, class Visit>
+void SurfaceSearch::each_node_and_triangle(Box&& box, Visit&& visit) {
+  boxes_.clear();
+  for (const auto& triangle : triangles_) boxes_.push_back(box(triangle));
+  tree_.build(boxes_);
+  for (const int node : nodes_)
+    tree_.find(box(std::array{node}), [&](int k) {
+      const auto& [a, b, c] = triangles_[k];
+      if (node != a && node != b && node != c) visit(std::array{node, a, b, c});
+    });
+}
+
+template <class Box, class Visit>
+void SurfaceSearch::each_pair_of_edges(Box&& box, Visit&& visit) {
+  boxes_.clear();
+  for (const auto& edge : edges_) boxes_.push_back(box(edge));
+  tree_.build(boxes_);
+  for (std::size_t i = 0; i < edges_.size(); ++i)
+    tree_.find(boxes_[i], [&](int j) {
+      const auto& [a, b] = edges_[i];
+      const auto& [c, d] = edges_[j];
+      const bool apart = a != c && a != d && b != c && b != d;
+      if (static_cast<std::size_t>(j) > i && apart) visit(std::array{a, b, c, d});
+    });
+}
+
+template <class Box, class Visit>
+void SurfaceSearch::each_node_and_edge(Box&& box, Visit&& visit) {
+  ends_.clear();
+  for (const int node : nodes_) tree_.find(box(std::array{node}), [&](int edge) { visit(node, edge); });
+}
 
 }  // namespace pbd

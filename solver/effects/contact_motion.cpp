@@ -57,6 +57,7 @@ void ContactSearch::begin(const SearchedStep& step) {
   near_.clear();
   near_pairs_.clear();
   late_.clear();
+  late_surfaces_.clear();
   left_.clear();
   far_.clear();
   clearance_.begin(step.bodies, step.start, step.straight);

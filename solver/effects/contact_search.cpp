@@ -38,24 +38,34 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
   }
 }
 
-void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
+ActiveContact ContactSearch::of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const {
   const int material = effect_.surface_material;
-  const ContactLaw& law = effect_.law[material * effect_.materials + material];
-  for (const SurfaceContact& found : surface_contacts_) {
-    ActiveContact contact;
-    contact.of_surfaces = true;
-    contact.carrier = {-1, -1};
-    contact.features.point_a = contact.features.point_b = Vec3::Zero();
-    contact.surface = found;
-    contact.law = law;
-    const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
-    contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};
-    const auto number = [](int node) { return static_cast<std::uint64_t>(node); };
-    const std::uint64_t rest = number(found.node[triangle ? 2 : 3]),
-                        other = number(found.node[triangle ? 3 : 1]);
-    contact.features.key =
-        3 * (rest + static_cast<std::uint64_t>(nodes) * other) + static_cast<std::uint64_t>(found.kind);
-    contacts[law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
+  ActiveContact contact;
+  contact.of_surfaces = true;
+  contact.carrier = {-1, -1};
+  contact.features.point_a = contact.features.point_b = Vec3::Zero();
+  contact.surface = found;
+  contact.law = effect_.law[material * effect_.materials + material];
+  const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
+  contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};
+  const auto number = [](int node) { return static_cast<std::uint64_t>(node); };
+  const std::uint64_t rest = number(found.node[triangle ? 2 : 3]),
+                      other = number(found.node[triangle ? 3 : 1]);
+  contact.features.key =
+      3 * (rest + static_cast<std::uint64_t>(nodes) * other) + static_cast<std::uint64_t>(found.kind);
+  return contact;
+}
+
+void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
+  const auto add = [&](const ActiveContact& contact) {
+    contacts[contact.law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
+  };
+  for (const SurfaceContact& found : surface_contacts_) add(of_surfaces(found, nodes));
+  for (const PassedContact& found : late_surfaces_) {
+    ActiveContact contact = of_surfaces(found.contact, nodes);
+    contact.late = true;
+    contact.target = found.target;
+    add(contact);
   }
 }
 

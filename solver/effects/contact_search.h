@@ -160,7 +160,9 @@ class ContactSearch {
   Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
   Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                             const Points& to) const;
+  ActiveContact of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const;
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
+  bool see_passed(const Points& start, const Points& end);
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
@@ -262,8 +264,9 @@ class ContactSearch {
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
   std::vector<SurfaceContact> surface_contacts_;
-  bool surfaces_grown_ = false;      // their nodes go farther than they were searched for
-  std::vector<double> node_travel_;  // m, of each node, where there are surfaces
+  std::vector<PassedContact> passed_, late_surfaces_;  // as `late_`
+  bool surfaces_grown_ = false;                        // their nodes go farther than they were searched for
+  std::vector<double> node_travel_;                    // m, of each node, where there are surfaces
 };
 
 }  // namespace pbd

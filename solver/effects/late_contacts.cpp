@@ -201,11 +201,33 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
   return seen;
 }
 
+/// Adds what deformable surfaces passed or overlap by where a solved iterate ends, as none of their contacts
+/// tells: a surface has no inside by which to see it later.
+bool ContactSearch::see_passed(const Points& start, const Points& end) {
+  if (!surfaces_ || !effect_.surfaces_touch) return false;
+  passed_.clear();
+  const double slack = std::max(overlooked, besides_) * effect_.thickness / 2;
+  surfaces_->find_passed(start, end, effect_.thickness, slack, passed_);
+  const std::size_t before = late_surfaces_.size();
+  for (const PassedContact& found : passed_) {
+    const auto same = [&](const SurfaceContact& other) {
+      return other.kind == found.contact.kind && other.node == found.contact.node;
+    };
+    if (std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same)) continue;
+    if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(),
+                    [&](const PassedContact& other) { return same(other.contact); }))
+      continue;
+    late_surfaces_.push_back(found);
+  }
+  return late_surfaces_.size() > before;
+}
+
 bool ContactSearch::look_again(const Configuration& start, const Configuration& end,
                                const Configuration& free, double tolerance, const ContactLists& contacts) {
   besides_ = std::max(tolerance, least_beside);
   const bool dropped = drop_left(start, end, free, contacts), seen = see_overlaps(start, end, contacts);
-  return dropped || seen;
+  const bool passed = see_passed(start.x, end.x);
+  return dropped || seen || passed;
 }
 
 }  // namespace pbd

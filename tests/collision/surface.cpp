@@ -79,3 +79,48 @@ TEST_CASE("edges that are parallel have no normal, and are no contact but by the
     return contact.kind == SurfaceContact::Kind::edge_edge && contact.node == std::array{0, 1, 2, 3};
   }));
 }
+
+TEST_CASE("what surfaces pass on straight ways is told by the side from which it came") {
+  const Kind kind = GENERATE(Kind::node_triangle, Kind::edge_edge);
+  const bool triangle = kind == Kind::node_triangle;
+  const std::vector<std::array<int, 3>> triangles =
+      triangle ? std::vector<std::array<int, 3>>{{0, 4, 5}, {1, 2, 3}}
+               : std::vector<std::array<int, 3>>{{0, 1, 4}, {2, 3, 5}};
+  Random random(41);
+  int passed = 0, wrong = 0;
+  for (int number = 0; number < 3000; ++number) {
+    Points from(3, 6), to(3, 6);
+    for (int k = 0; k < 4; ++k) {
+      from.col(k) = random.vector();
+      to.col(k) = random.vector();
+    }
+    for (const int k : {4, 5}) from.col(k) = to.col(k) = Vec3(100 * k, 0, 0);
+    // By steps: how often the sign changes where the nearest points lie on both.
+    SurfaceContact contact{.node = {0, 1, 2, 3}, .kind = kind};
+    constexpr int steps = 4000;
+    const auto side_at = [&](int k) { return touching(contact, from + double(k) / steps * (to - from)); };
+    int net = 0;
+    SurfaceTouching before = side_at(0);
+    bool grazes = false;
+    for (int k = 1; k <= steps; ++k) {
+      const SurfaceTouching after = side_at(k);
+      if ((before.gap < 0) != (after.gap < 0)) {
+        const bool on_before = within(before, kind), on_after = within(after, kind);
+        grazes = grazes || on_before != on_after || std::abs(after.gap - before.gap) > 0.1;
+        if (on_before) net += before.gap < 0 ? -1 : 1;
+      }
+      before = after;
+    }
+    if (grazes) continue;
+    std::vector<PassedContact> found;
+    SurfaceSearch(triangles).find_passed(from, to, 0, 1e-9, found);
+    const auto told = std::find_if(found.begin(), found.end(), [&](const PassedContact& each) {
+      return each.contact.kind == kind && each.contact.node == contact.node;
+    });
+    const bool ends_there = net != 0 && (side_at(steps).gap < 0) != (net < 0);
+    passed += ends_there;
+    wrong += (told != found.end()) != ends_there || (ends_there && told->contact.side * net < 0);
+  }
+  CHECK(passed > 100);
+  CHECK(wrong == 0);
+}

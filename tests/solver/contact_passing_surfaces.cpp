@@ -1,0 +1,81 @@
+// Deformable surfaces that would pass each other within a step.
+#include <random>
+
+#include "body_scenes.h"
+#include "contact_runs.h"
+#include "mesh.h"
+#include "surface_depth.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+constexpr double thickness = 2e-3, h = 0.01;
+
+/// A loose sheet that flies at a fixed one of 0.8 m, by `way` a step.
+Scene flight(double way, std::mt19937_64& engine) {
+  std::uniform_real_distribution<> part(-1, 1);
+  const auto random = [&] { return Vec3(part(engine), part(engine), part(engine)); };
+  TriangleMesh target = grid_sheet({4, 4}, {0.8, 0.8}), loose = grid_sheet({2, 2}, {0.2, 0.2});
+  target.x.colwise() -= Vec3(0.4, 0.4, 0);
+  loose.x.colwise() -= Vec3(0.1, 0.1, 0);
+  const Vec3 axis = random();
+  loose.x = (Eigen::AngleAxisd(3 * axis.norm(), axis.normalized()).toRotationMatrix() * loose.x).eval();
+  const double height = 0.15 + 0.5 * way * (1 + part(engine));
+  loose.x.colwise() += Vec3(0.2 * part(engine), 0.2 * part(engine), height);
+  Scene scene;
+  Contact contact;
+  contact.thickness = thickness;
+  contact.law[0].friction = 0.3;
+  for (const bool fixed : {true, false}) {
+    const TriangleMesh& mesh = fixed ? target : loose;
+    const int first = add_sheet_nodes(scene, mesh, 0.5);
+    for (const auto& [a, b, c] : mesh.triangles)
+      contact.triangle.push_back({first + a, first + b, first + c});
+    for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) {
+      const auto node = static_cast<std::size_t>(first + i);
+      if (fixed)
+        scene.mass[node] = infinity;
+      else
+        scene.initial.v.col(first + i) = way / h * (Vec3(0, 0, -1) + 0.1 * random());
+    }
+    if (!fixed) scene.effects.emplace_back(sheet_links(mesh, first, 1e-5));
+  }
+  scene.effects.emplace_back(contact);
+  return scene;
+}
+
+/// That an edge goes through a triangle, or the loose sheet's middle has passed the fixed one.
+bool is_through(const Scene& scene, const State& state) {
+  const auto& triangles = std::get<Contact>(scene.effects.back()).triangle;
+  for (const auto& found : reference::surface_overlaps(triangles, state.x, thickness, 0))
+    if (found.kind == reference::SurfaceOverlap::Kind::through) return true;
+  const Vec3 from = scene.initial.x.rightCols(9).rowwise().mean(), to = state.x.rightCols(9).rowwise().mean();
+  const Vec3 at = from + from.z() / (from.z() - to.z()) * (to - from);
+  return to.z() < 0 && at.head<2>().cwiseAbs().maxCoeff() <= 0.3;
+}
+
+}  // namespace
+
+TEST_CASE("no deformable surface passes another within a solved step") {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<> part(0, 1);
+  int through = 0, solved = 0, stopped = 0;
+  constexpr int flights = 30;
+  for (int k = 0; k < flights; ++k) {
+    const double way = 0.2 * std::pow(10.0, -0.7 + 1.4 * part(engine));  // m, up to five sizes
+    const Scene scene = flight(way, engine);
+    Workspace workspace(scene, contact_method("direct"));
+    State state = scene.initial;
+    if (step(workspace, h, state).status != Status::ok) continue;
+    ++solved;
+    through += is_through(scene, state);
+    const double free = (scene.initial.x + h * scene.initial.v).rightCols(9).row(2).mean();
+    stopped += free < 0 && state.x.rightCols(9).row(2).mean() > 0;
+  }
+  INFO("of " << flights << " solved " << solved << " stopped " << stopped);
+  CHECK(through == 0);
+  CHECK(solved > flights / 2);
+  CHECK(stopped > flights / 5);
+}

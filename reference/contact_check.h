@@ -22,8 +22,8 @@
 // nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
 // step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
-// bounces under other integrators, which place it by more than its velocity at the end, surfaces in each
-// other, and triangles that a body cuts and closed meshes that are in something as a step begins.
+// bounces under other integrators, which place it by more than its velocity at the end, creases of
+// surfaces, and triangles that a body cuts and closed meshes that are in something as a step begins.
 #pragma once
 
 #include "step_claim.h"

@@ -26,16 +26,20 @@ double distance_of_segment(const Vec3& x, const Segment& segment) {
   return (x - segment.from - share * along).norm();
 }
 
-double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
+bool is_over(const Vec3& x, const std::array<Vec3, 3>& corner) {
   const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  bool over = normal.squaredNorm() > 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(normal.dot((corner[(k + 1) % 3] - corner[k]).cross(x - corner[k])) >= 0)) return false;
+  return normal.squaredNorm() > 0;
+}
+
+double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner) {
+  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  if (is_over(x, corner)) return std::abs(normal.dot(x - corner[0]));
   double least = infinity;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &p = corner[k], &q = corner[(k + 1) % 3];
-    over = over && normal.dot((q - p).cross(x - p)) >= 0;
-    least = std::min(least, distance_of_segment(x, {p, q}));
-  }
-  return over ? std::abs(normal.normalized().dot(x - corner[0])) : least;
+  for (std::size_t k = 0; k < 3; ++k)
+    least = std::min(least, distance_of_segment(x, {corner[k], corner[(k + 1) % 3]}));
+  return least;
 }
 
 bool holds(const ClosedMesh& mesh, const Vec3& x) {

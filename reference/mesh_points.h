@@ -14,6 +14,7 @@ std::array<Vec3, 3> corners(const ClosedMesh& mesh, const std::array<int, 3>& tr
 
 /// Of the nearest point (ericson2005collision, 5.1.5).
 double distance_of_segment(const Vec3& x, const Segment& segment);
+bool is_over(const Vec3& x, const std::array<Vec3, 3>& corner);
 double distance_of_triangle(const Vec3& x, const std::array<Vec3, 3>& corner);
 double distance_of_mesh(const ClosedMesh& mesh, const Vec3& x);
 

@@ -33,20 +33,20 @@ double distance_of_segments(const Segment& a, const Segment& b) {
   return least;
 }
 
-bool is_over(const Vec3& x, const std::array<Vec3, 3>& corner) {
-  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(normal.dot((corner[(k + 1) % 3] - corner[k]).cross(x - corner[k])) >= 0)) return false;
-  return normal.squaredNorm() > 0;
-}
-
-/// By more than rounding on both sides: what lies in one plane goes through nothing.
-bool goes_through(const Segment& edge, const std::array<Vec3, 3>& corner) {
+/// m, by which an edge has to move at least to go no longer through the triangle: an end to the plane, or all
+/// of it to a side. Negative where it does not go through by more than rounding, as what lies in one plane.
+double way_out(const Segment& edge, const std::array<Vec3, 3>& corner) {
   constexpr double rounding = 1e-12;  // of a coordinate
+  if (!(crossing(edge, corner) < 1)) return -infinity;
   const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-  const double from = normal.dot(edge.from - corner[0]), to = normal.dot(edge.to - corner[0]);
-  const double size = std::max(edge.from.cwiseAbs().maxCoeff(), edge.to.cwiseAbs().maxCoeff());
-  return std::min(std::abs(from), std::abs(to)) > rounding * size && crossing(edge, corner) < 1;
+  double least = infinity, size = 0;
+  for (const Vec3& x : {edge.from, edge.to}) {
+    least = std::min(least, std::abs(normal.dot(x - corner[0])));
+    size = std::max(size, x.cwiseAbs().maxCoeff());
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    least = std::min(least, distance_of_segments(edge, {corner[k], corner[(k + 1) % 3]}));
+  return least > rounding * size ? least : -infinity;
 }
 
 class Overlaps {
@@ -151,7 +151,7 @@ double depth_of(const SurfaceOverlap& overlap, const Points& x, double thickness
     case Pair::through:
       break;
   }
-  return goes_through({at(0), at(1)}, {at(2), at(3), at(4)}) ? thickness : -infinity;
+  return thickness + way_out({at(0), at(1)}, {at(2), at(3), at(4)});
 }
 
 std::vector<SurfaceOverlap> surface_overlaps(std::span<const std::array<int, 3>> triangles, const Points& x,

@@ -34,6 +34,7 @@ struct SurfaceContact {
   Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
   double thickness = 0;        // m, at which surfaces touch
 
+  bool same_features(const SurfaceContact& other) const { return kind == other.kind && node == other.node; }
   bool of_spheres() const { return kind == Kind::node_edge && node[2] == node[3]; }
 };
 

@@ -18,8 +18,8 @@
 // Limits: impulses act at a step's end alone, under newmark, too, on both bodies at one place, so that they
 // turn nothing together. Nodes go through nodes that they pass in one step. Deformable surfaces touch each
 // other by nodes over triangles and edges that cross, where the nearest points lie on them as the step
-// begins; the side is the one on which it begins. What overlaps from the start stays on the wrong side; a
-// node that comes over an edge or a corner within a step is held by whatever else is near. Bodies touch each
+// begins, and by what they pass or overlap by where a solved iterate ends; the side is the one from which
+// they come. What overlaps from the start stays on the wrong side. Bodies touch each
 // triangle half a thickness from it, by all features of both; features that triangles share count once, and
 // where a body is nearer to a triangle beside them, not at all. `thickness` should be well below the shortest
 // edge; a crease so sharp that its triangles are nearer than that parts them by force, and such steps may not

@@ -80,9 +80,10 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
   const double recovered = target_of(begin, shifts, gap, from, block, i);
-  // Where surfaces began apart, the planes of what they passed may lie anywhere.
-  if (!contact.late || !contact.of_surfaces)
-    contact.target = contact.late ? std::min(contact.target, recovered) : recovered;
+  if (!contact.late)
+    contact.target = recovered;
+  else if (!contact.of_surfaces)  // of these the planes of what they passed may have lain anywhere
+    contact.target = std::min(contact.target, recovered);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   strikes_ = strikes_ || hits(shifts.forced, contact, begin.map.d, ahead, block, i);

@@ -210,14 +210,11 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   surfaces_->find_passed(start, end, effect_.thickness, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
-    const auto same = [&](const SurfaceContact& other) {
-      return other.kind == found.contact.kind && other.node == found.contact.node;
-    };
-    if (std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same)) continue;
-    if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(),
-                    [&](const PassedContact& other) { return same(other.contact); }))
-      continue;
-    late_surfaces_.push_back(found);
+    const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
+    const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
+    if (std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same) &&
+        std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
+      late_surfaces_.push_back(found);
   }
   return late_surfaces_.size() > before;
 }

@@ -47,17 +47,27 @@ TEST_CASE("surfaces: by nodes over triangles, edges that cross, nodes beside edg
   CHECK(aside[0].depth == Approx(thickness - gap).epsilon(1e-12));
   CHECK(!aside[0].crease);
 
-  const auto through = beside({0.2, 0.2, 0.5}, {0.3, 0.3, -0.5}, {0.2, 0.2, 2});
+  // By 0.1 m on both sides, and 0.2 m beside the nearest one of the triangle's.
+  const auto through = beside({0.2, 0.3, 0.1}, {0.2, 0.3, -0.1}, {3, 3, 0.5});
   CHECK(std::count_if(through.begin(), through.end(), [](const auto& found) {
-          return found.kind == Pair::through && found.depth == thickness;
-        }) == 2);  // the edges from below
+          return found.name() == "edge through triangle of nodes 3, 4, 0, 1, 2" &&
+                 std::abs(found.depth - (thickness + 0.1)) <= 1e-15;
+        }) == 1);
   CHECK(beside({0.2, 0.2, 0.5}, {0.3, 0.3, thickness}, {0.2, 0.2, 2}).empty());
 }
 
+TEST_CASE("surfaces: what lies in a triangle's plane but for rounding does not go through it") {
+  const auto found = beside({0.2, 0.3, 1e-17}, {0.4, 0.3, -1e-17}, {3, 3, 0.5});
+  CHECK(!found.empty());  // its nodes are on the triangle
+  CHECK(std::none_of(found.begin(), found.end(),
+                     [](const auto& each) { return each.kind == Pair::through && each.node[0] == 3; }));
+}
+
 TEST_CASE("surfaces: a sheet is in itself nowhere, however it lies, but where its crease is sharp") {
-  TriangleMesh mesh = grid_sheet({6, 6}, {1, 1});
-  for (const double turned : {0.0, 0.3, 1.7}) {
-    mesh.x = (Eigen::AngleAxisd(turned, Vec3(1, 2, 3).normalized()).toRotationMatrix() * mesh.x).eval();
+  TriangleMesh mesh = grid_sheet({10, 10}, {0.6, 0.5});
+  for (int draw = 0; draw < 50; ++draw) {  // other roundings of what lies in one plane
+    mesh.x = (Eigen::AngleAxisd(0.3 * draw, Vec3(1, 2, 3).normalized()).toRotationMatrix() * mesh.x).eval();
+    mesh.x.colwise() += Vec3(0.1, -0.23, 0.17);
     CHECK(surface_overlaps(mesh.triangles, mesh.x, thickness, 0).empty());
   }
   // A node that comes down beside the edge that an edge of its own leads to.

@@ -21,6 +21,7 @@ Scene flight(TriangleMesh loose, const Points& velocity) {
   Contact contact;
   contact.thickness = thickness;
   contact.law[0].friction = 0.3;
+  contact.recovery = 0;
   const auto add = [&](const TriangleMesh& mesh) {
     const int first = add_sheet_nodes(scene, mesh, 0.5);
     for (const auto& [a, b, c] : mesh.triangles)

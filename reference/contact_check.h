@@ -23,7 +23,8 @@
 // have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
 // step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
 // bounces under other integrators, which place it by more than its velocity at the end, creases of
-// surfaces, and triangles that a body cuts and closed meshes that are in something as a step begins.
+// surfaces, and triangles that a body or an edge cuts and closed meshes that are in something as a step
+// begins.
 #pragma once
 
 #include "step_claim.h"

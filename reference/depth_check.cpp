@@ -168,6 +168,10 @@ void Depths::check_surfaces() {
       continue;
     }
     const double before = depth_of(found, claim_.start.x, contact_.thickness);
+    if (found.kind == SurfaceOverlap::Kind::through && before > 0) {
+      findings_.leave_out("depth: surfaces that begin through each other");
+      continue;
+    }
     findings_.require("depth", found.name() + ", m", found.depth,
                       std::max(before, overlooked_ * contact_.thickness / 2) + missed);
   }

@@ -137,6 +137,23 @@ TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carri
   CHECK(refuted(stopped) == Names{"momentum"});
 }
 
+TEST_CASE("contacts: a triangle of a surface that flies through another, unless it began in it") {
+  constexpr double fall = 10;  // m/s
+  for (const auto& [height, passes] : {std::pair{1.5, false}, {0.5, true}, {-0.02, false}}) {
+    Scene scene;
+    Contact contact;
+    contact.thickness = 0.01;
+    for (const Vec3& x : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)}) add_node(scene, x, infinity);
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.1, 0, 1), Vec3(-0.1, 0, 1)})
+      add_node(scene, x + Vec3(0, 0, height * Step::h * fall), 1, Vec3(0, 0, -fall));
+    contact.triangle = {{0, 1, 2}, {3, 4, 5}};
+    scene.effects.emplace_back(contact);
+    Step step(scene);
+    step.move();
+    CHECK(refuted(step) == (passes ? Names{"depth"} : Names{}));
+  }
+}
+
 TEST_CASE("contacts: a box's edge that comes down across a cylinder's rim is deep by what it went on") {
   // The edge leads along (-1, 2, 1) through the rim's (radius, 0, half), whose tangent is y: n is across
   // both.

@@ -31,7 +31,11 @@ bool collide(StepSystem& system, double accuracy) {
 /// Rounds in a row that find other rows and leave the iterate where it is: it will call for the same again.
 constexpr int most_in_place = 10;
 
-constexpr double nearly = 1e-4;  // of the scale: solved far enough to tell what else is met
+/// Of the scale: solved far enough to tell what else is met.
+double nearly(const Method& method) {
+  constexpr double least = 1e-4, coarser = 10;  // times the tolerance
+  return std::max(least, coarser * method.tolerance);
+}
 
 /// One step in the making.
 struct StepRun {
@@ -39,7 +43,8 @@ struct StepRun {
   Levels levels{};
   Progress progress{};
   Report report{};
-  bool looked = false;  // for other rows than these
+  double first_of_rows = 0;  // residual, sqrt(J)
+  bool looked = false;       // for other rows than these
 
   void begin(double h, const State& state);
   void solve(const Observer& observer);
@@ -96,10 +101,12 @@ bool StepRun::settle_here(bool stalled) {
   return false;
 }
 
-/// True once of these rows, where the iterate is nearly solved: others that it calls for need not wait.
+/// True once of these rows, where the iterate is nearly solved and much nearer than it began: others that it
+/// calls for need not wait.
 bool StepRun::looks_early() {
-  if (looked || w.method.tolerance >= nearly || on_potential(w.outer)) return false;
-  looked = progress.iterations_of_rows > 0 && progress.residual() <= nearly * progress.scale;
+  constexpr double fallen = 0.1;
+  if (looked) return false;
+  looked = progress.residual() <= std::min(nearly(w.method) * progress.scale, fallen * first_of_rows);
   return looked;
 }
 
@@ -116,6 +123,7 @@ void StepRun::begin_rows() {
   w.best_early.residual = w.best.residual = levels.last_residual = infinity;
   w.previous = w.system.at.v;
   measure_here();
+  first_of_rows = progress.residual();
   levels.first = std::max({levels.first, progress.residual(), progress.scale});
 }
 
@@ -132,9 +140,12 @@ void StepRun::solve(const Observer& observer) {
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, w.previous);
     const bool stalled = stalls();
-    const bool ended = finished(w.method, levels, progress, report) || settle_here(stalled);
+    // What other rows change is not told by an iterate that they were found at.
+    const bool fresh = solved_anew > 0 && progress.iterations_of_rows == 0 &&
+                       progress.outer_iterations < w.method.max_outer;
+    const bool ended = !fresh && (finished(w.method, levels, progress, report) || settle_here(stalled));
     if (ended && report.status == Status::ok && find_other_rows()) {
-      in_place = progress.iterations_of_rows == 0 ? in_place + 1 : 0;
+      in_place = progress.iterations_of_rows <= 1 ? in_place + 1 : 0;
       forget(w.outer);
       begin_rows();
       if (++solved_anew <= w.method.max_outer && in_place < most_in_place) continue;
@@ -145,7 +156,7 @@ void StepRun::solve(const Observer& observer) {
       report.reason = "a joint turns a body by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
-    if (looks_early() && w.history.widen(system, nearly) && ++solved_anew <= w.method.max_outer) {
+    if (looks_early() && w.history.widen(system, nearly(w.method)) && ++solved_anew <= w.method.max_outer) {
       forget(w.outer);
       begin_rows();
       continue;

@@ -183,9 +183,11 @@ struct PolyhedronPair {
   void write_axis(const PolyhedronAxis& edges) const {
     const Segment of_a = segment(a, edges.i), of_b = segment(b, edges.j);
     const Nearest at = nearest(of_a, of_b);
-    writer.write(
-        on_edges(of_a.at(at.s), of_a.along, a.radius, of_b.at(at.t), of_b.along, b.radius, edges.normal),
-        writer.key(Feature::edge, edges.i, Feature::edge, edges.j), edges.apart - radii);
+    const Vec3 y_a = of_a.at(at.s), y_b = of_b.at(at.t);
+    const bool crossed = of_a.along.cross(of_b.along).norm() >= crossing_sine;
+    writer.write(crossed ? on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, edges.normal)
+                         : on_face(y_a, a.radius, y_b, edges.normal, b.radius),
+                 writer.key(Feature::edge, edges.i, Feature::edge, edges.j), edges.apart - radii);
   }
 
   /// The deepest node below the face, wherever its sides are.

@@ -1,5 +1,6 @@
 #include "contact_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -56,6 +57,35 @@ void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSla
     findings.require("open contact", name, larger(c.gap, proved), slack);
 }
 
+/// m, of a point from the nearest triangle that has not the node, less the triangle's longest side.
+double beside_surface(const StepClaim& claim, const Contact& contact, const Vec3& point, int without) {
+  double least = infinity;
+  Points corners(3, 3);
+  for (const auto& nodes : contact.triangle) {
+    if (std::find(nodes.begin(), nodes.end(), without) != nodes.end()) continue;
+    for (int k = 0; k < 3; ++k) corners.col(k) = claim.end.x.col(nodes[static_cast<std::size_t>(k)]);
+    const Vec3 a = corners.col(0), b = corners.col(1), c = corners.col(2);
+    const double side =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    if ((point - a).norm() - 2 * side < least)
+      least = std::min(least, distance(Points(point), corners).proved - side);
+  }
+  return least;
+}
+
+/// What a surface is pushed by acts where it is, or beside it by no more than a triangle.
+void check_place(const StepClaim& claim, const Contact& contact, const ClaimedContact& c,
+                 const ContactSlack& open, const Sides& sides, Findings& findings) {
+  if (contact.triangle.empty() || !(open.normal * claim.h > open.impulse)) return;
+  const auto node_of = [&](std::size_t k) { return c.collider[k] - sides.count(); };
+  const double allowed = contact.thickness + std::abs(c.gap) +
+                         step_rounding * (claim.end.x.cwiseAbs().maxCoeff() + c.point.norm());
+  for (const std::size_t k : {0, 1})
+    if (node_of(k) >= 0)
+      findings.require("place of contact", name_of(c.collider[0], c.collider[1]) + ", from its surface, m",
+                       beside_surface(claim, contact, c.point, node_of(1 - k)), allowed);
+}
+
 void check_sliding(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, Findings& findings) {
   const double mu = open.law.friction;
@@ -79,6 +109,7 @@ void check_contacts(const StepClaim& claim, const Contact& contact, double level
     const ContactSlack open = slack_of(claim, claimed, sides, level);
     check_force(claim, claimed, open, findings);
     check_gap(claim, claimed, open, sides, findings);
+    check_place(claim, contact, claimed, open, sides, findings);
     check_sliding(claim, claimed, open, sides, findings);
   }
 }

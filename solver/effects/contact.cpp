@@ -109,8 +109,9 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
     for (std::size_t i = 0; i < block.size(); ++i) most = std::max(most, block.impulse[i][0]);
   });
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
+    // Far beside its features a contact of surfaces moves nodes by many times its impulse.
     for (std::size_t i = 0; i < block.size(); ++i)
-      contacts[i].acts = block.impulse[i][0] > begin.tolerance * most;
+      contacts[i].acts = block.impulse[i][0] > (contacts[i].of_surfaces ? 0 : begin.tolerance * most);
   });
   const Configuration free{free_.x, free_.pose, begin.at.time};
   const bool farther = search_.extend(searched_step(begin), reached.x);

@@ -59,6 +59,7 @@ void ContactSearch::begin(const SearchedStep& step) {
   late_.clear();
   late_surfaces_.clear();
   left_.clear();
+  left_surfaces_.clear();
   far_.clear();
   clearance_.begin(step.bodies, step.start, step.straight);
   clear_ = clearance_.holds(step.bodies, step.start, step.free);

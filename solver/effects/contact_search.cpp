@@ -60,10 +60,12 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
   const auto add = [&](const ActiveContact& contact) {
     contacts[contact.law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
   };
-  for (const SurfaceContact& found : surface_contacts_) add(of_surfaces(found, nodes));
+  for (const SurfaceContact& found : surface_contacts_)
+    if (!is_left(found)) add(of_surfaces(found, nodes));
   std::erase_if(late_surfaces_, [&](const PassedContact& late) {  // near by now: it went farther
-    return std::any_of(surface_contacts_.begin(), surface_contacts_.end(),
-                       [&](const SurfaceContact& found) { return found.same_features(late.contact); });
+    return std::any_of(surface_contacts_.begin(), surface_contacts_.end(), [&](const SurfaceContact& found) {
+      return found.same_features(late.contact) && !is_left(found);
+    });
   });
   for (const PassedContact& found : late_surfaces_) {
     ActiveContact contact = of_surfaces(found.contact, nodes);

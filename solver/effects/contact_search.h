@@ -43,6 +43,7 @@
 #include <set>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "collision/bounds.h"
@@ -232,6 +233,12 @@ class ContactSearch {
                    std::vector<ActiveContact>& contacts);
   void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                     const Configuration& end, const Configuration& free);
+  static std::pair<SurfaceContact::Kind, std::array<int, 4>> features_of(const SurfaceContact& contact) {
+    return {contact.kind, contact.node};
+  }
+  bool is_left(const SurfaceContact& contact) const { return left_surfaces_.contains(features_of(contact)); }
+  bool leaves(const ActiveContact& contact, const Points& x) const;
+  bool drop_left_surfaces(const Points& x, const ContactLists& contacts);
   bool drop_left(const Configuration& start, const Configuration& end, const Configuration& free,
                  const ContactLists& contacts);
 
@@ -250,6 +257,7 @@ class ContactSearch {
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
+  std::set<std::pair<SurfaceContact::Kind, std::array<int, 4>>> left_surfaces_;  // likewise
   std::vector<std::array<int, 2>> dropped_;  // pairs that contacts have just left
   Points between_x_;  // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;

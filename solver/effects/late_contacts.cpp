@@ -210,8 +210,12 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   surfaces_->find_passed(start, end, effect_.thickness, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
-    const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
-    const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
+    const auto same = [&](const SurfaceContact& other) {
+      return other.same_features(found.contact) && !is_left(other);
+    };
+    const auto same_late = [&](const PassedContact& other) {
+      return other.contact.same_features(found.contact);
+    };
     if (std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same) &&
         std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
       late_surfaces_.push_back(found);

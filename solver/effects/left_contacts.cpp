@@ -191,6 +191,30 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
   }
 }
 
+/// True of a contact of surfaces that acts farther beside its features than these are long: of lines that are
+/// nearly parallel the nearest points lie anywhere, and forces there grow with their distance.
+bool ContactSearch::leaves(const ActiveContact& contact, const Points& x) const {
+  constexpr double most_beside = 1;  // of a feature
+  return contact.of_surfaces && contact.acts && !(contact.restitution > 0) &&
+         !pbd::on_features(touching(contact.surface, x), contact.surface.kind, most_beside);
+}
+
+/// True if contacts of surfaces are left out of the rest of the step: what they held may pass, and is seen
+/// to.
+bool ContactSearch::drop_left_surfaces(const Points& x, const ContactLists& contacts) {
+  bool any = false;
+  for (const auto& list : contacts)
+    for (const ActiveContact& contact : list) {
+      if (!leaves(contact, x)) continue;
+      any = true;
+      left_surfaces_.insert(features_of(contact.surface));
+      if (contact.late)
+        std::erase_if(late_surfaces_,
+                      [&](const PassedContact& late) { return late.contact.same_features(contact.surface); });
+    }
+  return any;
+}
+
 /// True if contacts act where their features are not, or state them as they are not: they are left out of the
 /// rest of the step, and `find` has their pairs looked at again. What then overlaps by the same features
 /// keeps them.
@@ -226,7 +250,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
     if (!of_pair.empty()) add_touching(of_pair, start, end, free);
   }
   std::sort(dropped_.begin(), dropped_.end());
-  return !dropped_.empty();
+  return drop_left_surfaces(end.x, contacts) || !dropped_.empty();
 }
 
 }  // namespace pbd

@@ -141,8 +141,8 @@ void StepRun::solve(const Observer& observer) {
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, w.previous);
     const bool stalled = stalls();
     // What other rows change is not told by an iterate that they were found at.
-    const bool fresh = solved_anew > 0 && progress.iterations_of_rows == 0 &&
-                       progress.outer_iterations < w.method.max_outer;
+    const bool fresh =
+        solved_anew > 0 && progress.iterations_of_rows == 0 && progress.outer_iterations < w.method.max_outer;
     const bool ended = !fresh && (finished(w.method, levels, progress, report) || settle_here(stalled));
     if (ended && report.status == Status::ok && find_other_rows()) {
       in_place = progress.iterations_of_rows <= 1 ? in_place + 1 : 0;

@@ -242,3 +242,24 @@ TEST_CASE("no two pairs of features share a key, and the order of the shapes mak
   std::sort(keys.begin(), keys.end());
   CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
 }
+
+// Two boxes on edge, 2 mm in each other by upright edges that cross at 0.05 rad; the one then comes to be
+// nearly parallel and 1 mm aside: the edges' lines cross 10 m off.
+TEST_CASE("upright edges in each other touch on their boxes, however they turn") {
+  const Box box{Vec3::Constant(0.2)};
+  const Frame at_a = turned(pi / 4, Vec3::UnitZ(), Vec3::Zero());
+  const auto leaning = [&](double angle, double aside) {
+    const Frame upright = turned(pi / 4, Vec3::UnitZ(), {});
+    return Frame{Vec3(0.2 * std::numbers::sqrt2 - 2e-3, aside, 0),
+                 Eigen::AngleAxisd(angle, Vec3::UnitX()) * upright.rotation};
+  };
+  bool across = false;
+  for (const ContactPoint& contact : contacts(box, at_a, box, leaning(0.05, 0), 0.0)) {
+    const Touching begun = touch(contact, at_a, leaning(0.05, 0)),
+                   parallel = touch(contact, at_a, leaning(1e-4, 1e-3));
+    across |= std::abs(std::abs(begun.normal.x()) - 1) < 1e-9;
+    INFO("normal " << begun.normal.transpose() << " at " << parallel.point_a.transpose());
+    CHECK(parallel.point_a.norm() <= 0.2 * std::numbers::sqrt3 / 2 + 0.01);
+  }
+  CHECK(across);
+}

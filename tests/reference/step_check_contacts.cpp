@@ -135,6 +135,12 @@ TEST_CASE("contacts: a ball in a triangle of a surface, and what a surface carri
   CHECK(refuted(stopped).empty());
   stopped.contacts[0].force *= 1.001;
   CHECK(refuted(stopped) == Names{"momentum"});
+  stopped.contacts[0].force /= 1.001;
+  const double side = std::sqrt(2.0);  // m, the longest of the triangle
+  stopped.contacts[0].point.x() = -side - 0.9 * thickness;
+  CHECK(refuted(stopped).count("place of contact") == 0);
+  stopped.contacts[0].point.x() = -side - 1.1 * thickness;
+  CHECK(refuted(stopped).count("place of contact") == 1);
 }
 
 TEST_CASE("contacts: a triangle of a surface that flies through another, unless it began in it") {

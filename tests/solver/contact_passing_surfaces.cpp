@@ -106,3 +106,19 @@ TEST_CASE("a sheet that slides over the border of another and too near to its pl
     CHECK(reference::surface_overlaps(triangles, state.x, thickness, missed).empty());
   }
 }
+
+// One on edge over the other, 1 mm above touch, crossed by 0.01 rad: by 50 mm beside they cross 5 m off.
+TEST_CASE("edges that are nearly parallel do not hold triangles that have parted sideways") {
+  Scene scene;
+  Contact contact;
+  contact.thickness = thickness;
+  for (const Vec3& x : {Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 0, -1)}) add_node(scene, x, infinity);
+  for (const Vec3& x : {Vec3(-0.4, -0.004, 0), Vec3(0.4, 0.004, 0), Vec3(0, 0, 1)})
+    add_node(scene, x + Vec3(0, 0, thickness + 1e-3), 1, Vec3(0, 5, -1));
+  contact.triangle = {{0, 1, 2}, {3, 4, 5}};
+  scene.effects.emplace_back(contact);
+  Workspace workspace(scene, contact_method("direct"));
+  State state = scene.initial;
+  REQUIRE(step(workspace, h, state).status == Status::ok);
+  CHECK((state.v - scene.initial.v).norm() <= 1e-12);
+}

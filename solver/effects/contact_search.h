@@ -215,6 +215,7 @@ class ContactSearch {
                   double apart, double& overlapping);
   bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
   void add_late(const ActiveContact& found, double target);
+  bool is_told(const ActiveContact& found, const Configuration& at);
   bool see_overlaps(const Configuration& start, const Configuration& end, const ContactLists& contacts);
 
   // Contacts that leave their features: left_contacts.cpp.

@@ -175,6 +175,12 @@ void ContactSearch::add_late(const ActiveContact& found, double target) {
   contact.target = target;
 }
 
+/// True if a late contact says the same: what it leaves is the tolerance's.
+bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at) {
+  const auto known = late_contact({found.pair(), found.features.key});
+  return known != late_.end() && agree(*known, found, at, beside(found.pair()));
+}
+
 bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,
                                  const ContactLists& contacts) {
   if (far_.empty()) return false;
@@ -192,6 +198,9 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
     // What a contact that has just been dropped did is not where the pair will be.
     if (std::binary_search(dropped_.begin(), dropped_.end(), pair.collider)) continue;
     if (!find_overlapping(pair, start, end)) continue;
+    const bool unexplained = overlapping_.empty();
+    std::erase_if(overlapping_, [&](const ActiveContact& found) { return is_told(found, end); });
+    if (!unexplained && overlapping_.empty()) continue;
     seen = true;
     for (const ActiveContact& found : overlapping_) {
       const double began = begins_cut(pair) ? touching_at(found, start).gap : pair.deepest;

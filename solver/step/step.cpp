@@ -145,7 +145,8 @@ void StepRun::solve(const Observer& observer) {
         solved_anew > 0 && progress.iterations_of_rows == 0 && progress.outer_iterations < w.method.max_outer;
     const bool ended = !fresh && (finished(w.method, levels, progress, report) || settle_here(stalled));
     if (ended && report.status == Status::ok && find_other_rows()) {
-      in_place = progress.iterations_of_rows <= 1 ? in_place + 1 : 0;
+      const bool stayed = first_of_rows <= w.method.tolerance * progress.scale;
+      in_place = stayed ? in_place + 1 : 0;
       forget(w.outer);
       begin_rows();
       if (++solved_anew <= w.method.max_outer && in_place < most_in_place) continue;
@@ -156,7 +157,8 @@ void StepRun::solve(const Observer& observer) {
       report.reason = "a joint turns a body by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
-    if (looks_early() && w.history.widen(system, nearly(w.method)) && ++solved_anew <= w.method.max_outer) {
+    if (solved_anew < w.method.max_outer && looks_early() && w.history.widen(system, nearly(w.method))) {
+      ++solved_anew;
       forget(w.outer);
       begin_rows();
       continue;

@@ -34,7 +34,8 @@
 // where these have come to be in each other by other features, or along its normal. Its pair is looked at
 // again from then on, along the way from the start, too, so that nothing thin is passed for it. What takes
 // its place is as far apart there as it is: what slides under the convex law hovers. A contact of two edges
-// that is stated as a plane is stated as the edges.
+// that is stated as a plane is stated as the edges. Of deformable surfaces only what acts farther beside its
+// features than these are long leaves; what then passes or overlaps is found where the step ends.
 #pragma once
 
 #include <array>

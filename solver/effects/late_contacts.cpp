@@ -175,10 +175,12 @@ void ContactSearch::add_late(const ActiveContact& found, double target) {
   contact.target = target;
 }
 
-/// True if a late contact says the same: what it leaves is the tolerance's.
+/// True if a late contact says the same of what overlaps: what it leaves is the tolerance's. Not so where
+/// ways are looked at: what has passed is no overlap that is left.
 bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at) {
   const auto known = late_contact({found.pair(), found.features.key});
-  return known != late_.end() && agree(*known, found, at, beside(found.pair()));
+  return !effect_.continuous && known != late_.end() && touching_at(*known, at).gap < 0 &&
+         agree(*known, found, at, beside(found.pair()));
 }
 
 bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,

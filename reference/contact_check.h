@@ -11,9 +11,8 @@
 //            normal, that they had where the step began: h |u_n1 + e u_n0| is at most that of `open`
 //   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
-//   place    what acts on a deformable surface is no farther from a triangle of it than the thickness, the
-//   gap
-//            told and the triangle's longest side: its features may go on as planes and lines by that
+//   place    what acts on a deformable surface is no farther from one of its triangles than the thickness,
+//            the gap told and the triangle's longest side, by which features may go on as planes and lines
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (`round` of support.h), whichever is more, and (1 + mu) s h: with each

@@ -87,6 +87,8 @@ struct PolyhedronPair {
     return {core.node(core.edge(e).node[0]), core.along[e], core.length[e]};
   }
 
+  bool crossed(int i, int j) const { return a.along[i].cross(b.along[j]).norm() >= crossing_sine; }
+
   /// The nearest points of edges that are nearer than the limit, along the normal of a plane between a and b.
   bool nearest_edges(const Vec3& normal, int& best_i, int& best_j, Nearest& best) const {
     double top = -infinity, least = limit * limit;
@@ -128,7 +130,7 @@ struct PolyhedronPair {
     const bool a_ends = end_a >= 0, b_ends = end_b >= 0;
     const auto key = writer.key(a_ends ? Feature::node : Feature::edge, a_ends ? end_a : i,
                                 b_ends ? Feature::node : Feature::edge, b_ends ? end_b : j);
-    if (!a_ends && !b_ends && of_a.along.cross(of_b.along).norm() >= crossing_sine)
+    if (!a_ends && !b_ends && crossed(i, j))
       return writer.rewrite(on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, at.apart), key,
                             gap);
     if (radii == 0 && distance > 0)
@@ -184,9 +186,10 @@ struct PolyhedronPair {
     const Segment of_a = segment(a, edges.i), of_b = segment(b, edges.j);
     const Nearest at = nearest(of_a, of_b);
     const Vec3 y_a = of_a.at(at.s), y_b = of_b.at(at.t);
-    const bool crossed = of_a.along.cross(of_b.along).norm() >= crossing_sine;
-    writer.write(crossed ? on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, edges.normal)
-                         : on_face(y_a, a.radius, y_b, edges.normal, b.radius),
+    // Sharp ones alone: of a rounded triangle, which bends, a plane is its own.
+    const bool as_lines = crossed(edges.i, edges.j) || radii > 0;
+    writer.write(as_lines ? on_edges(y_a, of_a.along, a.radius, y_b, of_b.along, b.radius, edges.normal)
+                          : on_face(y_a, 0, y_b, edges.normal, 0),
                  writer.key(Feature::edge, edges.i, Feature::edge, edges.j), edges.apart - radii);
   }
 
@@ -216,7 +219,8 @@ struct PolyhedronPair {
     if (edges.apart > limit) return;
     const bool across = edges.apart > flat.apart + tiny;
     const PolyhedronAxis& axis = across ? edges : flat;
-    if (across && (edges.apart <= tiny || nearest_inside(edges))) write_axis(edges);
+    if (across && (edges.apart <= tiny || (crossed(edges.i, edges.j) && nearest_inside(edges))))
+      write_axis(edges);
     if (flat.j >= 0) {
       const double floor = axis.apart - radii - tiny;
       if (b_refers)

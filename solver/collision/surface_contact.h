@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "box_tree.h"
@@ -34,7 +35,8 @@ struct SurfaceContact {
   Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
   double thickness = 0;        // m, at which surfaces touch
 
-  bool same_features(const SurfaceContact& other) const { return kind == other.kind && node == other.node; }
+  std::pair<Kind, std::array<int, 4>> features() const { return {kind, node}; }
+  bool same_features(const SurfaceContact& other) const { return features() == other.features(); }
   bool of_spheres() const { return kind == Kind::node_edge && node[2] == node[3]; }
 };
 

@@ -109,7 +109,7 @@ Widened ContactRows::widen(const StepBegin& begin, const Configuration& reached,
     for (std::size_t i = 0; i < block.size(); ++i) most = std::max(most, block.impulse[i][0]);
   });
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
-    // Far beside its features a contact of surfaces moves nodes by many times its impulse.
+    // Of surfaces by any impulse: far beside its features a contact moves nodes by many times its own.
     for (std::size_t i = 0; i < block.size(); ++i)
       contacts[i].acts = block.impulse[i][0] > (contacts[i].of_surfaces ? 0 : begin.tolerance * most);
   });

@@ -63,9 +63,9 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
   for (const SurfaceContact& found : surface_contacts_)
     if (!is_left(found)) add(of_surfaces(found, nodes));
   std::erase_if(late_surfaces_, [&](const PassedContact& late) {  // near by now: it went farther
-    return std::any_of(surface_contacts_.begin(), surface_contacts_.end(), [&](const SurfaceContact& found) {
-      return found.same_features(late.contact) && !is_left(found);
-    });
+    return !is_left(late.contact) &&
+           std::any_of(surface_contacts_.begin(), surface_contacts_.end(),
+                       [&](const SurfaceContact& found) { return found.same_features(late.contact); });
   });
   for (const PassedContact& found : late_surfaces_) {
     ActiveContact contact = of_surfaces(found.contact, nodes);

@@ -235,10 +235,7 @@ class ContactSearch {
                    std::vector<ActiveContact>& contacts);
   void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
                     const Configuration& end, const Configuration& free);
-  static std::pair<SurfaceContact::Kind, std::array<int, 4>> features_of(const SurfaceContact& contact) {
-    return {contact.kind, contact.node};
-  }
-  bool is_left(const SurfaceContact& contact) const { return left_surfaces_.contains(features_of(contact)); }
+  bool is_left(const SurfaceContact& contact) const { return left_surfaces_.contains(contact.features()); }
   bool leaves(const ActiveContact& contact, const Points& x) const;
   bool drop_left_surfaces(const Points& x, const ContactLists& contacts);
   bool drop_left(const Configuration& start, const Configuration& end, const Configuration& free,

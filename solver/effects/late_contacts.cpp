@@ -175,8 +175,8 @@ void ContactSearch::add_late(const ActiveContact& found, double target) {
   contact.target = target;
 }
 
-/// True if a late contact says the same of what overlaps: what it leaves is the tolerance's. Not so where
-/// ways are looked at: what has passed is no overlap that is left.
+/// True if a late contact says the same of what overlaps: its row is solved, and the tolerance leaves the
+/// rest. Under `continuous` contact what is found may have passed, which no row's residual tells.
 bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at) {
   const auto known = late_contact({found.pair(), found.features.key});
   return !effect_.continuous && known != late_.end() && touching_at(*known, at).gap < 0 &&
@@ -221,13 +221,9 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   surfaces_->find_passed(start, end, effect_.thickness, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
-    const auto same = [&](const SurfaceContact& other) {
-      return other.same_features(found.contact) && !is_left(other);
-    };
-    const auto same_late = [&](const PassedContact& other) {
-      return other.contact.same_features(found.contact);
-    };
-    if (std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same) &&
+    const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
+    const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
+    if ((is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
         std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
       late_surfaces_.push_back(found);
   }

@@ -199,15 +199,14 @@ bool ContactSearch::leaves(const ActiveContact& contact, const Points& x) const 
          !pbd::on_features(touching(contact.surface, x), contact.surface.kind, most_beside);
 }
 
-/// True if contacts of surfaces are left out of the rest of the step: what they held may pass, and is seen
-/// to.
+/// True if contacts of surfaces leave the step. What they held and then passes, or overlaps, is found late.
 bool ContactSearch::drop_left_surfaces(const Points& x, const ContactLists& contacts) {
   bool any = false;
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       if (!leaves(contact, x)) continue;
       any = true;
-      left_surfaces_.insert(features_of(contact.surface));
+      left_surfaces_.insert(contact.surface.features());
       if (contact.late)
         std::erase_if(late_surfaces_,
                       [&](const PassedContact& late) { return late.contact.same_features(contact.surface); });

@@ -140,7 +140,7 @@ void StepRun::solve(const Observer& observer) {
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, w.previous);
     const bool stalled = stalls();
-    // What other rows change is not told by an iterate that they were found at.
+    // The rows have just been found: the iterate is the solution of others.
     const bool fresh =
         solved_anew > 0 && progress.iterations_of_rows == 0 && progress.outer_iterations < w.method.max_outer;
     const bool ended = !fresh && (finished(w.method, levels, progress, report) || settle_here(stalled));

@@ -140,10 +140,7 @@ void StepRun::solve(const Observer& observer) {
     progress.last_change = progress.change;
     progress.change = mass_distance(system.problem.inverse_mass, system.at.v, w.previous);
     const bool stalled = stalls();
-    // The rows have just been found: the iterate is the solution of others.
-    const bool fresh =
-        solved_anew > 0 && progress.iterations_of_rows == 0 && progress.outer_iterations < w.method.max_outer;
-    const bool ended = !fresh && (finished(w.method, levels, progress, report) || settle_here(stalled));
+    const bool ended = finished(w.method, levels, progress, report) || settle_here(stalled);
     if (ended && report.status == Status::ok && find_other_rows()) {
       const bool stayed = first_of_rows <= w.method.tolerance * progress.scale;
       in_place = stayed ? in_place + 1 : 0;

@@ -10,6 +10,7 @@ import contact_contraction  # noqa: F401
 import contact_convergence  # noqa: F401
 import contraction  # noqa: F401
 import damping  # noqa: F401
+import default_method  # noqa: F401
 import direction  # noqa: F401
 import dual_vs_primal  # noqa: F401
 import effects_cost  # noqa: F401

@@ -57,7 +57,7 @@ def trajectories(directory):
     for scene, friction, bar, truth in (("pendulum", "none", 1e-14, "ODE of order 8"),
                                         ("pile", "coulomb", 1e-4, "640 steps by newmark, auto, direct, tolerance 1e-10")):
         for integrator, order in (("implicit_euler", 1), ("newmark", 1), ("bdf2", 2)):
-            for outer, relaxation, count in (("auto", "direct", 0), ("auto", "gauss_seidel", 0), ("incremental", "gauss_seidel", 10)):
+            for outer, relaxation, count in (("auto", "direct", 0), ("auto", "conjugate_gradients", 0), ("incremental", "gauss_seidel", 10)):
                 for step in (0.1, 0.01, 0.001, 0.0001):
                     for tolerance in (0,) if count else (1e-2, 1e-8):
                         skipped = integrator == "bdf2" and friction != "none"

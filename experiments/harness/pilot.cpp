@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include "error.h"
 #include "outer/outer_names.h"
@@ -27,6 +30,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+bool quicker(const PilotRun& a, const PilotRun& b) {
+  return a.wall_s < b.wall_s;
+}
+
 Method usual_method(const SceneFile& file, const std::string& integrator, double tolerance) {
   Method method = file.method;
   method.integrator = integrator;
@@ -36,23 +43,29 @@ Method usual_method(const SceneFile& file, const std::string& integrator, double
   return method;
 }
 
+/// s, of a pilot: to be halved three times.
+double least_duration(const SceneFile& file) {
+  return std::min(static_cast<double>(file.steps), 8.0) * file.step_s;
+}
+
 /// s, a whole number of the scene's steps: what `wall_s` seconds simulate of it.
 double affordable(const SceneFile& file, double wall_s) {
   const double all = static_cast<double>(file.steps) * file.step_s;
   Setting setting{usual_method(file, file.method.integrator, file.method.tolerance), file.steps, true};
   const Trajectory probe = trajectory(file, all, setting, {.wall_s = wall_s});
   const double steps = std::floor(probe.end.time / probe.wall_s * wall_s / file.step_s);
-  return std::clamp(steps * file.step_s, std::min(all, 8 * file.step_s), all);  // 8: to be halved three times
+  return std::clamp(steps * file.step_s, least_duration(file), all);
 }
 
-/// Ever finer until a third of `error` can be told or the next level would not end within `seconds`. Its
-/// steps are solved to a thousandth of that error.
+/// Ever finer, of steps that are solved to a thousandth of `error`, until a third of it can be told; ends
+/// where what a run can be told to meet would take more than `seconds`, its bar being of first order.
 Truth sharp_truth(const SceneFile& file, double duration, double error, double seconds, std::int64_t& steps) {
   const Stopwatch all;
   for (;; steps *= 2) {
     const Stopwatch level;
     Truth truth = pilot_truth(file, duration, error, steps);
-    if (truth.told(0) <= error / 3 || all.seconds() + 2 * level.seconds() > seconds) return truth;
+    const double next = level.seconds() * std::max(2.0, truth.least_met() / error);
+    if (truth.told(0) <= error / 3 || !(all.seconds() + next <= seconds)) return truth;
   }
 }
 
@@ -60,60 +73,96 @@ class Search {
  public:
   Search(const SceneFile& file, double error, double seconds)
       : file_(file), error_(error), seconds_(seconds) {
-    pilot_.duration = affordable(file, share_of_probe * seconds);
-    pilot_.truth_steps = 2 * std::lround(pilot_.duration / file.step_s);
-    pilot_.truth = sharp_truth(file, pilot_.duration, error, seconds / 2, pilot_.truth_steps);
+    double duration = affordable(file, share_of_probe * seconds);
+    for (bool first = true;; first = false) {
+      std::int64_t steps = 2 * std::lround(duration / file.step_s);
+      const Truth truth = sharp_truth(file, duration, error, seconds / 2 - watch_.seconds(), steps);
+      if (first || truth.error_bar < pilot_.truth.error_bar) {
+        pilot_.duration = duration;
+        pilot_.truth_steps = steps;
+        pilot_.truth = truth;
+      }
+      if (truth.least_met() <= error || duration <= least_duration(file) || watch_.seconds() > seconds / 2)
+        break;
+      duration = std::max(std::round(duration / file.step_s / 2) * file.step_s, least_duration(file));
+    }
   }
 
   Pilot run() {
-    std::vector<std::string> open;
-    for (const Integrator& integrator : integrators()) open.emplace_back(integrator.name);
-    // Longest steps first, and of each step the default pair at a middling tolerance first of all.
-    for (std::int64_t steps = fewest_steps(file_, pilot_.duration); !open.empty() && pilot_.complete;
-         steps *= 2)
-      std::erase_if(open, [&](const std::string& integrator) { return settled(integrator, steps); });
-    std::sort(pilot_.met.begin(), pilot_.met.end(),
-              [](const PilotRun& a, const PilotRun& b) { return a.wall_s < b.wall_s; });
+    steps_ = fewest_steps(file_, pilot_.duration);
+    while (8 * steps_ <= pilot_.truth_steps) steps_ *= 2;
+    for (const Integrator& integrator : integrators()) try_steps(std::string(integrator.name));
+    while (descends()) {
+    }
+    std::sort(pilot_.met.begin(), pilot_.met.end(), quicker);
     return std::move(pilot_);
   }
 
  private:
-  /// True if shorter steps by this integrator cannot be the answer.
-  bool settled(const std::string& integrator, std::int64_t steps) {
-    const Setting usual{usual_method(file_, integrator, pilot_tolerances[2]), steps};
-    try {
-      const Outcome outcome = measure_setting(usual);
-      if (outcome == Outcome::slow) return true;
-      if (outcome == Outcome::missed) return !pilot_.complete;
-    } catch (const SetupError&) {  // not for this scene
-      return true;
-    }
-    try_others(usual, steps);
-    // Where the default pair missed the error by little, or its tolerance, another one may meet it.
-    if (steps / 2 >= fewest_steps(file_, pilot_.duration)) try_others(usual, steps / 2);
-    return true;
+  /// From where the last integrator met the error, to longer steps while this one does, else to shorter
+  /// ones until it does: by auto and direct, solved to a middling tolerance.
+  void try_steps(const std::string& integrator) {
+    const auto at = [&](std::int64_t steps) {
+      return try_one({usual_method(file_, integrator, pilot_tolerances[2]), steps});
+    };
+    Outcome outcome = at(steps_);
+    if (outcome == Outcome::met)
+      while (steps_ / 2 >= fewest_steps(file_, pilot_.duration) && at(steps_ / 2) == Outcome::met)
+        steps_ /= 2;
+    else
+      for (std::int64_t steps = 2 * steps_; outcome == Outcome::missed && steps <= pilot_.truth_steps;
+           steps *= 2)
+        outcome = at(steps);
   }
 
-  /// All choices by the integrator of `usual` in so many steps.
-  void try_others(const Setting& usual, std::int64_t steps) {
-    for (Setting& other : pilot_grid(file_, steps)) {
-      const Method &m = other.method, &u = usual.method;
-      const bool same = steps == usual.steps && m.outer == u.outer && m.relaxation == u.relaxation &&
-                        m.tolerance == u.tolerance;
-      if (m.integrator == u.integrator && !same && pilot_.complete) try {
-          measure_setting(other);
-        } catch (const SetupError&) {  // not for this scene
-        }
-    }
+  /// From the quickest one found to a quicker one, if there is one beside it: of its integrator or its
+  /// tolerance, in as many steps, half or twice as many. False where there is none.
+  bool descends() {
+    if (pilot_.met.empty()) return false;
+    const Setting from = quickest();
+    const double before = best_;
+    for (const std::int64_t steps : {from.steps, from.steps / 2, 2 * from.steps})
+      if (steps >= fewest_steps(file_, pilot_.duration))
+        try_all(steps, [&](const Method& m) {
+          return m.integrator == from.method.integrator || m.tolerance == from.method.tolerance;
+        });
+    return best_ < before;
   }
 
-  enum class Outcome { met, missed, slow };
+  Setting quickest() const {
+    return std::min_element(pilot_.met.begin(), pilot_.met.end(), quicker)->setting;
+  }
 
-  Outcome measure_setting(const Setting& setting) {
+  /// All choices in so many steps that are `wanted`.
+  template <typename Wanted>
+  void try_all(std::int64_t steps, const Wanted& wanted) {
+    for (const Setting& setting : pilot_grid(file_, steps))
+      if (wanted(setting.method)) try_one(setting);
+  }
+
+  bool is_new(const Setting& setting) {
+    const Method& m = setting.method;
+    return tried_.insert({setting.steps, m.integrator, m.outer, m.relaxation, m.tolerance}).second;
+  }
+
+  enum class Outcome { met, missed, slow, refused };
+
+  /// Refused are settings that the scene does not allow, that were tried before, and all at the end of the
+  /// budget.
+  Outcome try_one(const Setting& setting) {
+    if (!is_new(setting)) return Outcome::refused;
     if (watch_.seconds() > seconds_) {
       pilot_.complete = false;
-      return Outcome::missed;
+      return Outcome::refused;
     }
+    try {
+      return measure_setting(setting);
+    } catch (const SetupError&) {
+      return Outcome::refused;
+    }
+  }
+
+  Outcome measure_setting(const Setting& setting) {
     ++pilot_.tried;
     const double bound = std::min(slack * best_, seconds_ / 4);
     const Trajectory found = timed_trajectory(file_, pilot_.duration, setting, {.wall_s = bound});
@@ -130,7 +179,9 @@ class Search {
 
   const SceneFile& file_;
   double error_, seconds_, best_ = std::numeric_limits<double>::infinity();
+  std::int64_t steps_ = 0;  // where the last integrator met the error
   Pilot pilot_;
+  std::set<std::tuple<std::int64_t, std::string, std::string, std::string, double>> tried_;
   Stopwatch watch_;  // from before the truth on
 };
 

@@ -45,9 +45,10 @@ std::int64_t fewest_steps(const SceneFile& file, double duration);
 /// By so many steps, solved to a thousandth of `error`.
 Truth pilot_truth(const SceneFile& file, double duration, double error, std::int64_t steps);
 
-/// Searches the grid within about `seconds` of wall time, half of it for the truth. Branch and bound: a run
-/// ends where it takes 1.5 times the best one; by each integrator all choices are tried at the longest step
-/// at which auto and direct meet the error, and at twice that.
+/// Searches the grid within about `seconds` of wall time, half of it for the truth: of the first part of the
+/// motion, where all of it cannot be told that sharply. A run ends where it takes 1.5 times the best one. By
+/// auto and direct each integrator's longest step is found that meets the error; from the quickest one the
+/// search goes on to what shares its integrator or its tolerance, while that is quicker.
 Pilot pilot(const SceneFile& file, double error, double seconds);
 
 }  // namespace pbdcheck

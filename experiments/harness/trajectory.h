@@ -56,6 +56,7 @@ struct Truth {
   /// An error that this truth can tell: below three of its bars there is none.
   double told(double error) const { return error < 3 * error_bar ? 3 * error_bar : error; }
   bool tells(double error) const { return error >= 3 * error_bar; }
+  double least_met() const { return told(0) + error_bar; }  // that a run can be told to be within
 };
 
 /// `relative_error` of places at the end, NaN unless the trajectory is ok.

@@ -72,6 +72,9 @@ def trajectories(results):
         figures=[
             Figure("trajectories_profile", "Performance profiles [@dolan2002benchmarking]: the share of scenes that a method brings to an "
                    "error within a multiple of the least time of any method. What fails takes for ever."),
+            Figure("trajectories_default", "The default, the pair of outer iteration and relaxation that runs unless another is asked for, "
+                   "beside the others: the share of tasks solved within a multiple of the least time. A task is a motion by implicit Euler "
+                   "with one step, solved to one tolerance."),
             Figure("trajectories_fronts", "Error at the end over wall time where the true end is known: the runs that no other run of the "
                    "method beats in both."),
             Figure("trajectories_contact_fronts", "The same beside finest runs."),

@@ -47,7 +47,7 @@ double quickest_other(const SceneFile& file, const Pilot& found, const Truth& tr
 
 void advice(Context& context) {
   const std::ptrdiff_t count = context.full() ? std::ssize(advised_scenes) : 3;
-  const double seconds = context.full() ? 30 : 5;
+  const double seconds = context.full() ? 30 : 10;
   context.begin(count);
   Table table = context.table("recommended", {"scene", "duration_s", "error_asked", "step_s", "integrator",
                                               "outer", "relaxation", "tolerance", "settings", "error",

@@ -106,7 +106,10 @@ std::vector<MovingScene> moving_scenes(bool full) {
                                         fmt::format("rigid_body.1.copies=[1,1,{}]", full ? 2 : 1)}),
                0.2, 10, 3, 3),
       touching("flexible_cow", cut("flexible_cow", {"solid.0.translation_m=[0,0,0.1]"}), 0.1, 5, 3, 1)};
-  for (auto each = all.end() - 2; each != all.end(); ++each) each->dear = !full;
+  if (!full) {
+    all[all.size() - 2].dear = 1;
+    all.back().dear = 2;
+  }
   std::find_if(all.begin(), all.end(), [](const auto& each) { return each.name == "incline"; })->exact =
       stopped_box;
   return all;

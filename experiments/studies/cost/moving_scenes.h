@@ -17,7 +17,9 @@ struct MovingScene {
   int levels;
   Setting finest;                          // measures the error bar, and is the truth where nothing better is
   std::vector<std::string> integrators{};  // of that
-  bool dear = false;                       // a step takes 10 ms and more: fewer methods in the quick tier
+  // In the quick tier, for fewer methods; 1: a step takes 10 ms and more, 2: and by an outer iteration that
+  // knows no potential 1 s and more.
+  int dear = 0;
   bool resolved = false;  // steps resolve all its oscillations: errors fall at the integrator's order
   std::function<Truth(const MovingScene&)> exact{};  // an ODE or a closed form; empty: none
 };

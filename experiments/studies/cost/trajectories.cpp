@@ -45,15 +45,17 @@ std::vector<Way> counted_ways() {
   return ways;
 }
 
-/// What the quick tier does: the other integrators and laws of friction by `auto` and `direct` alone; by
-/// implicit Euler under Coulomb's law more pairs of outer iteration and relaxation, unless the scene is dear.
-/// Where explicit forces throw a cloth apart its contacts take 10 s a step: not of dear scenes.
-bool is_quick(const Way& way, bool dear) {
+/// What the quick tier does: the other integrators and laws of friction by `auto` and `direct` alone, of dear
+/// scenes no other law; by implicit Euler under Coulomb's law more pairs of outer iteration and relaxation,
+/// of the dearest scenes the outer iterations that know a potential. Where explicit forces throw a cloth
+/// apart its contacts take 10 s a step: not of dear scenes.
+bool is_quick(const Way& way, int dear) {
   const Method& m = way.method;
-  const bool default_pair = m.outer == "auto" && m.relaxation == "direct";
+  const bool usual_pair = m.outer == "auto" && m.relaxation == "direct";
   const bool euler = m.integrator == "implicit_euler", coulomb = m.friction == "coulomb";
-  if (dear) return default_pair && coulomb && m.integrator != "symplectic_euler";
-  if (!euler || !coulomb) return default_pair && (euler || coulomb);
+  if (dear > 0 && (!coulomb || m.integrator == "symplectic_euler")) return false;
+  if (dear > 1 && m.outer != "auto" && m.outer != "quasi_newton") return false;
+  if (!euler || !coulomb) return usual_pair && (euler || coulomb);
   return m.relaxation == "direct" || m.relaxation == "conjugate_gradients" ||
          (m.outer == "auto" && m.relaxation != "jacobi");
 }

@@ -121,15 +121,17 @@ void add_run(CLI::App& app, RunOptions& options) {
 void add_verify(CLI::App& app, VerifyOptions& options) {
   auto* command = app.add_subcommand(
       "verify", "Measure the solver against known answers; writes DIR/verify/ and exits 1 if a row fails");
-  command->add_option("--only", options.only,
-                      "Rows whose id matches the glob, as in 'bar.*'; all but those with '!bar.*'");
+  command
+      ->add_option("--only", options.only,
+                   "Rows whose id matches the glob, as in 'bar.*'; all but those with '!bar.*'")
+      ->check(not_empty("a pattern of ids"));
   command->add_option("--tier", options.tier, "quick or full")->capture_default_str();
   add_threads(*command, options.threads);
   command->add_flag("--resume", options.resume, "Keep what rows this very program has measured there already")
       ->check(no_value());
   command->add_flag("--json", options.json, "Print JSON")->check(no_value());
   command->add_option("--junit", options.junit, "Write the results to this file as JUnit's XML")
-      ->check(a_file());
+      ->check(not_empty("a file"));
   command->add_option("-o,--output", options.directory, "Folder of the results")->capture_default_str();
 }
 
@@ -156,7 +158,7 @@ void add_cone(CLI::App& app, ConeOptions& options) {
       ->capture_default_str();
   command->add_flag("--json", options.json, "Print JSON")->check(no_value());
   command->add_option("-o,--output", options.output, "Write problem and solution as FCLIB (HDF5)")
-      ->check(a_file());
+      ->check(not_empty("a file"));
 }
 
 /// A usage error in one line, with the nearest command if an unknown one was given.

@@ -100,6 +100,18 @@ IntegratorMap midpoint(const RigidStep& step) {
   return map;
 }
 
+bool turns_or_slides(const Effect& effect) {
+  return std::holds_alternative<AngleJoint>(effect) || std::holds_alternative<SlideJoint>(effect);
+}
+
+/// True if velocities may jump: things touch, a force has one sign, or there is a motor.
+bool may_strike(const Scene& scene) {
+  const auto bounds = make_step_model(scene).bounds;
+  return touches(scene) || std::any_of(scene.effects.begin(), scene.effects.end(), turns_or_slides) ||
+         std::any_of(bounds.begin(), bounds.end(),
+                     [](const auto& own) { return (own[0] == 0) != (own[1] == 0); });
+}
+
 bool by_alpha(const Method& method) {
   return method.integrator == "newmark" && !(method.beta && method.gamma);
 }
@@ -187,10 +199,11 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
   const RigidStep step = step_of(scene, start, h);
   if (method_.integrator == "midpoint") return midpoint(step);
   const auto& hard = step.model.hard;
-  const bool begins_anew = !carries_accelerations() ||
-                           std::find(hard.begin(), hard.end(), true) != hard.end() ||
-                           (method_.integrator == "generalised_alpha" && touches(scene));
-  if (!goes_on(start) && begins_anew) return {};
+  const bool any_hard = std::find(hard.begin(), hard.end(), true) != hard.end();
+  const bool begins_anew =
+      !carries_accelerations() || (method_.integrator == "generalised_alpha" && touches(scene));
+  const int before = goes_on(start) ? followed_ : 0, anew = any_hard ? 3 : begins_anew ? 1 : 0;
+  if (before < anew) return {};
   if (!carries_accelerations()) return bdf2(step);
   const Begun begun = this->begun(scene, step);
   return by_alpha(method_) ? newmark(step, begun) : by_accelerations(step, begun);
@@ -198,7 +211,7 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
 
 std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
   auto map = smooth_map(claim.scene, claim.start, claim.h);
-  if (!map || method_.integrator == "newmark" || !touches(claim.scene)) return map;
+  if (!map || !may_strike(claim.scene)) return map;
   const RigidStep euler = step_of(claim.scene, claim.start, claim.h);
   RigidStep own = euler;
   own.map = map;
@@ -211,6 +224,7 @@ void IntegratorMemory::follow(const StepClaim& claim) {
   RigidStep step = step_of(claim.scene, claim.start, claim.h);
   step.map = map_of(claim);
   if (step.map && carries_accelerations()) begun_ = step.map->acceleration;
+  followed_ = goes_on(claim.start) ? followed_ + 1 : 1;
   h_ = claim.h;
   ended_ = claim.end;
   last_ = placement_of(claim.start);

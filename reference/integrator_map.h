@@ -26,11 +26,11 @@
 // Contacts' impulses end in v_l+1, not in a_l+1 and q_l+1; but the next x has h a_l with what they brought,
 // so that what rests stays at rest. Of a rotation x is the arc that it has turned by, in the body's own axes.
 // Impulses of contacts act over h. A step that is the first one, or does not begin where the last one ended,
-// knows q and a by the compliant constraints' values. BDF2, generalised alpha in contact, and where a
-// constraint is hard all but the midpoint rule, begin with a step of implicit Euler. So are steps of BDF2 and
-// generalised alpha in which things strike. Whether something strikes the solver decides; here it is read
-// from the step's own places and velocities, which only one of both maps leads to (where both do, nothing
-// moves).
+// knows q and a by the compliant constraints' values. BDF2 and generalised alpha in contact begin with a step
+// of implicit Euler, and where a constraint is hard all but the midpoint rule with three. So are steps in
+// which things strike, by contact or a force of one sign, or a motor jumps. Whether that is so the solver
+// decides; here it is read from the step's own places and velocities, which only one of both maps leads to
+// (where both do, nothing moves).
 #pragma once
 
 #include <string_view>
@@ -80,6 +80,7 @@ class IntegratorMemory {
 
   Method method_;
   double h_ = 0;                 // of the last step, s; 0: none
+  int followed_ = 0;             // steps from a start on
   Vector before_;                // velocities where it began
   Placement last_;               // and places
   Vector moved_;                 // its ways and arcs, m and rad

@@ -47,8 +47,10 @@ CLI::Validator no_value() {
   return one_of({"true"});
 }
 
-CLI::Validator a_file() {
-  return {[](const std::string& text) { return text.empty() ? "got ``; allowed: a file" : ""; }, ""};
+CLI::Validator not_empty(const std::string& allowed) {
+  return {
+      [=](const std::string& text) { return text.empty() ? "got ``; allowed: " + allowed : std::string(); },
+      ""};
 }
 
 }  // namespace pbdcheck

@@ -18,7 +18,7 @@ CLI::Validator one_of(const std::vector<std::string>& names);
 /// A flag takes no value but the one CLI11 gives it.
 CLI::Validator no_value();
 
-/// Refuses an empty name.
-CLI::Validator a_file();
+/// Refuses an empty argument; `allowed` is what it is to be.
+CLI::Validator not_empty(const std::string& allowed);
 
 }  // namespace pbdcheck

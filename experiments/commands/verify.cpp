@@ -149,6 +149,8 @@ void print_results(const LedgerRun& run, bool as_json) {
 
 int verify(const VerifyOptions& options, const std::vector<LedgerRow>& known) {
   require_name("--tier", options.tier, strings(tier_names));
+  if (!options.junit.empty())
+    require_writable(std::filesystem::absolute(options.junit).parent_path(), "--junit");
   LedgerRun run(options, known);
   try {
     run.run();

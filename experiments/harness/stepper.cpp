@@ -30,10 +30,12 @@ bool Stepper::advance_in(int parts, const Judge& judge, pbd::State& state, pbd::
     throw_if_interrupted();
     const double h = file_.step_s / parts;
     begin(h, state);
-    file_.script.hand_on(file_.scene, workspace_);
+    file_.script.hand_on(file_.scene, h, state.time, workspace_);
     const pbd::State begun = judge ? state : pbd::State{};
-    const pbd::Report report =
-        pbd::step(workspace_, h, state, [](const pbd::Iterate&) { throw_if_interrupted(); });
+    const pbd::Report report = pbd::step(workspace_, h, state, [this](const pbd::Iterate&) {
+      throw_if_interrupted();
+      if (watcher_) watcher_();
+    });
     add(report, sum);
     if (judge && report.status != pbd::Status::diverged) judge(begun, state, h, report);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "scenes/scene_file.h"
 #include "step/step.h"
@@ -29,6 +30,9 @@ class Stepper {
   /// One step of the file as it is, in one part.
   pbd::Report whole(pbd::State& state, const Judge& judge = {});
 
+  /// Called at each outer iteration. What it throws ends the step; the workspace is of no use after that.
+  void watch(std::function<void()> watcher) { watcher_ = std::move(watcher); }
+
   /// Of the last step.
   int parts() const { return parts_; }
 
@@ -38,6 +42,7 @@ class Stepper {
   SceneFile& file_;
   pbd::Workspace& workspace_;
   pbd::Scene stated_;
+  std::function<void()> watcher_;
   int parts_ = 1;
 };
 

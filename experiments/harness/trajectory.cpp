@@ -19,6 +19,8 @@ using namespace pbd;
 
 namespace {
 
+struct OutOfTime {};
+
 Points all_places(const Scene& scene, const State& state) {
   return places(scene, state.x, state.orientation);
 }
@@ -42,21 +44,30 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
   Workspace workspace(file.scene, setting.method);
   Stepper stepper(moved, workspace);
   found.wall_s = since(clock);
+  const auto late = [&] { return found.wall_s + since(clock) > limits.wall_s; };
+  if (std::isfinite(limits.wall_s))
+    stepper.watch([&] {
+      if (late()) throw OutOfTime();
+    });
   for (std::int64_t k = 1; k <= setting.steps && found.status == Status::ok; ++k) {
     clock = Clock::now();
-    const Report report = stepper.whole(found.end);
+    Report report;
+    try {
+      report = stepper.whole(found.end);
+    } catch (const OutOfTime&) {  // told by the time, below
+    }
     found.wall_s += since(clock);
     found.outer_iterations += report.outer_iterations;
     found.sweeps += report.sweeps;
     found.row_updates += report.row_updates;
     found.missed_steps += report.status != Status::ok;
     found.penetration_m = std::max(found.penetration_m, -least_gap(workspace.contacts()).value_or(0));
-    if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
-      found.status = report.status;
-      found.reason = fmt::format("step {}: {}", k, report.reason);
-    } else if (found.wall_s > limits.wall_s) {
+    if (found.wall_s > limits.wall_s) {
       found.status = Status::not_converged;
       found.reason = fmt::format("given up after {:.2g} s", limits.wall_s);
+    } else if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
+      found.status = report.status;
+      found.reason = fmt::format("step {}: {}", k, report.reason);
     } else if (!(way(file.scene, found.end) <= limits.way_m)) {
       found.status = Status::diverged;
       found.reason = fmt::format("step {}: farther than {:.2g} m from the start", k, limits.way_m);

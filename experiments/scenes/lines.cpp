@@ -86,7 +86,7 @@ void Lines::need_end() {
 
 void Lines::refuse(std::string value, std::string_view allowed) const {
   std::replace_if(
-      value.begin(), value.end(), [](char c) { return c < 0; }, '?');
+      value.begin(), value.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   throw pbd::SetupError(line_ == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line_), value,
                         allowed);
 }

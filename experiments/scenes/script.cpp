@@ -36,6 +36,14 @@ double Course::integral(double end) const {
   return sum + value.back() * std::max(end - time.back(), 0.0);
 }
 
+bool Course::jumps(double begin, double end) const {
+  const double h = end - begin;
+  for (std::size_t k = 1; k < time.size(); ++k)
+    if (time[k] - time[k - 1] < h && value[k] != value[k - 1] && time[k - 1] < end && time[k] > begin - h)
+      return true;
+  return false;
+}
+
 void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, pbd::State& state) const {
   const double begin = state.time, end = begin + h;
   for (const auto& [i, course] : forces_)
@@ -70,7 +78,7 @@ void Script::begin_step(const pbd::Scene& stated, double h, pbd::Scene& scene, p
   }
 }
 
-void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {
+void Script::hand_on(const pbd::Scene& scene, double h, double time, pbd::Workspace& workspace) const {
   const auto follows = [&](const pbd::Effect& effect) {
     return (std::holds_alternative<pbd::ExternalForce>(effect) && !forces_.empty()) ||
            (std::holds_alternative<pbd::ExternalTorque>(effect) && !torques_.empty()) ||
@@ -82,6 +90,10 @@ void Script::hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const {
   };
   for (std::size_t i = 0; i < scene.effects.size(); ++i)
     if (follows(scene.effects[i])) workspace.change(i, scene.effects[i]);
+  const auto jumps = [&](const Entry<Course>& entry) { return entry.course.jumps(time, time + h); };
+  if (std::any_of(angles_.begin(), angles_.end(), jumps) ||
+      std::any_of(slides_.begin(), slides_.end(), jumps))
+    workspace.begin_anew();
 }
 
 }  // namespace pbdcheck

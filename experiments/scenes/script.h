@@ -20,6 +20,10 @@ struct Course {
   /// From time 0 on, s.
   double integral(double end) const;
   double mean(double begin, double end) const { return (integral(end) - integral(begin)) / (end - begin); }
+
+  /// True if the means of the step from `begin` to `end` and the one before jump: the value changes in one of
+  /// them between times that are nearer to each other than a step is long.
+  bool jumps(double begin, double end) const;
 };
 
 /// What joints begin apart by (m), and the time (s) in which they close: from rest to rest, at half of it by
@@ -62,8 +66,9 @@ class Script {
              lines_.empty() && lengths_.empty());
   }
 
-  /// Hands what `begin_step` has set in `scene` on to a workspace of that scene.
-  void hand_on(const pbd::Scene& scene, pbd::Workspace& workspace) const;
+  /// Hands what `begin_step` has set in `scene` on to a workspace of that scene. The step is to be a start
+  /// where the rate of a motor jumps.
+  void hand_on(const pbd::Scene& scene, double h, double time, pbd::Workspace& workspace) const;
 
  private:
   template <class C>

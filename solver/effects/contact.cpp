@@ -90,7 +90,7 @@ bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {
   threads_ = std::visit([](const auto& block) { return block.chunks.threads; }, blocks.front());
   search_.begin(searched_step(begin));
   collided_.clear();
-  strikes_ = false;
+  impact_ = Impact::none;
   keep_impulses(blocks);
   if (!begin.warm_start) seeds_.clear();
   waiting_.clear();
@@ -147,7 +147,8 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
       if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
       contact.restitution = contact.law.restitution;
       collided_.emplace(contact.pair(), contact.features.key);
-      any = strikes_ = true;
+      impact_ = std::max(impact_, Impact::rebound);
+      any = true;
     }
   });
   return any;

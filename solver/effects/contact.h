@@ -57,7 +57,7 @@ class ContactRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
   bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
-  bool strikes() const override { return strikes_; }
+  Impact impact(ConstBlockSpan) const override { return impact_; }
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;
@@ -103,7 +103,7 @@ class ContactRows final : public Source {
   FreeEnd free_;                                                     // where the step's free motion ends
   std::set<std::pair<std::array<int, 2>, std::uint64_t>> collided_;  // pairs and features, by `collide`
   bool bounces_ = false;                                             // some law has restitution
-  bool strikes_ = false;                                             // in this step
+  Impact impact_ = Impact::none;                                     // of this step
   bool recovering_ = false;  // from what missed steps have left overlapping
 };
 

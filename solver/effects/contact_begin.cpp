@@ -13,9 +13,8 @@ namespace {
 template <class Block>
 bool hits(const Points& forced, const ActiveContact& contact, double d, double ahead, const Block& block,
           std::size_t i) {
-  constexpr double pressed = 1e-3;  // of the speed that forces bring: what rests approaches by no more
   if (!(contact.closing > 0) || !(ahead < 0)) return false;
-  return contact.closing * d > pressed * std::abs((block.jacobian[i] * block.gather(forced, i))[0]);
+  return contact.closing * d > pressed_speed * std::abs((block.jacobian[i] * block.gather(forced, i))[0]);
 }
 
 }  // namespace
@@ -86,7 +85,9 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
     contact.target = std::min(contact.target, recovered);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  strikes_ = strikes_ || hits(shifts.forced, contact, begin.map.d, ahead, block, i);
+  const bool yields = contact.law.restitution > 0 || contact.law.compliance > 0;
+  if (hits(shifts.forced, contact, begin.map.d, ahead, block, i))
+    impact_ = std::max(impact_, yields ? Impact::rebound : Impact::stop);
   const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
   const bool meets = closes && meets_freely(begin, contact, gap, ahead);
   contact.passes = closes && !meets;

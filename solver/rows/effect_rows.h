@@ -48,12 +48,22 @@ class EffectRows final : public Source {
   }
 
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
-    for (AnyBlock& any : blocks)
+    for (AnyBlock& any : blocks) {
       if (kind().damped)
         begin_damping(begin, std::get<Block>(any));
       else if (has_period)
         keep_values(begin, std::get<Block>(any));
+      if (begin.begins_anew && kind().limited) find_stops(begin, std::get<Block>(any));
+    }
     return false;
+  }
+
+  Impact impact(ConstBlockSpan blocks) const override {
+    bool stops = stops_;
+    for (const AnyBlock& any : blocks)
+      for (std::size_t i = 0; i < idle_.size(); ++i)
+        stops |= idle_[i] && std::get<Block>(any).impulse[i][0] != 0;
+    return stops ? Impact::stop : Impact::none;
   }
 
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override {
@@ -224,6 +234,24 @@ class EffectRows final : public Source {
       evaluate_anew(block, i, begin.at, block.begin_value[i], block.jacobian[i]);
   }
 
+  /// Which one-sided limits are idle as the step begins, without an impulse, and whether one that is, or was
+  /// as the last step began, is about to stop what comes: a step that meets a limit ends on it, still on its
+  /// way. Of limits that give way, too, since steps may be too long to tell them from hard ones.
+  void find_stops(const StepBegin& begin, Block& block) {
+    stops_ = false;
+    idle_.resize(block.size(), true);
+    if constexpr (requires { effect_.bounds; })
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const auto& [lower, upper] = effect_.bounds[block.entry(i)];
+        const bool one_sided = (lower == 0) != (upper == 0), was_idle = idle_[i];
+        idle_[i] = one_sided && block.impulse[i][0] == 0;
+        if (!one_sided || !(idle_[i] || was_idle)) continue;
+        Value value;
+        evaluate(block, i, begin.at, value, block.jacobian[i]);
+        stops_ = stops_ || Operations::meets(begin, lower == 0 ? value[0] : -value[0], lower == 0, block, i);
+      }
+  }
+
   /// J of constraint i at other positions than its value's.
   void take_directions(const Block& block, std::size_t i, const Configuration& at, Jacobian& jacobian) const {
     Value unused;
@@ -285,6 +313,8 @@ class EffectRows final : public Source {
 
   const Scene& scene_;
   const E& effect_;
+  std::vector<bool> idle_{};  // limits without an impulse as the step began
+  bool stops_ = false;        // one of them is met
 };
 
 }  // namespace pbd

@@ -56,6 +56,7 @@ struct StepBegin {
   const Points& v;                      // m/s
   const Points& a;                      // m/s^2, that the integrator carries on, if it does
   const std::vector<double>& inverse_mass;
+  bool begins_anew;  // at impacts: limits tell of theirs
   double tolerance;  // of the step's scale, to which the iterate is solved that rows are found for
   bool solved;       // that is enough
   bool warm_start;
@@ -93,6 +94,12 @@ struct MetricEntry {
 
 /// Of the effects, for the quasi-Newton metric: at rest, or as it is.
 enum class MetricShape { rest, current };
+
+/// Of the speed that forces bring in a step: what rests approaches by no more.
+inline constexpr double pressed_speed = 1e-3;
+
+/// How velocities jump in a step: what gives way or has a restitution comes back, what has none stops.
+enum class Impact : std::uint8_t { none, rebound, stop };
 
 /// Whether rows have been found anew, and whether they connect other columns than before.
 enum class Widened : std::uint8_t { no, alike, others };
@@ -170,14 +177,14 @@ class Source {
     return {};
   }
 
+  /// The impact of the step, as far as it is known.
+  virtual Impact impact(ConstBlockSpan) const { return Impact::none; }
+
   // Of contacts alone.
 
   /// Lets what approached and touches in the step that is solved by v (to `accuracy`, sqrt(J)), but was not
   /// to collide, collide: true if there is any.
   virtual bool collide(ConstBlockSpan, const Points& /*v*/, double /*accuracy*/) { return false; }
-
-  /// True if the step, as far as it is known, has an impact: velocities jump.
-  virtual bool strikes() const { return false; }
 
   /// Finds rows anew where the solved step went farther than was thought of, or where something overlaps that
   /// no row tells of; they are to be linearised again then.

@@ -31,10 +31,13 @@ void History::find_pressed(const StepSystem& system) {
       apply_impulses(slot.view(system.rows), system.problem.inverse_mass, pressed_);
 }
 
-/// True if velocities jump in the step, so that it is no part of a smooth motion.
+/// True if velocities jump in the step by more than what the integrator carries on allows.
 bool History::strikes(const StepSystem& system) const {
-  return integrator_->begins_anew && std::any_of(system.slots.begin(), system.slots.end(),
-                                                 [](const Slot& slot) { return slot.source->strikes(); });
+  if (!integrator_->begins_anew) return false;
+  const bool rebounds = integrator_->rebounds && !system.problem.hard_constraints;
+  return std::any_of(system.slots.begin(), system.slots.end(), [&](const Slot& slot) {
+    return slot.source->impact(slot.view(system.rows)) >= (rebounds ? Impact::stop : Impact::rebound);
+  });
 }
 
 /// q_l and a_l of the step that begins.
@@ -61,11 +64,16 @@ void History::carry_on(double h, bool goes_on, StepSystem& system) {
   if (h != h_) a_ = q_ + h / h_ * (a_ - q_);
 }
 
-void History::set_map(double h, bool goes_on, StepSystem& system) {
+/// Of implicit Euler where the step is to begin anew.
+void History::set_map(double h, bool goes_on, bool anew, StepSystem& system) {
+  constexpr int starts = 3;  // steps: to places that constraints allow, to velocities that they allow, and
+                             // one that tells what goes on
   Problem& problem = system.problem;
-  const bool unknown_forces = problem.hard_constraints || (system.rows.contacts && integrator_->begins_anew);
-  problem.coefficients =
-      integrator_->coefficients({problem.method, h, goes_on ? h_ : infinity, goes_on || !unknown_forces});
+  const bool unknown_forces = problem.hard_constraints ||
+                              (system.rows.contacts && integrator_->begins_anew && !integrator_->rebounds);
+  const bool known = goes_on && (gone_on_ >= starts || !problem.hard_constraints);
+  const StepStart start{problem.method, h, known ? h_ : infinity, known || !unknown_forces};
+  problem.coefficients = (anew ? implicit_euler : integrator_->coefficients)(start);
   const StepCoefficients& c = problem.coefficients;
   StepMap& map = problem.map;
   map.d = c.d;
@@ -90,6 +98,7 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
   Problem& problem = system.problem;
   const bool goes_on = this->goes_on(system, state);
   continued_ = is_where_it_ended(state);
+  gone_on_ = goes_on ? gone_on_ + 1 : 0;
   if (goes_on && integrator_->keeps == Keeps::states) {  // a body's arc, from where it begins now
     const int count = problem.bodies.count();
     x_.rightCols(count) = -problem.coefficients.extension * system.at.x.rightCols(count);
@@ -106,11 +115,11 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
                                         acceleration_);
   if (!goes_on) pressed_.setZero();
   if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
-  set_map(h, goes_on, system);
-  bool others = begin_sources(system);
-  if (goes_on && strikes(system)) {
-    set_map(h, false, system);
-    others |= begin_sources(system);
+  set_map(h, goes_on, false, system);
+  bool others = begin_sources(false, system);
+  if (strikes(system)) {
+    set_map(h, goes_on, true, system);
+    others |= begin_sources(true, system);
   }
   if (others) ++system.rows.generation;
   h_ = 0;  // until the step has ended
@@ -130,6 +139,7 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .v = problem.start_v,
           .a = a_,
           .inverse_mass = problem.inverse_mass,
+          .begins_anew = false,
           .tolerance = problem.method.tolerance,
           .solved = false,
           .warm_start = problem.method.warm_start,
@@ -162,7 +172,7 @@ bool History::hold_back(StepSystem& system, std::vector<double>& share) const {
 }
 
 /// Gets the sources ready for the step of the system's map; true if their rows are others than before.
-bool History::begin_sources(StepSystem& system) {
+bool History::begin_sources(bool anew, StepSystem& system) {
   const Problem& problem = system.problem;
   const auto damped = [](const Slot& slot) { return slot.source->kind().damped; };
   const double d = std::any_of(system.slots.begin(), system.slots.end(), damped) ? problem.coefficients.d : 0;
@@ -171,7 +181,8 @@ bool History::begin_sources(StepSystem& system) {
   const Configuration start = problem.start(),
                       ahead = placed(problem, ahead_x_, ahead_poses_, problem.start_time),
                       behind = placed(problem, behind_x_, behind_poses_, problem.start_time);
-  const StepBegin begin = step_begin(problem, start, ahead, behind);
+  StepBegin begin = step_begin(problem, start, ahead, behind);
+  begin.begins_anew = integrator_->begins_anew && !anew;
   bool others = false;
   for (Slot& slot : system.slots) others |= slot.source->begin_step(begin, slot.blocks(system.rows));
   return others;

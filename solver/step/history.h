@@ -33,6 +33,9 @@ class History {
   /// True if the step begun goes on from the end of one that missed.
   bool after_miss() const { return continued_ && missed_; }
 
+  /// The next step is a start: what a script leads jumps.
+  void begin_anew() { h_ = 0; }
+
   /// m/s^2, of the last step begun.
   const Points& given_accelerations() const { return acceleration_; }
 
@@ -44,14 +47,15 @@ class History {
   void keep_end(const StepSystem& system, const State& state);
   void find_pressed(const StepSystem& system);
   void carry_on(double h, bool goes_on, StepSystem& system);
-  void set_map(double h, bool goes_on, StepSystem& system);
+  void set_map(double h, bool goes_on, bool anew, StepSystem& system);
   bool strikes(const StepSystem& system) const;
-  bool begin_sources(StepSystem& system);
+  bool begin_sources(bool anew, StepSystem& system);
   StepBegin step_begin(const Problem& problem, const Configuration& start, const Configuration& ahead,
                        const Configuration& behind) const;
 
   const Integrator* integrator_;
   double h_ = 0;               // s, of the last step; 0 if there is none
+  int gone_on_ = 0;            // steps before the one begun, from a start on
   bool missed_ = false;        // the last step
   bool continued_ = false;     // from where it ended
   Points x_, v_;               // where the last step began

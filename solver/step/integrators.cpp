@@ -1,11 +1,12 @@
 #include "step/integrators.h"
 
 namespace pbd {
-namespace {
 
 StepCoefficients implicit_euler(const StepStart& start) {
   return {.d = start.h, .s = start.h, .a_v = start.h};
 }
+
+namespace {
 
 StepCoefficients newmark(const StepStart& start) {
   if (!start.forces_known) return implicit_euler(start);
@@ -56,10 +57,10 @@ const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> list{
       {"implicit_euler", 1, "order 1", implicit_euler, Keeps::nothing, false, true},
       {"newmark", 1, "order 1, 2 with alpha = 0.5; alpha, or beta and gamma", newmark, Keeps::accelerations,
-       false, true},
-      {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations, false, false, true},
-      {"bdf2", 2, "order 2", bdf2, Keeps::states, false, false, true},
-      {"midpoint", 2, "order 2, for compliant constraints", midpoint},
+       false, true, true, true},
+      {"generalised_alpha", 2, "order 2; rho", generalised_alpha, Keeps::accelerations, false, true, true},
+      {"bdf2", 2, "order 2", bdf2, Keeps::states, false, true, true},
+      {"midpoint", 2, "order 2, for compliant constraints", midpoint, Keeps::nothing, false, false, true},
       {"symplectic_euler", 1, "order 1, explicit", implicit_euler, Keeps::nothing, true, true}};
   return list;
 }

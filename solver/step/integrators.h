@@ -21,13 +21,16 @@
 //   symplectic_euler  v_l+1 = v_l + h q_l, x_l+1 = x_l + h v_l+1; hard constraints met at the end along their
 //                     directions at the start (SHAKE: ryckaert1977numerical)
 // Impulses of contacts act as a step ends: q_l, a_l and v_l-1 are those of the motion without them (the
-// smooth part of bruls2014simultaneous), but for a_l in x0, so that what rests stays at rest. To
-// generalised_alpha and bdf2 a step with an impact is one of implicit Euler, and so is the next one, which is
-// a start: nothing goes on of what jumps.
-// A first step knows the forces of compliant constraints by their value, those of hard ones not: there
-// newmark and generalised_alpha begin with implicit Euler, and so do, always, bdf2 and with contact
-// generalised_alpha; their order stays. A state that is not the last step's end is a start, too, and so is
-// what follows a diverged step.
+// smooth part of bruls2014simultaneous), but for a_l in x0, so that what rests stays at rest. A step in which
+// something strikes, by contact or at a one-sided limit, is one of implicit Euler, and the next one is a
+// start: nothing goes on of what jumps. newmark alone carries on where all that strikes comes back, by a
+// restitution or a compliance, and no constraint is hard.
+// A start knows the forces of compliant constraints by their value, those of hard ones not: where there are
+// any, all that carry something on begin with three steps of implicit Euler, since places and velocities of
+// the start may be none that the constraints allow, so that the first two may jump. Without any bdf2 begins
+// with one such step, and with contact generalised_alpha does; their order stays. A start is what a state
+// begins that is not the last step's end, what follows a diverged step, and where whoever leads the scene
+// says so (`Workspace::begin_anew`).
 //
 // Limits: newmark with alpha below about 0.52, generalised_alpha with rho above about 0.9 and midpoint are
 // unstable with hard constraints (the trapezoidal rule on an equation of index 3); left at one outer
@@ -64,11 +67,13 @@ struct Integrator {
   StepCoefficients (*coefficients)(const StepStart& start);
   Keeps keeps = Keeps::nothing;
   bool explicit_forces = false;  // compliant constraints act as given forces, hard ones along J(x_l)
-  bool contact = false;          // allowed: nothing that it carries on jumps at impacts
-  bool begins_anew = false;      // at impacts, so that it allows contact, too
-
-  bool allows_contact() const { return contact || begins_anew; }
+  bool contact = false;          // allowed
+  bool begins_anew = false;      // at impacts, by a step of implicit Euler
+  bool rebounds = false;         // but carries on past those that come back, where no constraint is hard
 };
+
+/// Its step, and that of all where something strikes.
+StepCoefficients implicit_euler(const StepStart& start);
 
 /// All integrators.
 const std::vector<Integrator>& integrators();

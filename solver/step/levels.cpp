@@ -65,11 +65,14 @@ void measure(const StepSystem& system, const RowResidual& found, std::vector<dou
   progress.scale = mass_distance(inverse_mass, system.at.v, system.problem.start_v) + levels.free_change;
   const double impulses = std::sqrt(found.impulses_squared);
   const bool balance = progress.scale <= std::sqrt(rounding_unit) * impulses;  // to half of the digits
+  const double of_values = std::sqrt(found.rounding_squared);
   levels.velocity_rounding = some_roundings * levels.free_speed;
-  levels.primal_rounding = levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0);
+  const bool still = progress.scale <= levels.velocity_rounding + of_values;  // but for rounding
+  levels.primal_rounding =
+      levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0) + (still ? of_values : 0.0);
   const bool missed = progress.primal > system.problem.method.tolerance * progress.scale;
   levels.primal_beyond = balance && missed ? beyond_own_rounding(system, effects) : 0.0;
-  levels.dual_rounding = levels.velocity_rounding + std::sqrt(found.rounding_squared);
+  levels.dual_rounding = levels.velocity_rounding + of_values;
   levels.beyond_rounding = std::sqrt(found.beyond_rounding_squared);
 }
 

@@ -186,8 +186,7 @@ void StepRun::take_best() {
 
 /// A missed step does no harm.
 void StepRun::restrain() {
-  if (report.status != Status::not_converged || !solves_step(w.outer) ||
-      !w.history.integrator().allows_contact())
+  if (report.status != Status::not_converged || !solves_step(w.outer) || !w.history.integrator().contact)
     return;
   if (w.restraint.restrain(w.system, w.history.given_accelerations())) {
     forget(w.outer);

@@ -50,6 +50,9 @@ class Workspace {
   /// be changed.
   void change(std::size_t index, const Effect& effect);
 
+  /// The next step is a start (integrators.h): something that leads the scene, as a motor's rate, jumps.
+  void begin_anew();
+
   /// The next step goes on from the end of the other's last one, whose scene is the same: by what its
   /// integrator carries from step to step. Impulses and contacts are not taken over, nor that what missed
   /// steps left overlapping parts slowly. Throws SetupError for another integrator.

@@ -12,7 +12,7 @@ namespace pbd {
 namespace {
 
 void require_contact(const Integrator& integrator, const Method& method) {
-  if (!integrator.allows_contact())
+  if (!integrator.contact)
     throw SetupError("integrator", std::string(integrator.name) + " with contact",
                      "an integrator that meets constraints where steps end: implicit_euler, newmark by "
                      "alpha, generalised_alpha, bdf2 or symplectic_euler");
@@ -132,6 +132,10 @@ const Scene& Workspace::scene() const {
 
 const Method& Workspace::method() const {
   return data_->method;
+}
+
+void Workspace::begin_anew() {
+  data_->history.begin_anew();
 }
 
 void Workspace::go_on_from(const Workspace& other) {

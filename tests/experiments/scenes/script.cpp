@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "harness/stepper.h"
 #include "program.h"
 #include "scenes/scene_file.h"
 
@@ -31,7 +32,7 @@ void run(const std::string& text, const std::string& method, Check&& check) {
   pbd::State state = stated.initial;
   for (std::int64_t k = 0; k < file.steps; ++k) {
     file.script.begin_step(stated, file.step_s, file.scene, state);
-    file.script.hand_on(file.scene, workspace);
+    file.script.hand_on(file.scene, file.step_s, state.time, workspace);
     REQUIRE(pbd::step(workspace, file.step_s, state).status == pbd::Status::ok);
     check(state);
   }
@@ -175,6 +176,27 @@ TEST_CASE("motors follow the integral of their rate") {
       "implicit_euler", [&](const pbd::State& state) {
         CHECK(std::sin(0.25 * integral(state.time)) == Approx(state.orientation[0].z()).margin(1e-9));
       });
+}
+
+TEST_CASE("a motor whose rate jumps turns at the new one at once, under every integrator") {
+  const TemporaryFolder folder;
+  const std::string text =
+      "[[rigid_body]]\nname = \"bar\"\nshape = \"box\"\nsize_m = [1, 0.1, 0.1]\nmass_kg = 1\n"
+      "[[joint]]\nkind = \"hinge\"\nbodies = [\"world\", \"bar\"]\npoint_m = [0, 0, 0]\naxis = [0, 0, 1]\n"
+      "[[joint]]\nkind = \"angle\"\nbodies = [\"world\", \"bar\"]\naxis = [0, 0, 1]\nrate_rad_s = 1\n"
+      "over_time = [[0.3, 0], [0.300001, 1]]\n[step]\nstep_s = 0.01\nsteps = 60\n";
+  for (const std::string method : {"implicit_euler", "newmark", "generalised_alpha", "bdf2"}) {
+    SceneFile file = read_scene_file(folder.write("scene.toml", text), {"method.integrator=" + method});
+    pbd::Workspace workspace(file.scene, file.method);
+    Stepper stepper(file, workspace);
+    pbd::State state = file.scene.initial;
+    for (std::int64_t k = 0; k < file.steps; ++k) {
+      REQUIRE(stepper.whole(state).status == pbd::Status::ok);
+      INFO(method << ", step " << k);
+      if (k < 29) CHECK(state.spin.cwiseAbs().maxCoeff() <= 1e-9);
+      if (k > 30) CHECK(std::abs(state.spin.col(0).norm() - 1) <= 1e-6);
+    }
+  }
 }
 
 TEST_CASE("simulate and compare follow a course") {

@@ -56,15 +56,16 @@ Change euler_change(const Scene& scene) {
   };
 }
 
-/// The first step is implicit Euler's.
-Change bdf2_change(const Scene& scene) {
-  return [&scene, first = euler_change(scene), last = State{}, g = Vec3(0, 0, 0), momentum = Vec3(0, 0, 0)](
+/// The first steps are implicit Euler's.
+Change bdf2_change(const Scene& scene, bool hard) {
+  return [&scene, starts = hard ? 3 : 1, first = euler_change(scene), last = State{}, g = Vec3(0, 0, 0), momentum = Vec3(0, 0, 0)](
              const State& before, const State& after) mutable -> Vec3 {
     const auto quadruple = [&](const State& old, const State& now) -> Vec3 {
       return cross_sum(scene, now.x, now.v) + cross_sum(scene, 2 * now.x - old.x, 2 * now.v - old.v);
     };
     const Vec3 previous = momentum;
-    if (last.x.size() == 0) {
+    if (starts > 0) {
+      --starts;
       momentum = cross_sum(scene, before.x, before.v) + first(before, after);
       g = quadruple(before, after);
       last = before;
@@ -84,7 +85,7 @@ Change angular_change(const Scene& scene, bool hard, const Method& method) {
   if (name == "symplectic_euler" || name == "midpoint")
     return [](const State&, const State&) -> Vec3 { return Vec3::Zero(); };
   if (name == "implicit_euler") return euler_change(scene);
-  if (name == "bdf2") return bdf2_change(scene);
+  if (name == "bdf2") return bdf2_change(scene, hard);
   if (name == "newmark" && !hard) return newmark_change(scene, method.alpha);
   return {};
 }

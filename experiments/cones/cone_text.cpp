@@ -6,6 +6,7 @@
 
 #include "cones/cone_file.h"
 #include "error.h"
+#include "scenes/lines.h"
 
 namespace pbdcheck {
 
@@ -15,7 +16,7 @@ ConeText::ConeText(const std::filesystem::path& path) : path_(path.string()), in
 }
 
 void ConeText::refuse(const std::string& got, const std::string& allowed) const {
-  throw pbd::SetupError(line_ > 0 ? fmt::format("{}:{}", path_, line_) : path_, got, allowed);
+  throw pbd::SetupError(line_ > 0 ? fmt::format("{}:{}", path_, line_) : path_, ascii(got), allowed);
 }
 
 std::string ConeText::word(const std::string& what) {

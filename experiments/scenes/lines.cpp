@@ -85,10 +85,14 @@ void Lines::need_end() {
 }
 
 void Lines::refuse(std::string value, std::string_view allowed) const {
+  throw pbd::SetupError(line_ == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line_),
+                        ascii(std::move(value)), allowed);
+}
+
+std::string ascii(std::string text) {
   std::replace_if(
-      value.begin(), value.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  throw pbd::SetupError(line_ == 0 ? file_.string() : fmt::format("{}:{}", file_.string(), line_), value,
-                        allowed);
+      text.begin(), text.end(), [](char c) { return c < 0; }, '?');
+  return text;
 }
 
 const std::string& Lines::word(std::size_t index) const {

@@ -14,6 +14,9 @@ namespace pbdcheck {
 /// Why a file cannot be read as one ("no such file", "a folder", ...); empty if it can.
 std::string unreadable(const std::filesystem::path& file);
 
+/// What a file that is no text may hold, with `?` for each byte beyond ASCII.
+std::string ascii(std::string text);
+
 class Lines {
  public:
   /// Opens the file; throws SetupError if it cannot be read. A byte order mark at its begin is skipped.

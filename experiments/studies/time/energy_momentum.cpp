@@ -58,8 +58,8 @@ Change euler_change(const Scene& scene) {
 
 /// The first steps are implicit Euler's.
 Change bdf2_change(const Scene& scene, bool hard) {
-  return [&scene, starts = hard ? 3 : 1, first = euler_change(scene), last = State{}, g = Vec3(0, 0, 0), momentum = Vec3(0, 0, 0)](
-             const State& before, const State& after) mutable -> Vec3 {
+  return [&scene, starts = hard ? 3 : 1, first = euler_change(scene), last = State{}, g = Vec3(0, 0, 0),
+          momentum = Vec3(0, 0, 0)](const State& before, const State& after) mutable -> Vec3 {
     const auto quadruple = [&](const State& old, const State& now) -> Vec3 {
       return cross_sum(scene, now.x, now.v) + cross_sum(scene, 2 * now.x - old.x, 2 * now.v - old.v);
     };

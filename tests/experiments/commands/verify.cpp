@@ -56,6 +56,17 @@ TEST_CASE("a pattern that no row matches is refused with what is allowed") {
                           Catch::Contains("did you mean `pendulum.period_5`?"));
   CHECK(run_program({"verify", "--tier", "slow", "-o", folder.path}).exit_code == 2);
   CHECK(run_program({"verify", "--junit", "", "-o", folder.path}).exit_code == 2);
+  CHECK(run_program({"verify", "--only", "", "-o", folder.path}).exit_code == 2);
+}
+
+TEST_CASE("a file of JUnit that cannot be written is refused before any row is run") {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  const auto xml = folder.path / "file" / "rows.xml", out = folder.path / "out";
+  const auto ran = run_program({"verify", "--only", "pendulum.period_5", "--junit", xml, "-o", out});
+  CHECK(ran.exit_code == 2);
+  CHECK_THAT(ran.err, Catch::Contains("--junit: got"));
+  CHECK(!std::filesystem::exists(out));
 }
 
 TEST_CASE("rows of the full tier are skipped in the quick one") {

@@ -99,6 +99,7 @@ TEST_CASE("mistakes in problem files are named, with exit code 2") {
       {"", {"end of the file", "dimension"}},
       {"scene = 1", {"`scene`", "a number"}},
       {"2\n1\n0\n2\n2\n", {"dimension = 2"}},
+      {"\x80\xfe\n", {"got `??` for the dimension"}},
       {"3\n1\n3\n3\n3\n", {"storage", "from 0 to 2"}},
       {"3\n1\n2\n3\n3\n1\nCSparse nnz: 1\n0 3 : 1\n", {"bad.dat:8", "a column = 3"}},
       {"3\n1\n2\n3\n3\n1\nCSparse nnz: 2\n0 2 : 1\n0 2 : 5\n",

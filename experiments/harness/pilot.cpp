@@ -115,29 +115,28 @@ class Search {
         outcome = at(steps);
   }
 
-  /// From the quickest one found to a quicker one, if there is one beside it: of its integrator or its
-  /// tolerance, in as many steps, half or twice as many. False where there is none.
+  /// From the quickest one found to a quicker one, if there is one beside it: of its integrator or else of
+  /// its tolerance, in as many steps, half or twice as many. False where there is none.
   bool descends() {
     if (pilot_.met.empty()) return false;
     const Setting from = quickest();
     const double before = best_;
-    for (const std::int64_t steps : {from.steps, from.steps / 2, 2 * from.steps})
-      if (steps >= fewest_steps(file_, pilot_.duration))
-        try_all(steps, [&](const Method& m) {
-          return m.integrator == from.method.integrator || m.tolerance == from.method.tolerance;
-        });
-    return best_ < before;
+    const std::int64_t least = fewest_steps(file_, pilot_.duration);
+    for (const bool same_integrator : {true, false})
+      for (const std::int64_t steps : {from.steps, from.steps / 2, 2 * from.steps}) {
+        if (steps < least) continue;
+        for (const Setting& setting : pilot_grid(file_, steps)) {
+          const Method& m = setting.method;
+          if (same_integrator ? m.integrator == from.method.integrator : m.tolerance == from.method.tolerance)
+            try_one(setting);
+        }
+        if (best_ < before) return true;
+      }
+    return false;
   }
 
   Setting quickest() const {
     return std::min_element(pilot_.met.begin(), pilot_.met.end(), quicker)->setting;
-  }
-
-  /// All choices in so many steps that are `wanted`.
-  template <typename Wanted>
-  void try_all(std::int64_t steps, const Wanted& wanted) {
-    for (const Setting& setting : pilot_grid(file_, steps))
-      if (wanted(setting.method)) try_one(setting);
   }
 
   bool is_new(const Setting& setting) {

@@ -30,7 +30,9 @@ bool same(const State& one, const State& other) {
 
 /// How far a step's map leads from where a claim ends, m.
 double missed(const RigidStep& step, const StepClaim& claim) {
-  const State end = step.end(end_velocity(step, claim));
+  Vector velocity = end_velocity(step, claim);
+  if (step.map) velocity = step.start_velocity() + (velocity - step.start_velocity()) / step.map->extension;
+  const State end = step.carried_on(velocity);
   double worst = (end.x - claim.end.x).cwiseAbs().maxCoeff();
   for (std::size_t b = 0; b < end.orientation.size(); ++b)
     worst = std::max(
@@ -136,8 +138,9 @@ bool IntegratorMemory::goes_on(const State& start) const {
 }
 
 /// a is of an instant that is apart from the step's begin in proportion to the step.
-IntegratorMemory::Begun IntegratorMemory::begun(const Scene& scene, const RigidStep& step) const {
-  if (!goes_on(step.start)) {
+IntegratorMemory::Begun IntegratorMemory::begun(const Scene& scene, const RigidStep& step,
+                                                bool goes_on) const {
+  if (!goes_on) {
     const Vector q = all_forces(scene, step);
     return {q, q, Vector::Zero(q.size())};
   }
@@ -193,8 +196,8 @@ IntegratorMap IntegratorMemory::bdf2(const RigidStep& step) const {
   return map;
 }
 
-std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, const State& start,
-                                                          double h) const {
+std::optional<IntegratorMap> IntegratorMemory::map_from(const Scene& scene, const State& start, double h,
+                                                        bool goes_on) const {
   if (method_.integrator == "implicit_euler") return {};
   const RigidStep step = step_of(scene, start, h);
   if (method_.integrator == "midpoint") return midpoint(step);
@@ -202,20 +205,32 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
   const bool any_hard = std::find(hard.begin(), hard.end(), true) != hard.end();
   const bool begins_anew =
       !carries_accelerations() || (method_.integrator == "generalised_alpha" && touches(scene));
-  const int before = goes_on(start) ? followed_ : 0, anew = any_hard ? 3 : begins_anew ? 1 : 0;
+  const int before = goes_on ? followed_ : 0, anew = any_hard ? 3 : begins_anew ? 1 : 0;
   if (before < anew) return {};
   if (!carries_accelerations()) return bdf2(step);
-  const Begun begun = this->begun(scene, step);
+  const Begun begun = this->begun(scene, step, goes_on);
   return by_alpha(method_) ? newmark(step, begun) : by_accelerations(step, begun);
 }
 
+std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, const State& start,
+                                                          double h) const {
+  return map_from(scene, start, h, goes_on(start) && !struck_);
+}
+
+/// Newmark's places tell no start from a motion that goes on: after a strike it is one.
 std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
   auto map = smooth_map(claim.scene, claim.start, claim.h);
-  if (!map || !may_strike(claim.scene)) return map;
-  const RigidStep euler = step_of(claim.scene, claim.start, claim.h);
-  RigidStep own = euler;
-  own.map = map;
-  if (missed(euler, claim) < missed(own, claim)) map.reset();
+  if (!may_strike(claim.scene)) return map;
+  RigidStep step = step_of(claim.scene, claim.start, claim.h);
+  const auto missed_by = [&](const std::optional<IntegratorMap>& own) {
+    step.map = own;
+    return missed(step, claim);
+  };
+  const bool other_way = goes_on(claim.start) && struck_;
+  double least = missed_by(map);
+  for (const auto& other :
+       {map_from(claim.scene, claim.start, claim.h, other_way), std::optional<IntegratorMap>()})
+    if (const double own = missed_by(other); own < least) least = own, map = other;
   return map;
 }
 
@@ -224,6 +239,7 @@ void IntegratorMemory::follow(const StepClaim& claim) {
   RigidStep step = step_of(claim.scene, claim.start, claim.h);
   step.map = map_of(claim);
   if (step.map && carries_accelerations()) begun_ = step.map->acceleration;
+  struck_ = !step.map && smooth_map(claim.scene, claim.start, claim.h);
   followed_ = goes_on(claim.start) ? followed_ + 1 : 1;
   h_ = claim.h;
   ended_ = claim.end;

@@ -29,8 +29,8 @@
 // knows q and a by the compliant constraints' values. BDF2 and generalised alpha in contact begin with a step
 // of implicit Euler, and where a constraint is hard all but the midpoint rule with three. So are steps in
 // which things strike, by contact or a force of one sign, or a motor jumps. Whether that is so the solver
-// decides; here it is read from the step's own places and velocities, which only one of both maps leads to
-// (where both do, nothing moves).
+// decides; here it is read from the step's own places, which only one of the maps leads to: that of a motion
+// that goes on, that of a start, and implicit Euler's.
 #pragma once
 
 #include <string_view>
@@ -72,7 +72,8 @@ class IntegratorMemory {
     return method_.integrator == "implicit_euler" || method_.integrator == "midpoint";
   }
   bool carries_accelerations() const { return !carries_nothing() && method_.integrator != "bdf2"; }
-  Begun begun(const Scene& scene, const RigidStep& step) const;
+  Begun begun(const Scene& scene, const RigidStep& step, bool goes_on) const;
+  std::optional<IntegratorMap> map_from(const Scene& scene, const State& start, double h, bool goes_on) const;
   IntegratorMap bdf2(const RigidStep& step) const;
   IntegratorMap newmark(const RigidStep& step, const Begun& begun) const;
   IntegratorMap by_accelerations(const RigidStep& step, const Begun& begun) const;
@@ -81,6 +82,7 @@ class IntegratorMemory {
   Method method_;
   double h_ = 0;                 // of the last step, s; 0: none
   int followed_ = 0;             // steps from a start on
+  bool struck_ = false;          // something in the last step
   Vector before_;                // velocities where it began
   Placement last_;               // and places
   Vector moved_;                 // its ways and arcs, m and rad

@@ -77,7 +77,7 @@ class Search {
     for (bool first = true;; first = false) {
       std::int64_t steps = 2 * std::lround(duration / file.step_s);
       const Truth truth = sharp_truth(file, duration, error, seconds / 2 - watch_.seconds(), steps);
-      if (first || truth.error_bar < pilot_.truth.error_bar) {
+      if (first || std::isnan(pilot_.truth.error_bar) || truth.error_bar < pilot_.truth.error_bar) {
         pilot_.duration = duration;
         pilot_.truth_steps = steps;
         pilot_.truth = truth;
@@ -112,7 +112,7 @@ class Search {
     else
       for (std::int64_t steps = 2 * steps_; outcome == Outcome::missed && steps <= pilot_.truth_steps;
            steps *= 2)
-        outcome = at(steps);
+        if ((outcome = at(steps)) == Outcome::met) steps_ = steps;
   }
 
   /// From the quickest one found to a quicker one, if there is one beside it: of its integrator or else of

@@ -104,7 +104,7 @@ StepBegin StepRows::step_begin(const Configuration& start) const {
           .v = start_v_,
           .a = no_acceleration_,
           .inverse_mass = rows_.inverse_mass,
-          .begins_anew = false,
+          .limits = Limits::silent,
           .tolerance = 0,
           .solved = false,
           .warm_start = false};

@@ -61,11 +61,13 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
     found.sweeps += report.sweeps;
     found.row_updates += report.row_updates;
     found.missed_steps += report.status != Status::ok;
-    found.penetration_m = std::max(found.penetration_m, -least_gap(workspace.contacts()).value_or(0));
     if (found.wall_s > limits.wall_s) {
       found.status = Status::not_converged;
       found.reason = fmt::format("given up after {:.2g} s", limits.wall_s);
-    } else if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
+      break;
+    }
+    found.penetration_m = std::max(found.penetration_m, -least_gap(workspace.contacts()).value_or(0));
+    if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
       found.status = report.status;
       found.reason = fmt::format("step {}: {}", k, report.reason);
     } else if (!(way(file.scene, found.end) <= limits.way_m)) {

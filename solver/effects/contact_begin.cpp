@@ -85,9 +85,9 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
     contact.target = std::min(contact.target, recovered);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  const bool yields = contact.law.restitution > 0 || contact.law.compliance > 0;
+  const bool springs = contact.law.compliance > 0 && contact.law.damping == 0;
   if (hits(shifts.forced, contact, begin.map.d, ahead, block, i))
-    impact_ = std::max(impact_, yields ? Impact::rebound : Impact::stop);
+    impact_ = std::max(impact_, springs || contact.law.restitution > 0 ? Impact::rebound : Impact::stop);
   const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
   const bool meets = closes && meets_freely(begin, contact, gap, ahead);
   contact.passes = closes && !meets;

@@ -53,7 +53,7 @@ class EffectRows final : public Source {
         begin_damping(begin, std::get<Block>(any));
       else if (has_period)
         keep_values(begin, std::get<Block>(any));
-      if (begin.begins_anew && kind().limited) find_stops(begin, std::get<Block>(any));
+      if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
     }
     return false;
   }
@@ -245,10 +245,15 @@ class EffectRows final : public Source {
         const auto& [lower, upper] = effect_.bounds[block.entry(i)];
         const bool one_sided = (lower == 0) != (upper == 0), was_idle = idle_[i];
         idle_[i] = one_sided && block.impulse[i][0] == 0;
+        const bool holds = one_sided && !idle_[i] && !gives_way(effect_, block.entry(i));
+        stops_ = stops_ || (holds && begin.limits == Limits::holds);
         if (!one_sided || !(idle_[i] || was_idle)) continue;
         Value value;
         evaluate(block, i, begin.at, value, block.jacobian[i]);
-        stops_ = stops_ || Operations::meets(begin, lower == 0 ? value[0] : -value[0], lower == 0, block, i);
+        const double size = largest_coordinate<E>(local_at(effect_, block.entry(i), block.node[i], begin.at),
+                                                  block.node[i], begin.inverse_mass);
+        stops_ =
+            stops_ || Operations::meets(begin, lower == 0 ? value[0] : -value[0], lower == 0, size, block, i);
       }
   }
 

@@ -48,13 +48,15 @@ void RowOperations<R, K>::linearise(const RowPlace& place, const Value& value, d
 }
 
 template <int R, int K>
-bool RowOperations<R, K>::meets(const StepBegin& begin, double open, bool upwards, const Block& block,
-                                std::size_t i) {
+bool RowOperations<R, K>::meets(const StepBegin& begin, double open, bool upwards, double size,
+                                const Block& block, std::size_t i) {
   const StepMap& map = begin.map;
   const double sign = upwards ? 1 : -1;
   const auto along = [&](const auto& columns) { return sign * (block.jacobian[i] * columns)[0]; };
   const double closing = -along(block.gather(begin.v, i));
-  if (!(closing > 0)) return false;
+  const double rounding =
+      value_rounding * size / map.d * std::sqrt(moving_squares(block, i, begin.inverse_mass)[0]);
+  if (!(closing > rounding)) return false;
   const double free = along(block.gather(map.v_free, i));
   const double moved = along(block.gather(map.x0, i)) - along(block.gather(begin.at.x, i)) + map.d * free;
   const double ahead = open + begin.coefficients.extension * moved;

@@ -29,8 +29,10 @@ struct RowOperations {
                         RowResidual& sums);
 
   /// True if limit i, `open` (R) before it and with the value rising (`upwards`) or falling as it opens, is
-  /// met in the step by the speed at which it closes, not for what forces bring alone.
-  static bool meets(const StepBegin& begin, double open, bool upwards, const Block& block, std::size_t i);
+  /// met in the step by the speed at which it closes, not for what forces bring alone, nor for the rounding
+  /// of places. `size` (m) is the constraint's largest coordinate.
+  static bool meets(const StepBegin& begin, double open, bool upwards, double size, const Block& block,
+                    std::size_t i);
 
   /// Source::perturb of constraint i with the turned value (less its offset) and Jacobian.
   static void perturb(const RowError& error, const Value& value, const Jacobian& jacobian, Block& block,

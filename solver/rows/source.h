@@ -46,6 +46,9 @@ struct RowResidual {
 };
 inline constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 
+/// What one-sided limits tell of: nothing, that they stop something, or also that hard ones hold something.
+enum class Limits : std::uint8_t { silent, stops, holds };
+
 /// Where a step begins, and what its map is.
 struct StepBegin {
   const Bodies& bodies;
@@ -56,7 +59,7 @@ struct StepBegin {
   const Points& v;                      // m/s
   const Points& a;                      // m/s^2, that the integrator carries on, if it does
   const std::vector<double>& inverse_mass;
-  bool begins_anew;  // at impacts: limits tell of theirs
+  Limits limits;     // what they are to tell of
   double tolerance;  // of the step's scale, to which the iterate is solved that rows are found for
   bool solved;       // that is enough
   bool warm_start;
@@ -98,7 +101,8 @@ enum class MetricShape { rest, current };
 /// Of the speed that forces bring in a step: what rests approaches by no more.
 inline constexpr double pressed_speed = 1e-3;
 
-/// How velocities jump in a step: what gives way or has a restitution comes back, what has none stops.
+/// How velocities jump in a step: what has a restitution or touches an undamped spring comes back, all else
+/// stops, at limits always.
 enum class Impact : std::uint8_t { none, rebound, stop };
 
 /// Whether rows have been found anew, and whether they connect other columns than before.

@@ -139,7 +139,7 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .v = problem.start_v,
           .a = a_,
           .inverse_mass = problem.inverse_mass,
-          .begins_anew = false,
+          .limits = Limits::silent,
           .tolerance = problem.method.tolerance,
           .solved = false,
           .warm_start = problem.method.warm_start,
@@ -182,7 +182,10 @@ bool History::begin_sources(bool anew, StepSystem& system) {
                       ahead = placed(problem, ahead_x_, ahead_poses_, problem.start_time),
                       behind = placed(problem, behind_x_, behind_poses_, problem.start_time);
   StepBegin begin = step_begin(problem, start, ahead, behind);
-  begin.begins_anew = integrator_->begins_anew && !anew;
+  // What carries accelerations on over-pulls from the chord's velocity at which a step of implicit Euler
+  // ends: a rope would slacken and catch again and again.
+  const bool told = integrator_->begins_anew && !anew;
+  if (told) begin.limits = integrator_->keeps == Keeps::states ? Limits::stops : Limits::holds;
   bool others = false;
   for (Slot& slot : system.slots) others |= slot.source->begin_step(begin, slot.blocks(system.rows));
   return others;

@@ -23,14 +23,15 @@
 // Impulses of contacts act as a step ends: q_l, a_l and v_l-1 are those of the motion without them (the
 // smooth part of bruls2014simultaneous), but for a_l in x0, so that what rests stays at rest. A step in which
 // something strikes, by contact or at a one-sided limit, is one of implicit Euler, and the next one is a
-// start: nothing goes on of what jumps. newmark alone carries on where all that strikes comes back, by a
-// restitution or a compliance, and no constraint is hard.
-// A start knows the forces of compliant constraints by their value, those of hard ones not: where there are
-// any, all that carry something on begin with three steps of implicit Euler, since places and velocities of
-// the start may be none that the constraints allow, so that the first two may jump. Without any bdf2 begins
-// with one such step, and with contact generalised_alpha does; their order stays. A start is what a state
-// begins that is not the last step's end, what follows a diverged step, and where whoever leads the scene
-// says so (`Workspace::begin_anew`).
+// start: nothing goes on of what jumps. newmark alone carries on where all that strikes comes back, contact
+// by a restitution or an undamped compliance, and no constraint is hard. To all but bdf2 steps in which a
+// hard limit holds something are those of implicit Euler, too. A start knows the forces of compliant
+// constraints by their value, those of hard ones not: where there are any, all that carry something on begin
+// with three steps of implicit Euler, since places and velocities of the start may be none that the
+// constraints allow, so that the first two may jump. Without any bdf2 begins with one such step, and with
+// contact generalised_alpha does; their order stays. A start is what a state begins that is not the last
+// step's end, what follows a diverged step, and where whoever leads the scene says so
+// (`Workspace::begin_anew`).
 //
 // Limits: newmark with alpha below about 0.52, generalised_alpha with rho above about 0.9 and midpoint are
 // unstable with hard constraints (the trapezoidal rule on an equation of index 3); left at one outer

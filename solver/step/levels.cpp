@@ -11,9 +11,9 @@ namespace {
 
 constexpr double some_roundings = 8 * rounding_unit;
 
-/// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each, and what is missed
-/// of gyroscopic torques.
-double beyond_own_rounding(const StepSystem& system, std::vector<double>& effects) {
+/// Primal residual (sqrt(J)) of nodes and bodies beyond the rounding of what acts on each, and of the values
+/// of its constraints where `still`, and what is missed of gyroscopic torques.
+double beyond_own_rounding(const StepSystem& system, bool still, std::vector<double>& effects) {
   const auto& inverse_mass = system.problem.inverse_mass;
   effects.assign(inverse_mass.size(), 0);
   for (const Slot& slot : system.slots) {
@@ -21,10 +21,17 @@ double beyond_own_rounding(const StepSystem& system, std::vector<double>& effect
     for_each_block(slot.view(system.rows), [&](const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i) {
         const auto push = (block.jacobian[i].transpose() * block.impulse[i]).eval();
+        double size = 0;  // m, of the constraint's places
+        for (const int node : block.node[i])
+          size = std::max(size, system.at.x.col(node).cwiseAbs().maxCoeff());
+        const double of_value =  // of the impulse, over what rounding makes of velocities
+            still ? block.inverse_diagonal[i].norm() * size / system.problem.map.d : 0;
         for (std::size_t a = 0; a < block.node[i].size(); ++a) {
           const auto node = static_cast<std::size_t>(block.node[i][a]);
+          const auto first = 3 * static_cast<Eigen::Index>(a);
           effects[node] +=
-              inverse_mass[node] * push.template segment<3>(3 * static_cast<Eigen::Index>(a)).norm();
+              inverse_mass[node] * (push.template segment<3>(first).norm() +
+                                    block.jacobian[i].template middleCols<3>(first).norm() * of_value);
         }
       }
     });
@@ -71,7 +78,7 @@ void measure(const StepSystem& system, const RowResidual& found, std::vector<dou
   levels.primal_rounding =
       levels.velocity_rounding + (balance ? some_roundings * impulses : 0.0) + (still ? of_values : 0.0);
   const bool missed = progress.primal > system.problem.method.tolerance * progress.scale;
-  levels.primal_beyond = balance && missed ? beyond_own_rounding(system, effects) : 0.0;
+  levels.primal_beyond = (balance || still) && missed ? beyond_own_rounding(system, still, effects) : 0.0;
   levels.dual_rounding = levels.velocity_rounding + of_values;
   levels.beyond_rounding = std::sqrt(found.beyond_rounding_squared);
 }

@@ -50,7 +50,8 @@ class Workspace {
   /// be changed.
   void change(std::size_t index, const Effect& effect);
 
-  /// The next step is a start (integrators.h): something that leads the scene, as a motor's rate, jumps.
+  /// Where constraints are hard the next step is a start (integrators.h): something that leads the scene, as
+  /// a motor's rate, jumps. Without any no velocity does.
   void begin_anew();
 
   /// The next step goes on from the end of the other's last one, whose scene is the same: by what its

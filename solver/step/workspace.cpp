@@ -135,7 +135,7 @@ const Method& Workspace::method() const {
 }
 
 void Workspace::begin_anew() {
-  data_->history.begin_anew();
+  if (data_->system.problem.hard_constraints) data_->history.begin_anew();
 }
 
 void Workspace::go_on_from(const Workspace& other) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes.h"
+#include "step/integrators.h"
 #include "step/step.h"
 
 using namespace pbd;
@@ -85,5 +86,26 @@ TEST_CASE("a step is not ok where a body turns so far that its angle is lost") {
     const Report report = step(workspace, h, state);
     CHECK(report.status == (share < 1 ? Status::ok : Status::diverged));
     CHECK((state.time > 0) == (share < 1));
+  }
+}
+
+TEST_CASE("heavy bodies far away that rest do not excuse a light one that a force moves") {
+  constexpr double force = 1e-4, h = 1e-3;  // N, s
+  for (const Integrator& integrator : integrators()) {
+    Scene scene;
+    const int a = add_body(scene, Vec3(1000, 0, 0), 1e4, Vec3::Constant(1e5)),
+              b = add_body(scene, Vec3(1020, 0, 0), 1e4, Vec3::Constant(1e5)),
+              light = add_body(scene, Vec3::Zero(), 1, Vec3::Ones());
+    scene.effects.emplace_back(PointJoint{{{a, b}}, {{Vec3(10, 0.3, 0.1), Vec3(-10, 0.3, 0.1)}}, {0}});
+    scene.effects.emplace_back(ExternalForce{{light}, {Vec3(force, 0, 0)}});
+    Method method;
+    method.integrator = integrator.name;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    for (int k = 0; k < 20; ++k) {
+      INFO(integrator.name << ", step " << k);
+      if (step(workspace, h, state).status == Status::ok)
+        CHECK(std::abs(state.v(0, light) - force * state.time) <= 1e-6 * force * state.time);
+    }
   }
 }

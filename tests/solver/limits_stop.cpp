@@ -1,5 +1,6 @@
 // What limits stop, and what starts at velocities that constraints do not allow, under every integrator:
 // nothing of the jump goes on.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "body_scenes.h"
@@ -116,4 +117,59 @@ TEST_CASE("bodies that are joined and drift without forces solve every step, but
       INFO(integrator.name << " from " << place);
       CHECK(missed == 0);
     }
+}
+
+TEST_CASE("a taut rope gives what whirls on it no energy") {
+  constexpr double speed = 3;  // m/s, round 1 m: 0.03 rad a step
+  for (const Integrator& integrator : integrators()) {
+    if (integrator.name == "midpoint") continue;  // unstable with hard constraints
+    Scene scene = linked_body(1, 1, 0, {{-infinity, 0}});
+    scene.initial.v(1, 1) = speed;
+    Workspace workspace = workspace_of(scene, integrator);
+    State state = scene.initial;
+    double last = speed;
+    for (int k = 0; k < 300; ++k) {
+      INFO(integrator.name << ", step " << k);
+      REQUIRE(step(workspace, h, state).status == Status::ok);
+      const double now = state.v.col(1).norm(), turn = h * speed;
+      CHECK(now <= last * (1 + turn * turn));  // a chord's speed is off by this order
+      CHECK(now <= speed * (1 + turn * turn));
+      CHECK(state.x.col(1).norm() <= 1 + 1e-8);
+      last = now;
+    }
+  }
+}
+
+TEST_CASE("what a limit has stopped does not keep an integrator from its order elsewhere") {
+  // Beside a cart that a limit stops a body swings on a spring: w = 10/s, 0.1 m.
+  const auto end_of = [](const Integrator& integrator, double limit) {
+    Scene scene;
+    const int world = add_world(scene), cart = add_body(scene, Vec3(0, 5, 0), 1, Vec3::Ones()),
+              swing = add_body(scene, Vec3(1.1, 0, 0), 1, Vec3::Ones());
+    scene.initial.v(0, cart) = 1;
+    scene.effects.emplace_back(SlideJoint{.body = {{world, cart}},
+                                          .point = {{Vec3(0, 5, 0), Vec3::Zero()}},
+                                          .axis = {Vec3::UnitX()},
+                                          .rest_position = {limit},
+                                          .rate = {0},
+                                          .compliance = {0},
+                                          .bounds = {{-infinity, 0}}});
+    scene.effects.emplace_back(BodyDistance{.body = {{world, swing}},
+                                            .point = {{Vec3::Zero(), Vec3::Zero()}},
+                                            .rest_length = {1},
+                                            .compliance = {0.01}});
+    Workspace workspace = workspace_of(scene, integrator);
+    State state = scene.initial;
+    for (int k = 0; k < 200; ++k) REQUIRE(step(workspace, h, state).status == Status::ok);
+    return state.x(0, swing);
+  };
+  const Integrator& bdf2 = *std::find_if(integrators().begin(), integrators().end(),
+                                         [](const Integrator& own) { return own.name == "bdf2"; });
+  const double free = end_of(bdf2, 100);
+  constexpr double a_step = h * h / 2 * 10, most = 6 * a_step;  // m, of implicit Euler; those about a stop
+  for (int i = 0; i < 12; ++i) {
+    const double limit = 0.1003 + 0.0017 * i;
+    INFO("stopped at " << limit);
+    CHECK(std::abs(end_of(bdf2, limit) - free) <= most);
+  }
 }

@@ -60,6 +60,21 @@ TEST_CASE("a course is integrated exactly, constant before its first time and af
 }
 
 // v_k = (F/m) times the integral, x_n = h sum v_k under implicit Euler.
+TEST_CASE("a course jumps where it changes much within less than a step, not where a fine table tells it") {
+  const Course jump{{0.3, 0.300001}, {0, 1}};
+  CHECK(jump.jumps(0.295, 0.305));
+  CHECK(jump.jumps(0.305, 0.315));  // the mean of the whole step is another one
+  CHECK(!jump.jumps(0.28, 0.29));
+  CHECK(!jump.jumps(0.32, 0.33));
+  Course sine;
+  for (int k = 0; k <= 500; ++k) {
+    sine.time.push_back(0.002 * k);
+    sine.value.push_back(std::sin(3 * sine.time.back()));
+  }
+  for (int k = 0; k < 100; ++k) CHECK(!sine.jumps(0.01 * k, 0.01 * (k + 1)));
+  CHECK(!Course{{0, 1}, {2, 2}}.jumps(0, 2));
+}
+
 TEST_CASE("a force over time gives the momentum of its integral, and implicit Euler's places") {
   const std::string scene =
       "[[particle]]\nposition_m = [1, 0, 0]\nmass_kg = 0.5\n[[force]]\nnode = 0\nforce_n = [0, 3, 0]\n" +

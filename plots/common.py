@@ -136,6 +136,13 @@ def panels(count, columns=3, width=6.5, height=2.1, **keywords):
     return figure, list(axes.flat[:count])
 
 
+def profile_line(ax, ratios, count, end, **look):
+    """Dolan and More's performance profile: the share of `count` tasks that are solved within a multiple of the least time, up to
+    `end`. `ratios` of times; inf and NaN: not solved."""
+    own = np.sort(ratios[np.isfinite(ratios)])
+    ax.step([1, *own, end], np.array([0, *range(1, len(own) + 1), len(own)]) / max(count, 1), where="post", **look)
+
+
 def shared_legend(figure, axes, columns=4):
     """One legend under all axes, each label once."""
     entries = {}

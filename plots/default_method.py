@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import figure, footnote, panels, shared_legend
+from common import figure, footnote, panels, profile_line, shared_legend
 from finding import finding
 from selecting import drawable, scene_text
 from styles import BLACK, FALLBACK
@@ -55,9 +55,7 @@ def default_beside_pairs(runs):
         given = given.loc[[name for name in looks if name in given.index]]
         end = 2 * np.max(given.to_numpy(), initial=5, where=np.isfinite(given.to_numpy()))
         for name in given.index:
-            own = np.sort(given.loc[name][np.isfinite(given.loc[name])])
-            heights = np.array([0, *range(1, len(own) + 1), len(own)]) / given.shape[1]
-            ax.step([1, *own, end], heights, where="post", label=name, **looks[name])
+            profile_line(ax, given.loc[name].to_numpy(), given.shape[1], end, label=name, **looks[name])
         ax.set(xscale="log", title=f"{scene_text(kind)} ({given.shape[1]})", ylim=(-0.03, 1.03))
     chart.supxlabel("time over the least of all pairs", fontsize=8)
     chart.supylabel("share of tasks solved", fontsize=8)
@@ -65,8 +63,8 @@ def default_beside_pairs(runs):
     own = ratios.loc[DEFAULT]
     solved, tasks = np.isfinite(own).sum(), len(own)
     finding(chart, f"The default, {DEFAULT}, solves {share(solved, tasks)} tasks, {slowness(own)}", better(ratios))
-    footnote(chart, "In brackets: how many tasks. A task: a scene's motion by implicit Euler and Coulomb's law with one step, each step solved to one tolerance. What fails "
-             "takes for ever. Not drawn: slower pairs, and in a panel those that were not given all its tasks.")
+    footnote(chart, "In brackets: how many tasks. A task: a scene's motion by implicit Euler and Coulomb's law with one step, each step solved "
+             "to one tolerance. What fails takes for ever. Not drawn: slower pairs, and in a panel those that were not given all its tasks.")
     return chart
 
 

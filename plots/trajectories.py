@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from common import figure, footnote, on_log, panels, shared_legend
+from common import figure, footnote, on_log, panels, profile_line, shared_legend
 from finding import beyond, finding, guide
 from selecting import UNTOLD, failed, good, reasons_note, scene_text, tellable, told_runs
 from styles import FALLBACK, style
@@ -49,10 +49,8 @@ def profile(runs):
         finite = ratios.reindex(names).to_numpy()
         end = 2 * finite[np.isfinite(finite)].max(initial=5)
         for k, name in enumerate(names):
-            own = np.sort(ratios.loc[name].dropna()) if name in ratios.index else np.array([])
-            own = own[np.isfinite(own)]
-            ax.step([1, *own, end], np.array([0, *range(1, len(own) + 1), len(own)]) / max(scenes, 1), where="post", label=name,
-                    **({"color": FALLBACK[k][0], "linestyle": FALLBACK[k][2]}))
+            own = ratios.loc[name].to_numpy() if name in ratios.index else np.array([])
+            profile_line(ax, own, scenes, end, label=name, color=FALLBACK[k][0], linestyle=FALLBACK[k][2])
         reached = np.isfinite(times.reindex(names)).sum(axis=1)
         if scenes and reached.max() > 0:
             first = reached.idxmax()

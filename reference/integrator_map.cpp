@@ -218,8 +218,8 @@ std::optional<IntegratorMap> IntegratorMemory::smooth_map(const Scene& scene, co
 }
 
 /// Newmark's places tell no start from a motion that goes on: after a strike it is one.
-std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
-  auto map = smooth_map(claim.scene, claim.start, claim.h);
+std::optional<IntegratorMap> IntegratorMemory::nearest_map(const StepClaim& claim,
+                                                           std::optional<IntegratorMap> map) const {
   if (!may_strike(claim.scene)) return map;
   RigidStep step = step_of(claim.scene, claim.start, claim.h);
   const auto missed_by = [&](const std::optional<IntegratorMap>& own) {
@@ -234,12 +234,17 @@ std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) co
   return map;
 }
 
+std::optional<IntegratorMap> IntegratorMemory::map_of(const StepClaim& claim) const {
+  return nearest_map(claim, smooth_map(claim.scene, claim.start, claim.h));
+}
+
 void IntegratorMemory::follow(const StepClaim& claim) {
   if (carries_nothing()) return;
   RigidStep step = step_of(claim.scene, claim.start, claim.h);
-  step.map = map_of(claim);
+  const auto smooth = smooth_map(claim.scene, claim.start, claim.h);
+  step.map = nearest_map(claim, smooth);
   if (step.map && carries_accelerations()) begun_ = step.map->acceleration;
-  struck_ = !step.map && smooth_map(claim.scene, claim.start, claim.h);
+  struck_ = !step.map && smooth;
   followed_ = goes_on(claim.start) ? followed_ + 1 : 1;
   h_ = claim.h;
   ended_ = claim.end;

@@ -74,6 +74,8 @@ class IntegratorMemory {
   bool carries_accelerations() const { return !carries_nothing() && method_.integrator != "bdf2"; }
   Begun begun(const Scene& scene, const RigidStep& step, bool goes_on) const;
   std::optional<IntegratorMap> map_from(const Scene& scene, const State& start, double h, bool goes_on) const;
+  /// `map`, or what else leads nearer to the claim's end.
+  std::optional<IntegratorMap> nearest_map(const StepClaim& claim, std::optional<IntegratorMap> map) const;
   IntegratorMap bdf2(const RigidStep& step) const;
   IntegratorMap newmark(const RigidStep& step, const Begun& begun) const;
   IntegratorMap by_accelerations(const RigidStep& step, const Begun& begun) const;

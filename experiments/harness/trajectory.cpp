@@ -44,10 +44,9 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
   Workspace workspace(file.scene, setting.method);
   Stepper stepper(moved, workspace);
   found.wall_s = since(clock);
-  const auto late = [&] { return found.wall_s + since(clock) > limits.wall_s; };
   if (std::isfinite(limits.wall_s))
     stepper.watch([&] {
-      if (late()) throw OutOfTime();
+      if (found.wall_s + since(clock) > limits.wall_s) throw OutOfTime();
     });
   for (std::int64_t k = 1; k <= setting.steps && found.status == Status::ok; ++k) {
     clock = Clock::now();

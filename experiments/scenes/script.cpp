@@ -40,10 +40,10 @@ bool Course::jumps(double begin, double end) const {
   constexpr double much = 0.1;
   const double h = end - begin;
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
-  const double jump = much * (*high - *low);
+  const double least = much * (*high - *low);
   for (std::size_t k = 1; k < time.size(); ++k)
-    if (time[k] - time[k - 1] < h && value[k] != value[k - 1] && std::abs(value[k] - value[k - 1]) >= jump &&
-        time[k - 1] < end && time[k] > begin - h)
+    if (time[k] - time[k - 1] < h && std::abs(value[k] - value[k - 1]) > least && time[k - 1] < end &&
+        time[k] > begin - h)
       return true;
   return false;
 }

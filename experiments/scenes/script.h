@@ -22,7 +22,8 @@ struct Course {
   double mean(double begin, double end) const { return (integral(end) - integral(begin)) / (end - begin); }
 
   /// True if the means of the step from `begin` to `end` and the one before jump: in one of them the value
-  /// changes by a tenth of its range or more between times that are nearer to each other than a step is long.
+  /// changes by more than a tenth of its range between times that are nearer to each other than a step is
+  /// long.
   bool jumps(double begin, double end) const;
 };
 

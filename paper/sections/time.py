@@ -10,9 +10,9 @@ def time_order(results):
         "Springs, links, a solid and pendulums move, integrated by ever smaller steps. Their motion is compared at four times with "
         "the judge `ode`, which knows neither steps nor multipliers. Linear problems are solved directly, steps to a tolerance of "
         "1e-12. The observed order is the slope of the logarithm of the error over that of the step, by least squares over the four "
-        "finest steps [@roache1994perspective]. `bdf2` begins with a step of implicit Euler, and with three where there are hard constraints, as "
-        "`newmark` and `generalised_alpha` do: errors of second order, which leave the order as it is. `newmark` between 0.5 and 1 has an error of first order with "
-        "the small coefficient alpha - 1/2 beside one of second order; its order is shown, not judged. The pendulum "
+        "finest steps [@roache1994perspective]. `bdf2` begins with a step of implicit Euler. Where there are hard constraints `bdf2`, "
+        "`newmark` and `generalised_alpha` begin with three: errors of second order, which leave the order as it is. `newmark` between "
+        "0.5 and 1 has an error of first order with the small coefficient alpha - 1/2 beside one of second order; its order is shown, not judged. The pendulum "
         "over 10 s shows what happens to hard constraints in a long time; its orders are not judged either.",
         figures=[Figure("time_order_errors", "Error of the worst node and time over the step, relative to the largest displacement. "
                         "Triangles show the orders 1 and 2. Crossed: the error exceeds the motion, or the simulation failed."),

@@ -65,8 +65,8 @@ def trajectories(results):
         paragraphs=[
             "The true end is an ODE's [@prince1981high] or a closed form's where there is one. Elsewhere it is that of a far finer run by "
             "`direct`, and its error bar the distance to the run of half as many steps. Of implicit Euler and `newmark` the one with the "
-            "smaller bar is taken if both end at the same place, else implicit Euler. Errors below three bars are not counted. Piles and arches go "
-            "separate ways soon, so that their motions are short. Of `incremental` and `frozen` a number of iterations is asked, no "
+            "smaller bar is taken if both end at the same place, else implicit Euler. Errors below three bars are not counted. Piles and "
+            "arches go separate ways soon, so that their motions are short. Of `incremental` and `frozen` a number of iterations is asked, no "
             "tolerance."],
         figures=[
             Figure("trajectories_profile", "Performance profiles [@dolan2002benchmarking]: the share of scenes that a method brings to an "

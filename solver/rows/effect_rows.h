@@ -11,9 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rows/effect_constraint.h"
-#include "rows/row_operations.h"
+#include "rows/limit_stops.h"
 
 namespace pbd {
 
@@ -53,16 +54,16 @@ class EffectRows final : public Source {
         begin_damping(begin, std::get<Block>(any));
       else if (has_period)
         keep_values(begin, std::get<Block>(any));
-      if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
+      if constexpr (requires { effect_.bounds; })
+        if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
     }
     return false;
   }
 
   Impact impact(ConstBlockSpan blocks) const override {
-    bool stops = stops_;
-    for (const AnyBlock& any : blocks)
-      for (std::size_t i = 0; i < idle_.size(); ++i)
-        stops |= idle_[i] && std::get<Block>(any).impulse[i][0] != 0;
+    bool stops = false;
+    if constexpr (requires { effect_.bounds; })
+      for (const AnyBlock& any : blocks) stops = stops || stops_.any(std::get<Block>(any));
     return stops ? Impact::stop : Impact::none;
   }
 
@@ -234,27 +235,15 @@ class EffectRows final : public Source {
       evaluate_anew(block, i, begin.at, block.begin_value[i], block.jacobian[i]);
   }
 
-  /// Which one-sided limits are idle as the step begins, without an impulse, and whether one that is, or was
-  /// as the last step began, is about to stop what comes: a step that meets a limit ends on it, still on its
-  /// way. Of limits that give way, too, since steps may be too long to tell them from hard ones.
   void find_stops(const StepBegin& begin, Block& block) {
-    stops_ = false;
-    idle_.resize(block.size(), true);
-    if constexpr (requires { effect_.bounds; })
-      for (std::size_t i = 0; i < block.size(); ++i) {
-        const auto& [lower, upper] = effect_.bounds[block.entry(i)];
-        const bool one_sided = (lower == 0) != (upper == 0), was_idle = idle_[i];
-        idle_[i] = one_sided && block.impulse[i][0] == 0;
-        const bool holds = one_sided && !idle_[i] && !gives_way(effect_, block.entry(i));
-        stops_ = stops_ || (holds && begin.limits == Limits::holds);
-        if (!one_sided || !(idle_[i] || was_idle)) continue;
-        Value value;
-        evaluate(block, i, begin.at, value, block.jacobian[i]);
-        const double size = largest_coordinate<E>(local_at(effect_, block.entry(i), block.node[i], begin.at),
-                                                  block.node[i], begin.inverse_mass);
-        stops_ =
-            stops_ || Operations::meets(begin, lower == 0 ? value[0] : -value[0], lower == 0, size, block, i);
-      }
+    const auto at = [&](std::size_t i) {
+      Value value;
+      evaluate(block, i, begin.at, value, block.jacobian[i]);
+      const auto own = local_at(effect_, block.entry(i), block.node[i], begin.at);
+      return std::pair{value[0], largest_coordinate<E>(own, block.node[i], begin.inverse_mass)};
+    };
+    stops_.find(begin, effect_.bounds, block, at,
+                [&](std::size_t i) { return !gives_way(effect_, block.entry(i)); });
   }
 
   /// J of constraint i at other positions than its value's.
@@ -318,8 +307,7 @@ class EffectRows final : public Source {
 
   const Scene& scene_;
   const E& effect_;
-  std::vector<bool> idle_{};  // limits without an impulse as the step began
-  bool stops_ = false;        // one of them is met
+  LimitStops stops_{};
 };
 
 }  // namespace pbd

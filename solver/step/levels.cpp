@@ -21,9 +21,10 @@ double beyond_own_rounding(const StepSystem& system, bool still, std::vector<dou
     for_each_block(slot.view(system.rows), [&](const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i) {
         const auto push = (block.jacobian[i].transpose() * block.impulse[i]).eval();
-        double size = 0;  // m, of the constraint's places
+        double size = 0;  // m, of the constraint's places that move
         for (const int node : block.node[i])
-          size = std::max(size, system.at.x.col(node).cwiseAbs().maxCoeff());
+          if (inverse_mass[static_cast<std::size_t>(node)] > 0)
+            size = std::max(size, system.at.x.col(node).cwiseAbs().maxCoeff());
         const double of_value =  // of the impulse, over what rounding makes of velocities
             still ? block.inverse_diagonal[i].norm() * size / system.problem.map.d : 0;
         for (std::size_t a = 0; a < block.node[i].size(); ++a) {

@@ -50,8 +50,8 @@ class Workspace {
   /// be changed.
   void change(std::size_t index, const Effect& effect);
 
-  /// Where constraints are hard the next step is a start (integrators.h): something that leads the scene, as
-  /// a motor's rate, jumps. Without any no velocity does.
+  /// Makes the next step a start (integrators.h), since something that leads the scene jumps, as a motor's
+  /// rate. Does nothing without hard constraints: no velocity jumps then.
   void begin_anew();
 
   /// The next step goes on from the end of the other's last one, whose scene is the same: by what its

@@ -56,7 +56,7 @@ Change euler_change(const Scene& scene) {
   };
 }
 
-/// The first steps are implicit Euler's.
+/// The first steps are implicit Euler's (solver/step/integrators.h).
 Change bdf2_change(const Scene& scene, bool hard) {
   return [&scene, starts = hard ? 3 : 1, first = euler_change(scene), last = State{}, g = Vec3(0, 0, 0),
           momentum = Vec3(0, 0, 0)](const State& before, const State& after) mutable -> Vec3 {

@@ -1,0 +1,53 @@
+// Which one-sided limits stop something in a step, as far as it is known: there integrators that carry
+// something on begin anew (step/integrators.h).
+//
+// A limit is idle where it has no impulse. One stops what comes where it is idle as the step begins, or was
+// as the last one began, and is met in the step: a step that meets a limit ends on it, still on its way. One
+// that gives way stops, too, since steps may be too long to tell it from a hard one. And so does one that is
+// idle as the step begins and has an impulse at its end, foreseen or not.
+#pragma once
+
+#include <vector>
+
+#include "rows/row_operations.h"
+
+namespace pbd {
+
+class LimitStops {
+ public:
+  /// Looks at all limits of a step that begins. at(i) sets J of constraint i there and returns its value and
+  /// its largest coordinate (m); hard(i) is true if it gives no way.
+  template <int K, class At, class Hard>
+  void find(const StepBegin& begin, const std::vector<ForceBounds>& bounds, RowBlock<1, K>& block, At&& at,
+            Hard&& hard) {
+    stops_ = false;
+    idle_.resize(block.size(), true);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto& [lower, upper] = bounds[block.entry(i)];
+      if ((lower == 0) == (upper == 0)) {
+        idle_[i] = false;
+        continue;
+      }
+      const bool was_idle = idle_[i];
+      idle_[i] = block.impulse[i][0] == 0;
+      stops_ = stops_ || (begin.limits == Limits::holds && !idle_[i] && hard(i));
+      if (stops_ || !(idle_[i] || was_idle)) continue;
+      const auto [value, size] = at(i);
+      stops_ = RowOperations<1, K>::meets(begin, lower == 0 ? value : -value, lower == 0, size, block, i);
+    }
+  }
+
+  /// With the impulses that the block has now.
+  template <int K>
+  bool any(const RowBlock<1, K>& block) const {
+    bool stops = stops_;
+    for (std::size_t i = 0; i < idle_.size(); ++i) stops = stops || (idle_[i] && block.impulse[i][0] != 0);
+    return stops;
+  }
+
+ private:
+  std::vector<bool> idle_;  // as the step began
+  bool stops_ = false;      // foreseen
+};
+
+}  // namespace pbd

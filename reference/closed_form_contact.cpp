@@ -50,6 +50,14 @@ double painleve_friction(double angle) {
   return (1 + 3 * c * c) / (3 * s * c);
 }
 
+double newton_impact_gain(double m, double inertia, double x, double z, double u, double w, double e) {
+  const double along = 1 / m + z * z / inertia, across = 1 / m + x * x / inertia, both = -x * z / inertia;
+  const double determinant = along * across - both * both, du = -u, dw = -(1 + e) * w;
+  const double p_along = (across * du - both * dw) / determinant,
+               p_across = (along * dw - both * du) / determinant;
+  return (p_along * u + p_across * (1 - e) * w) / 2;
+}
+
 double capstan_ratio(double mu, double angle) {
   return std::exp(mu * angle);
 }

@@ -37,6 +37,12 @@ double ladder_friction(double angle);
 /// (1 + 3 cos^2)/(3 sin cos), least 4/3 at tan(angle) = 2.
 double painleve_friction(double angle);
 
+/// Kinetic energy (J) that a body of mass m (kg) and moment of inertia (kg m^2) gains by an impact in a
+/// plane. Its point (x, z) from the centre (m) strikes a plane across z at the velocity (u, w) (m/s), sticks,
+/// and comes back at -e w, as Newton's restitution says (kane1985dynamics): p . (u, (1 - e) w)/2, W p = (-u,
+/// -(1 + e) w), W = 1/m + [z^2, -x z; -x z, x^2]/inertia.
+double newton_impact_gain(double m, double inertia, double x, double z, double u, double w, double e);
+
 /// Ratio of the tensions of a rope that slides over a drum by an angle: exp(mu angle), and of one of `links`
 /// massless links with `links` nodes on the drum: ((1 + mu t)/(1 - mu t))^links, t = tan(angle/links/2).
 double capstan_ratio(double mu, double angle);

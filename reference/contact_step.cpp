@@ -53,14 +53,27 @@ ContactStep::ContactStep(StepModel stated, const Scene& scene, const State& stat
   shifted_ = led(step, step.shift(), (1 - step.d() / h) * start_velocities);
 }
 
-/// Whether a pair touches by its features where its gap vanishes on the way of the free motion.
-bool ContactStep::meets_freely(const FeaturePair& pair, double gap, double ahead) const {
-  const double share = gap > 0 ? gap / (gap - ahead) : 0;
+/// A share of the way of the free motion.
+Placement ContactStep::freely(double share) const {
   Placement at = start_;
   at.x += share * (free_end_.x - start_.x);
   for (std::size_t b = 0; b < at.orientation.size(); ++b)
     at.orientation[b] = start_.orientation[b].slerp(share, free_end_.orientation[b]);
-  return search.on_both(pair, at);
+  return at;
+}
+
+/// Whether a pair's gap vanishes on the way of the free motion, where its rates say or in one of sixteen
+/// parts of what is left, and the pair touches by its features there.
+bool ContactStep::meets_freely(const FeaturePair& pair, double gap, double ahead) const {
+  constexpr double parts = 16, accuracy = 1e-6;  // of a part
+  const double rated = gap > 0 ? gap / (gap - ahead) : 0, part = (1 - rated) / parts;
+  double share = rated;
+  for (int k = 1; k <= parts && nearest(pair, freely(share)).gap > 0; ++k) share = rated + k * part;
+  if (nearest(pair, freely(share)).gap > 0) return false;
+  if (share > rated)  // it vanished within the last part
+    for (double width = part / 2; width > accuracy * part; width /= 2)
+      if (nearest(pair, freely(share - width)).gap <= 0) share -= width;
+  return search.on_both(pair, freely(share));
 }
 
 JudgedContact ContactStep::begun(const FeaturePair& pair) const {

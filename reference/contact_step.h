@@ -115,6 +115,7 @@ struct ContactStep {
   JudgedContact begun(const FeaturePair& pair) const;
 
   bool can_move(const ContactFeature& feature) const;
+  Placement freely(double share) const;
   bool meets_freely(const FeaturePair& pair, double gap, double ahead) const;
 
   Placement start_, free_end_;

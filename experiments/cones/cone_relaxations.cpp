@@ -68,7 +68,7 @@ Rows local_rows(const ConeProblem& problem, FrictionLaw law) {
     block.jacobian[i].setIdentity();  // of its own node alone
     block.delassus[i] = block.own_coupling(i);
     block.bias[i].setZero();
-    block.compliance[i].setZero();
+    block.compliance.set(i, 0);
     const double trace = block.delassus[i].trace();
     block.inverse_diagonal[i] = (trace > 0 ? 3 / trace : 1) * Eigen::Matrix3d::Identity();
     if (!(trace > 0)) block.bounds[i].freedom = Freedom::held;  // nothing that it touches can move

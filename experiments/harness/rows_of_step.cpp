@@ -27,7 +27,7 @@ DenseRows dense(const Rows& rows, int nodes) {
       for (int a = 0; a < Block::nodes; ++a)
         all.jacobian.block(row, 3 * block.node[i][static_cast<std::size_t>(a)], Block::rows, 3) =
             block.jacobian[i].template middleCols<3>(3 * a);
-      all.sigma.block(row, row, Block::rows, Block::rows) = block.compliance[i];
+      all.sigma.block(row, row, Block::rows, Block::rows) = typename Block::Square(block.compliance[i]);
       all.bias.segment(row, Block::rows) = block.bias[i];
     }
   });

@@ -129,12 +129,51 @@ void oblique_rows(Ledger& rows) {
   }
 }
 
+/// Newton's restitution with friction is not passive: of a slanted rod that sticks it makes energy.
+void slanted_rows(Ledger& rows) {
+  constexpr double h = 1e-7, e = 1, mass = 1, thickness = 1e-3, length = 1, along = 0.6, down = 1;
+  constexpr double inertia = mass * (length * length + thickness * thickness) / 12;
+  const double slant = std::sqrt(0.5), x = slant * (thickness - length) / 2,
+               z = -slant * (thickness + length) / 2;
+  const auto energy = [](const State& state) {
+    return (mass * state.v.col(1).squaredNorm() + inertia * std::pow(state.spin(1, 1), 2)) / 2;
+  };
+  rows.push_back(
+      {.id = "impact.slanted_rod",
+       .statement = "an impact with friction makes no energy",
+       .quantity = "kinetic energy over that before",
+       .unit = "1",
+       .formula = "1 at most, as e = 1",
+       .source = "kane1985dynamics",
+       .scene = "rod of 1 m at 45 degrees, at (0.6, 0, -1) m/s, restitution 1, friction 0.5, h = 1e-7 s",
+       .method = direct_method(),
+       .bound = {.absolute = 1e-5, .derivation = "within the step the rod turns by 4e-7 rad"},
+       .expected = [] { return 1.0; },
+       .run =
+           [=](const Method& method) {
+             BodyScene build({.friction = 0.5, .restitution = e}, 0);
+             build.ground();
+             const Eigen::Quaterniond turned(Eigen::AngleAxisd(std::acos(slant), Vec3::UnitY()));
+             build.box({thickness, thickness, length}, mass,
+                       {Vec3(0, 0, down * h / 2 - z), turned, Vec3(along, 0, -down)});
+             const Scene scene = build.finish();
+             return energy(state_after(scene, method, h, 1)) / energy(scene.initial);
+           },
+       .deviation = Deviation{"1 + the gain of Newton's restitution where friction sticks", [=] {
+                                const double before = mass * (along * along + down * down) / 2;
+                                return 1 +
+                                       reference::newton_impact_gain(mass, inertia, x, z, along, -down, e) /
+                                           before;
+                              }}});
+}
+
 }  // namespace
 
 void impacts(Ledger& rows) {
   bounce_rows(rows);
   sequence_rows(rows);
   oblique_rows(rows);
+  slanted_rows(rows);
 }
 
 }  // namespace pbdcheck::ledger

@@ -8,8 +8,8 @@ auto Constraint<Anchor>::node(const Anchor& effect, std::size_t i) -> Nodes {
   return {effect.node[i]};
 }
 
-auto Constraint<Anchor>::compliance(const Anchor& effect, std::size_t i) -> Square {
-  return effect.compliance[i] * Square::Identity();
+double Constraint<Anchor>::softness(const Anchor& effect, std::size_t i) {
+  return effect.compliance[i];
 }
 
 auto Constraint<Anchor>::retardation(const Anchor& effect, std::size_t i) -> Square {

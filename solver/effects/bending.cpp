@@ -21,8 +21,8 @@ auto Constraint<Bending>::node(const Bending& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-auto Constraint<Bending>::compliance(const Bending& effect, std::size_t i) -> Square {
-  return Square(effect.compliance[i]);
+double Constraint<Bending>::softness(const Bending& effect, std::size_t i) {
+  return effect.compliance[i];
 }
 
 auto Constraint<Bending>::retardation(const Bending& effect, std::size_t i) -> Square {

@@ -89,7 +89,7 @@ class ContactRows final : public Source {
   template <class Block>
   void begin_contact(const StepBegin& begin, const Shifts& shifts, ActiveContact& contact, Block& block,
                      std::size_t i);
-  bool meets_freely(const StepBegin& begin, const ActiveContact& contact, double gap, double ahead);
+  void look_ahead(const StepBegin& begin, double gap, double ahead, ActiveContact& contact);
 
   const Contact& effect_;
   Friction law_;

@@ -62,12 +62,14 @@ void ContactRows::take_seed(const Configuration& at, const ActiveContact& contac
   block.impulse[i] += allowed(block, i, block.impulse[i], Block::Value::Zero());
 }
 
-/// True if what a gap falls to zero between touches there, on the way of the free motion, which the gap of
-/// the contact ends as `ahead`, m.
-bool ContactRows::meets_freely(const StepBegin& begin, const ActiveContact& contact, double gap,
-                               double ahead) {
-  const double share = gap > 0 ? gap / (gap - ahead) : 0;
-  return search_.on_features(contact, begin.at, {free_.x, free_.pose, begin.at.time}, share);
+/// Whether a gap closes on the way of the free motion, the contact's rates of which take it to `ahead` (m),
+/// and whether what it is between touches there.
+void ContactRows::look_ahead(const StepBegin& begin, double gap, double ahead, ActiveContact& contact) {
+  const Configuration free{free_.x, free_.pose, begin.at.time};
+  const auto share = search_.closes_at(contact, begin.at, free, gap > 0 ? gap / (gap - ahead) : 0);
+  const bool meets = share && search_.on_features(contact, begin.at, free, *share);
+  contact.restitution = meets ? contact.law.restitution : 0;
+  contact.passes = share && !meets;
 }
 
 /// What a contact asks for in this step, and the impulse it begins with.
@@ -88,11 +90,11 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const bool springs = contact.law.compliance > 0 && contact.law.damping == 0;
   if (hits(shifts.forced, contact, begin.map.d, ahead, block, i))
     impact_ = std::max(impact_, springs || contact.law.restitution > 0 ? Impact::rebound : Impact::stop);
-  const bool closes = contact.law.restitution > 0 && contact.closing > 0 && ahead < 0;
-  const bool meets = closes && meets_freely(begin, contact, gap, ahead);
-  contact.passes = closes && !meets;
-  const bool collides = meets || collided_.contains({contact.pair(), contact.features.key});
-  contact.restitution = collides ? contact.law.restitution : 0.0;
+  contact.restitution = 0;
+  contact.passes = false;
+  if (contact.law.restitution > 0 && contact.closing > 0 && ahead < 0) look_ahead(begin, gap, ahead, contact);
+  if (collided_.contains({contact.pair(), contact.features.key}))
+    contact.restitution = contact.law.restitution;
   contact.rebound =
       contact.closing > 0
           ? std::min(contact.target, from + begin.map.d * contact.law.restitution * contact.closing)

@@ -94,7 +94,12 @@ class ContactSearch {
   /// the way of the free motion.
   bool find_met(const Configuration& start, const Configuration& free, const ContactLists& contacts);
 
-  /// True if what touches of a contact is on both shapes at a share of the way from `start` to `end`.
+  /// The share of the way from `start` to `end` at which a contact's gap closes, looked for at one at first
+  /// and from there on: none if it does not. Of surfaces the first one.
+  std::optional<double> closes_at(const ActiveContact& contact, const Configuration& start,
+                                  const Configuration& end, double first);
+
+  /// True if what touches of a contact is on both shapes at a share of the way.
   bool on_features(const ActiveContact& contact, const Configuration& start, const Configuration& end,
                    double share);
 
@@ -207,7 +212,8 @@ class ContactSearch {
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
                     const Configuration& end) const;
-  bool passes_through(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
+  bool passes_through(const Pair& pair, const Configuration& start, const Configuration& end, double slack,
+                      bool in_suffices);
   bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
@@ -223,6 +229,8 @@ class ContactSearch {
   double beside(const std::array<int, 2>& pair) const;
   bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
+  Configuration placed_between(const ActiveContact& contact, const Configuration& start,
+                               const Configuration& end, double share);
   double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;

@@ -8,8 +8,8 @@ auto Constraint<Distance>::node(const Distance& effect, std::size_t i) -> Nodes 
   return effect.node[i];
 }
 
-auto Constraint<Distance>::compliance(const Distance& effect, std::size_t i) -> Square {
-  return Square(effect.compliance[i]);
+double Constraint<Distance>::softness(const Distance& effect, std::size_t i) {
+  return effect.compliance[i];
 }
 
 auto Constraint<Distance>::retardation(const Distance& effect, std::size_t i) -> Square {

@@ -66,9 +66,9 @@ bool ContactSearch::is_left(const PairFeatures& features) const {
   return left_.contains(features);
 }
 
-bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
-                                const Configuration& end, double share) {
-  if (contact.of_surfaces) return true;  // it has no features, nor carriers
+/// A contact's carriers at a share of the way; what else there is is of no use.
+Configuration ContactSearch::placed_between(const ActiveContact& contact, const Configuration& start,
+                                            const Configuration& end, double share) {
   if (between_x_.cols() != start.x.cols()) between_x_ = start.x;
   between_pose_.resize(start.pose.size());
   const auto place = [&](int node) {
@@ -87,7 +87,36 @@ bool ContactSearch::on_features(const ActiveContact& contact, const Configuratio
       pose.rotation = turned_between(from.rotation, to.rotation, share);
     }
   }
-  return on_shapes(contact, {between_x_, between_pose_, start.time});
+  return {between_x_, between_pose_, start.time};
+}
+
+std::optional<double> ContactSearch::closes_at(const ActiveContact& contact, const Configuration& start,
+                                               const Configuration& end, double first) {
+  if (contact.of_surfaces) return first;  // it has no carriers
+  const auto closed = [&](double share) {
+    return touching_at(contact, placed_between(contact, start, end, share)).gap <= 0;
+  };
+  if (closed(first)) return first;
+  constexpr int places = 16, halvings = 20;  // of the way
+  double open = first;
+  for (int k = 1; k <= places; ++k) {
+    double shut = first + (1 - first) * k / places;
+    if (!closed(shut)) {
+      open = shut;
+      continue;
+    }
+    for (int halving = 0; halving < halvings; ++halving) {
+      const double middle = (open + shut) / 2;
+      (closed(middle) ? shut : open) = middle;
+    }
+    return shut;
+  }
+  return std::nullopt;
+}
+
+bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
+                                const Configuration& end, double share) {
+  return contact.of_surfaces || on_shapes(contact, placed_between(contact, start, end, share));
 }
 
 /// True if two contacts of the same features say the same of a pair.

@@ -41,9 +41,9 @@ bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, co
 }
 
 /// True if a pair that begins in touch goes into each other on its way, deeper than a tenth of its radius,
-/// and out again: what clips a corner by less has passed nothing.
+/// and out again unless `in_suffices`: what clips a corner by less has passed nothing.
 bool ContactSearch::passes_through(const Pair& pair, const Configuration& start, const Configuration& end,
-                                   double slack) {
+                                   double slack, bool in_suffices) {
   constexpr double clipped = 0.1;
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double travel = travel_between(one, two), round = round_radius_of(one, two);
@@ -54,7 +54,7 @@ bool ContactSearch::passes_through(const Pair& pair, const Configuration& start,
     share = std::min(1.0, share + std::max(gap, touching_for) / travel);
     gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
     inside |= gap < pair.deepest - clipped * round;
-    if (inside && gap > -slack) return true;
+    if (inside && (in_suffices || gap > -slack)) return true;
   }
   return false;
 }
@@ -63,7 +63,7 @@ bool ContactSearch::passes_through(const Pair& pair, const Configuration& start,
 /// `end`; true if it has.
 bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
                                 double slack) {
-  const bool through = passes_through(pair, start, end, slack);
+  const bool through = passes_through(pair, start, end, slack, false);
   generate_between(pair, start, end, 0, 2 * slack);
   if (!through)
     std::erase_if(points_.found,
@@ -108,11 +108,16 @@ bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, 
   bool any = false;
   for (const NearPair& near : near_pairs_) {
     const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
-    const Pair pair{.collider = near.collider, .nearest = near.nearest, .overlooked = slack};
+    const Pair pair{.collider = near.collider,
+                    .nearest = near.nearest,
+                    .deepest = std::min(near.nearest, 0.0),
+                    .overlooked = slack};
     if (!std::isfinite(slack)) continue;
     apart_ = 0;
-    if (!(pair.nearest > slack ? meets(pair, start, end, -slack, slack)
-                               : find_passed(pair, start, end, slack)))
+    // A missed step leaves no more than a clipped corner of what began in touch in each other, either.
+    if (!(pair.nearest > slack
+              ? meets(pair, start, end, -slack, slack)
+              : find_passed(pair, start, end, slack) || passes_through(pair, start, end, slack, true)))
       continue;
     any = true;
     const auto lower = [&](Eigen::Index column) { share[column] = std::min(share[column], apart_); };

@@ -88,8 +88,12 @@ auto Constraint<TetStrain>::rest(const TetStrain& effect, std::size_t i) -> cons
   return effect.rest[i];
 }
 
-auto Constraint<TetStrain>::compliance(const TetStrain& effect, std::size_t i) -> Square {
-  return inverse_elasticity(effect.material.poisson) / (effect.material.young * tet_volume(effect.rest[i]));
+double Constraint<TetStrain>::softness(const TetStrain& effect, std::size_t i) {
+  return 1 / tet_volume(effect.rest[i]);
+}
+
+auto Constraint<TetStrain>::unit_compliance(const TetStrain& effect) -> Square {
+  return inverse_elasticity(effect.material.poisson) / effect.material.young;
 }
 
 auto Constraint<TetStrain>::retardation(const TetStrain& effect, std::size_t) -> Square {

@@ -25,7 +25,8 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
 
   static Nodes node(const TetStrain& effect, std::size_t i);
   static const Positions& rest(const TetStrain& effect, std::size_t i);
-  static Square compliance(const TetStrain& effect, std::size_t i);
+  static double softness(const TetStrain& effect, std::size_t i);
+  static Square unit_compliance(const TetStrain& effect);  // C^-1, 1/Pa
 
   /// C^-1 C_d
   static Square retardation(const TetStrain& effect, std::size_t i);

@@ -48,9 +48,12 @@ auto Constraint<TriangleStrain>::rest(const TriangleStrain& effect, std::size_t 
   return effect.rest[i];
 }
 
-auto Constraint<TriangleStrain>::compliance(const TriangleStrain& effect, std::size_t i) -> Square {
-  return plane_inverse_elasticity(effect.material.poisson) /
-         (effect.thickness * effect.material.young * triangle_area(effect.rest[i]));
+double Constraint<TriangleStrain>::softness(const TriangleStrain& effect, std::size_t i) {
+  return 1 / triangle_area(effect.rest[i]);
+}
+
+auto Constraint<TriangleStrain>::unit_compliance(const TriangleStrain& effect) -> Square {
+  return plane_inverse_elasticity(effect.material.poisson) / (effect.thickness * effect.material.young);
 }
 
 auto Constraint<TriangleStrain>::retardation(const TriangleStrain& effect, std::size_t) -> Square {

@@ -33,7 +33,7 @@ typename Block::Square softness(const Block& block, std::size_t i, double share)
   const auto identity = Block::Square::Identity();
   const double sigma = share * Block::rows / block.inverse_diagonal[i].trace();
   if (block.bounded()) return (sigma + block.compliance[i].trace()) * identity;
-  return block.compliance[i] + sigma * identity;
+  return typename Block::Square(block.compliance[i]) + sigma * identity;
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void Ldlt::assemble(const Rows& rows, Put&& put) const {
               }
             if (impulse < 0) {
               typename Block::Jacobian solved = jacobian;
-              solve_definite_in_place(block.compliance[i], solved);
+              solve_definite_in_place(typename Block::Square(block.compliance[i]), solved);
               const Eigen::Matrix<double, 3 * Block::nodes, 3 * Block::nodes> stiffness =
                   jacobian.transpose() * solved;
               for (std::size_t r = 0; r < column.size(); ++r)

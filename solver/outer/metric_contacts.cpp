@@ -113,8 +113,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
     local.jacobian[k].setZero();
     local.bias[k].setZero();
     local.bias[k].template head<R>() = block.bias[i];
-    local.compliance[k].setZero();
-    local.compliance[k].template topLeftCorner<R, R>() = block.compliance[i];
+    local.compliance.set(k, block.compliance[i](0, 0));
     local.impulse[k].setZero();
     local.impulse[k].template head<R>() = block.impulse[i];
     local.bounds[k] = block.bounds[i];
@@ -139,7 +138,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
 void MetricContacts::find_diagonal(LocalContacts& local) {
   for (std::size_t i = 0; i < local.size(); ++i) {
     Eigen::Matrix3d& own = local.delassus[i];
-    own = local.compliance[i] + local.own_coupling(i);
+    own = Eigen::Matrix3d(local.compliance[i]) + local.own_coupling(i);
     const bool tangential = own(1, 1) > 0;
     if (!tangential) own = own(0, 0) * Eigen::Matrix3d::Identity();
     const double trace = own.trace();

@@ -1,5 +1,5 @@
 // What every effect with rows states. At the positions of constraint i's K nodes Constraint<Effect> gives
-//   its value c(x), its Jacobian J = dc/dx and its compliance A,
+//   its value c(x), its Jacobian J = dc/dx and its compliance A, softness(effect, i) unit_compliance(effect),
 //   the retardation time T of its damping, asked for where the effect lists any,
 //   and a bound B (N s/m, one a node) of the geometric stiffness of its impulses p:
 //     -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
@@ -31,6 +31,13 @@ struct ConstraintShape {
   using Stiffness = Eigen::Matrix<double, 3 * K, 3 * K>;
   using Nodes = std::array<int, K>;
   using NodeBounds = Eigen::Matrix<double, 1, K>;  // of the geometric stiffness, one a node
+
+  /// What the compliances of an effect's constraints are a number each times: of rows that are as soft as
+  /// each other 1.
+  template <class Effect>
+  static Square unit_compliance(const Effect&) {
+    return Square::Identity();
+  }
 };
 
 /// A constraint of B rigid bodies and P nodes: two nodes a body, its centre of mass and its rotation, then
@@ -65,7 +72,8 @@ concept RowEffect = requires(const Effect& effect, std::size_t i,
   requires BodyEffect<Effect> || requires {
     { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
   };
-  { Constraint<Effect>::compliance(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
+  { Constraint<Effect>::softness(effect, i) } -> std::same_as<double>;
+  { Constraint<Effect>::unit_compliance(effect) } -> std::same_as<typename Constraint<Effect>::Square>;
   { Constraint<Effect>::retardation(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   Constraint<Effect>::evaluate(effect, i, x, value, jacobian);
 };

@@ -107,7 +107,7 @@ class EffectRows final : public Source {
         add_scattered(block, potential, [&](std::size_t i, double& own) {
           const auto respond = [&](Value value) -> const Value& {
             if (!block.offset.empty()) value -= block.offset[i];
-            block.impulse[i].noalias() = block.stiffness[i] * (value / -map.d);
+            block.impulse[i] = block.stiffness[i] * (value / -map.d);
             own -= value.dot(block.impulse[i]) / (2 * map.d);
             return block.impulse[i];
           };
@@ -128,15 +128,12 @@ class EffectRows final : public Source {
         auto& block = std::get<Block>(any);
         Value value;
         Jacobian jacobian;
-        block.stiffness.resize(block.size());
+        set_stiffness(map, block);
         for (std::size_t i = 0; i < block.size(); ++i) {
           auto at = positions_of(block.node[i], x);
           if constexpr (requires { C::rest(effect_, i); })
             if (shape == MetricShape::rest) at = C::rest(effect_, i);
           C::evaluate(effect_, i, at, value, jacobian);
-          block.stiffness[i] =
-              inverse_of(block.offset.empty() ? Square(C::compliance(effect_, i) / (map.s * map.d))
-                                              : block.compliance[i]);
           typename Operations::Stiffness stiffening = Operations::Stiffness::Zero();
           if constexpr (requires { C::stiffening(effect_, i, at, value); })
             if (shape == MetricShape::current)
@@ -169,7 +166,7 @@ class EffectRows final : public Source {
       const auto node = columns_of(scene_, effect_, i);
       C::evaluate(effect_, i, local_at(effect_, i, node, at), value, jacobian);
       if (kind().damped) value += C::retardation(effect_, i) * (jacobian * positions_of(node, v).reshaped());
-      Value force = -solve_definite(C::compliance(effect_, i), value);
+      Value force = -solve_definite(compliance_of(effect_, i), value);
       const ForceBounds bounds = force_bounds(effect_, i);
       force[0] = std::clamp(force[0], bounds[0], bounds[1]);  // only constraints of one row have any
       const Eigen::Matrix<double, 3, C::nodes> push = (jacobian.transpose() * force).reshaped(3, C::nodes);
@@ -182,11 +179,10 @@ class EffectRows final : public Source {
     Jacobian jacobian;
     for (std::size_t i = 0; i < constraint_count(effect_); ++i) {
       C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, jacobian);
-      const Square compliance = C::compliance(effect_, i);
-      if (compliance.isZero(0))  // no effect has both kinds of rows in one constraint
+      if (!gives_way(effect_, i))
         sum.missed = larger(sum.missed, unmet(effect_, i, value));
       else
-        sum.energy += held_energy(effect_, i, value, compliance);
+        sum.energy += held_energy(effect_, i, value, compliance_of(effect_, i));
     }
   }
 
@@ -246,6 +242,16 @@ class EffectRows final : public Source {
                 [&](std::size_t i) { return !gives_way(effect_, block.entry(i)); });
   }
 
+  /// Sigma^-1 of all constraints, each of which gives way.
+  void set_stiffness(const StepMap& map, Block& block) const {
+    block.stiffness.resize(block.size());
+    const bool damped = !block.offset.empty();
+    block.stiffness.set_one(inverse_of(damped ? block.compliance.one() : C::unit_compliance(effect_)));
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block.stiffness.set(
+          i, 1 / (damped ? block.compliance.factor(i) : C::softness(effect_, i) / (map.s * map.d)));
+  }
+
   /// J of constraint i at other positions than its value's.
   void take_directions(const Block& block, std::size_t i, const Configuration& at, Jacobian& jacobian) const {
     Value unused;
@@ -255,6 +261,7 @@ class EffectRows final : public Source {
   RowResidual linearise_block(const RowPlace& place, Block& block) const {
     RowResidual sums;
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
+    if (!damped) block.compliance.set_one(C::unit_compliance(effect_));
     add_each(block, sums, [&](std::size_t i, RowResidual& own_sums) {
       Value value;
       const std::size_t entry = block.entry(i);
@@ -263,7 +270,7 @@ class EffectRows final : public Source {
       if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
       if (place.directions != nullptr) take_directions(block, i, *place.directions, block.jacobian[i]);
       if (damped) value -= block.offset[i];
-      if (!damped) block.compliance[i] = C::compliance(effect_, entry) / (place.map.s * place.map.d);
+      if (!damped) block.compliance.set(i, C::softness(effect_, entry) / (place.map.s * place.map.d));
       if constexpr (requires { effect_.bounds; })
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
@@ -278,7 +285,8 @@ class EffectRows final : public Source {
     const auto share_of = [&](std::size_t entry) {  // (1 + T/d)^-1
       return inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
     };
-    const Square common = C::one_material && block.size() > 0 ? share_of(block.entry(0)) : Square();
+    const Square common = C::one_material && block.size() > 0 ? share_of(block.entry(0)) : Square::Identity();
+    block.compliance.set_one(common * C::unit_compliance(effect_));
     block.offset.resize(block.size());
     block.begin_value.resize(block.size());
     each_own(block, [&](std::size_t i) {
@@ -301,7 +309,8 @@ class EffectRows final : public Source {
       }
       const Square share = C::one_material ? common : share_of(entry);
       block.offset[i] = from - share * from;
-      block.compliance[i] = share * C::compliance(effect_, entry) / (c.s * c.d);
+      const double own_share = C::one_material ? 1 : share(0, 0);  // T is one number then
+      block.compliance.set(i, own_share * C::softness(effect_, entry) / (c.s * c.d));
     });
   }
 

@@ -7,6 +7,7 @@
 #include "friction.h"
 #include "rows/chunks.h"
 #include "rows/constraint.h"
+#include "rows/scaled_squares.h"
 
 namespace pbd {
 
@@ -24,18 +25,18 @@ struct RowBlock : ConstraintShape<R, K> {
   using Shape = ConstraintShape<R, K>;
   using Velocities = Eigen::Matrix<double, 3 * K, 1>;
 
-  static constexpr std::size_t row_bytes = sizeof(typename Shape::Jacobian) +
-                                           2 * sizeof(typename Shape::Square) +
+  static constexpr std::size_t row_bytes = sizeof(typename Shape::Jacobian) + sizeof(typename Shape::Square) +
+                                           sizeof(double) +
                                            2 * sizeof(typename Shape::Value);  // of a constraint, about
 
   std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
   std::vector<typename Shape::Nodes> node;
   std::vector<typename Shape::Jacobian> jacobian;
   std::vector<typename Shape::Value> bias;
-  std::vector<typename Shape::Square> compliance;  // Sigma
+  ScaledSquares<typename Shape::Square> compliance;  // Sigma
   std::vector<typename Shape::Square> inverse_diagonal;
   std::vector<typename Shape::Value> impulse;
-  std::vector<typename Shape::Square> stiffness;   // Sigma^-1, kept for quasi_newton alone
+  ScaledSquares<typename Shape::Square> stiffness;  // Sigma^-1, kept for quasi_newton alone
   std::vector<typename Shape::Value> offset;       // of c by damping, and c where the step begins: both empty
   std::vector<typename Shape::Value> begin_value;  // where there is none
   std::vector<Bounds> bounds;                      // empty where every impulse is free
@@ -50,9 +51,12 @@ struct RowBlock : ConstraintShape<R, K> {
   /// Index in the effect of constraint i.
   std::size_t entry(std::size_t i) const { return entries.empty() ? i : entries[i]; }
 
-  /// Contacts: impulses with bounds, and with friction for R = 3.
+  /// Contacts: impulses with bounds, and with friction for R = 3. Their compliance is along the normal.
   void resize_contacts(std::size_t count) {
     resize(count);
+    typename Shape::Square along_normal = Shape::Square::Zero();
+    along_normal(0, 0) = 1;
+    compliance.set_one(along_normal);
     bounds.assign(count, {});
     if constexpr (R == 3) {
       friction.resize(count);
@@ -73,8 +77,8 @@ struct RowBlock : ConstraintShape<R, K> {
     return static_cast<std::int64_t>(
         entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
         bounds.size() * sizeof(Bounds) + friction.size() * sizeof(double) +
-        (delassus.size() + stiffness.size()) * sizeof(compliance[0]) +
-        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + 2 * sizeof(compliance[0])));
+        delassus.size() * sizeof(delassus[0]) + compliance.bytes() + stiffness.bytes() +
+        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + sizeof(inverse_diagonal[0])));
   }
 
   /// Velocities of constraint i's nodes, three entries a node.

@@ -92,11 +92,12 @@ template <int R, int K>
 void RowOperations<R, K>::append_metric(const Block& block, std::size_t i, const Jacobian& jacobian,
                                         const Stiffness& more, bool one_number,
                                         std::vector<MetricEntry>& entries) {
+  const Square stiffness = block.stiffness[i];
   for (int a = 0; a < K; ++a)
     for (int b = 0; b <= a; ++b) {
       const Eigen::Matrix<double, R, 3> own = jacobian.template middleCols<3>(3 * a),
                                         other = jacobian.template middleCols<3>(3 * b);
-      const Eigen::Matrix<double, 3, R> stiff = own.transpose() * block.stiffness[i];
+      const Eigen::Matrix<double, 3, R> stiff = own.transpose() * stiffness;
       Eigen::Matrix3d pair = stiff * other + more.template block<3, 3>(3 * a, 3 * b);
       if (one_number) pair = Eigen::Matrix3d(Vec3::Constant(pair.trace() / 3).asDiagonal());
       entries.push_back({block.node[i][a], block.node[i][b], pair});

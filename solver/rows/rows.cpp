@@ -83,7 +83,7 @@ void restore_impulses_and_biases(const std::vector<double>& kept, Rows& rows) {
 void scale_hard_biases(Rows& rows, double factor) {
   for_each_block(rows.blocks, [&](auto& block) {
     for (std::size_t i = 0; i < block.size(); ++i)
-      if (block.compliance[i].isZero(0) && !opens(block, i)) block.bias[i] *= factor;
+      if (block.compliance[i].is_zero() && !opens(block, i)) block.bias[i] *= factor;
   });
 }
 

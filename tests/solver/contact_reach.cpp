@@ -5,6 +5,7 @@
 #include "contact_runs.h"
 #include "mesh.h"
 #include "scenes/contacts.h"
+#include "turning_bar.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -69,6 +70,15 @@ TEST_CASE("what passes within reach and meets nothing is not thrown back") {
   const State end = run(scene, contact_method("direct"), 0.01, 1, workspace);
   CHECK(workspace.contacts().size() == 1);  // it is within reach
   CHECK((end.v.col(1) - velocity).norm() <= 1e-12 * velocity.norm());
+}
+
+TEST_CASE("corners that turn above the ground do not come back from it") {
+  const Scene scene = turning_bar();
+  Workspace workspace(scene, contact_method("direct"));
+  const State end = run(scene, contact_method("direct"), 0.01, 2, workspace);
+  CHECK(!workspace.contacts().empty());  // they are within reach
+  CHECK(end.v.col(1).norm() <= 1e-12);
+  CHECK((end.spin - scene.initial.spin).norm() <= 1e-12 * scene.initial.spin.norm());
 }
 
 TEST_CASE("what flies by has no rows") {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dense.h"
+#include "rows/effect_constraint.h"
 #include "samples.h"
 
 using namespace pbd;
@@ -79,7 +80,7 @@ void check_geometric_bound(const E& effect, bool elastic_impulses) {
     typename C::Value impulse;
     for (int r = 0; r < C::rows; ++r) impulse[r] = std::sin(3.7 * seed + 1.9 * r + 0.4);
     if (elastic_impulses)
-      impulse = (seed % 2 ? 1 : -1) * typename C::Square(reference::inverse(C::compliance(effect, 0))) *
+      impulse = (seed % 2 ? 1 : -1) * typename C::Square(reference::inverse(compliance_of(effect, 0))) *
                 value_at(effect, x);
     const auto bound = C::geometric_bound(effect, 0, x, impulse);
     Eigen::VectorXd diagonal(3 * C::nodes);
@@ -162,7 +163,7 @@ TEST_CASE("for corotational strain, J^T A^-1 c is the gradient of the energy 1/2
   using C = Constraint<TetStrain>;
   TetStrain effect = sample<TetStrain>();
   effect.strain = Strain::corotational;
-  const Eigen::Matrix<double, 6, 6> stiffness = reference::inverse(C::compliance(effect, 0));
+  const Eigen::Matrix<double, 6, 6> stiffness = reference::inverse(compliance_of(effect, 0));
   for (int seed = 0; seed < 20; ++seed) {
     const auto x = bent_positions<4>(seed);
     C::Value value;
@@ -211,8 +212,7 @@ TEST_CASE("compliances invert the energy of isotropic elasticity") {
   const TetStrain effect = sample<TetStrain>();
   const auto [young, nu] = effect.material;
   const double mu = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
-  const Eigen::Matrix<double, 6, 6> stiffness =
-      reference::inverse(Constraint<TetStrain>::compliance(effect, 0));
+  const Eigen::Matrix<double, 6, 6> stiffness = reference::inverse(compliance_of(effect, 0));
   Eigen::Matrix<double, 6, 1> c;
   c << 0.01, -0.02, 0.03, 0.04, -0.05, 0.06;
   const double squares = c.head<3>().squaredNorm() + c.tail<3>().squaredNorm() / 2;
@@ -224,7 +224,7 @@ TEST_CASE("a triangle's compliance inverts the energy of plane stress") {
   // Energy per rest area t Y/(2 (1-nu^2)) (uu^2 + vv^2 + 2 nu uu vv + (1-nu)/2 (2 uv)^2), t the thickness.
   const TriangleStrain effect = sample<TriangleStrain>();
   const auto [young, nu] = effect.material;
-  const Eigen::Matrix3d stiffness = reference::inverse(Constraint<TriangleStrain>::compliance(effect, 0));
+  const Eigen::Matrix3d stiffness = reference::inverse(compliance_of(effect, 0));
   const Vec3 c(0.01, -0.02, 0.05);
   const double squares = c[0] * c[0] + c[1] * c[1] + 2 * nu * c[0] * c[1] + (1 - nu) / 2 * c[2] * c[2];
   const double density = effect.thickness * young / (2 * (1 - nu * nu)) * squares;

@@ -68,11 +68,11 @@ inline Eigen::VectorXd spectrum(const Rows& rows, int nodes) {
       for (std::size_t i = 0; i < block.size(); ++i, row += block.rows) use(block, i, row);
     });
   };
-  each([&](const auto& block, std::size_t i, int row) {
+  each([&]<class Block>(const Block& block, std::size_t i, int row) {
     for (int a = 0; a < block.nodes; ++a)
       jacobian.block(row, 3 * block.node[i][static_cast<std::size_t>(a)], block.rows, 3) =
           block.jacobian[i].middleCols(3 * a, 3);
-    n.block(row, row, block.rows, block.rows) = block.compliance[i];
+    n.block(row, row, block.rows, block.rows) = typename Block::Square(block.compliance[i]);
   });
   Eigen::VectorXd weights(3 * nodes);
   for (int k = 0; k < weights.size(); ++k) weights[k] = rows.inverse_mass[static_cast<std::size_t>(k / 3)];

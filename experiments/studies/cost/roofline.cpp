@@ -49,12 +49,14 @@ EffectRows copies_of(const EffectRows& one, std::size_t copies) {
         repeat(block.node);
         repeat(block.jacobian);
         repeat(block.bias);
-        repeat(block.compliance);
+        block.compliance.resize(copies * count);
         repeat(block.inverse_diagonal);
         repeat(block.impulse);
         repeat(block.bounds);
         repeat(block.friction);
         repeat(block.delassus);
+        for (std::size_t i = count; i < block.size(); ++i)
+          block.compliance.set(i, block.compliance.factor(i % count));
         for (std::size_t i = count; i < block.size(); ++i)
           for (int& node : block.node[i]) node += static_cast<int>(i / count * one.inverse_mass.size());
       },

@@ -127,3 +127,23 @@ TEST_CASE("what is thrown passes through nothing in a solved step, be it in touc
     }
   CHECK(solved > 150);
 }
+
+TEST_CASE("a missed step cuts what begins in touch no deeper into each other than to their cores") {
+  // Their first step ends in touch, the next one is missed.
+  const std::vector<std::pair<std::array<Thing, 2>, int>> all{{{Thing::sphere, Thing::sphere}, 335},
+                                                              {{Thing::box, Thing::capsule}, 45},
+                                                              {{Thing::hull, Thing::hull}, 94},
+                                                              {{Thing::box, Thing::static_mesh}, 109}};
+  for (const auto& [kinds, index] : all) {
+    INFO(thing_names[static_cast<std::size_t>(kinds[0])] << ", "
+                                                         << thing_names[static_cast<std::size_t>(kinds[1])]);
+    const ThrownPair pair = thrown_pair(kinds, index, true);
+    pbd::Workspace workspace(pair.scene, pbd::Method{});
+    pbd::State state = pair.scene.initial;
+    CHECK(step(workspace, pair.h, state).status == pbd::Status::ok);
+    CHECK(apart(pair.scene, pair.whole[0], pair.whole[1], state) < pair.apart);
+    const pbd::State from = state;
+    CHECK(step(workspace, pair.h, state).status == pbd::Status::not_converged);
+    CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], from, state));
+  }
+}

@@ -1,0 +1,25 @@
+// A bar whose corners pass the ground and never touch it.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/contacts.h"
+
+namespace pbd::test {
+
+/// It turns in place by 0.1 rad a step of 0.01 s, at the end of which a corner is lowest, 0.5 mm above the
+/// ground: at the corner's speed where the step begins it would be 3 mm below.
+inline Scene turning_bar() {
+  constexpr double side = 1, turn = 0.1, speed = 10;
+  const double tilt = std::numbers::pi / 4 - turn, height = side / std::numbers::sqrt2 + 5e-4;
+  pbdcheck::BodyScene build({.friction = 0, .restitution = 1}, 0);
+  build.ground();
+  build.box({side, 0.3, side}, 1,
+            {.position = {0, 0, height},
+             .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3::UnitY())),
+             .spin = {0, speed, 0}});
+  return build.finish();
+}
+
+}  // namespace pbd::test

@@ -107,12 +107,13 @@ bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, 
                               std::vector<double>& share) {
   bool any = false;
   for (const NearPair& near : near_pairs_) {
-    const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
+    const Motion &one = motions_[near.collider[0]], &two = motions_[near.collider[1]];
+    const double round = round_radius_of(one, two);  // none has a half space with a node or a triangle
+    const double slack = std::isfinite(round) ? overlooked * round : rounding * travel_between(one, two);
     const Pair pair{.collider = near.collider,
                     .nearest = near.nearest,
                     .deepest = std::min(near.nearest, 0.0),
                     .overlooked = slack};
-    if (!std::isfinite(slack)) continue;
     apart_ = 0;
     // A missed step leaves no more than a clipped corner of what began in touch in each other, either.
     if (!(pair.nearest > slack

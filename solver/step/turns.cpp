@@ -25,11 +25,13 @@ std::vector<bool> held_rotations(const StepSystem& system) {
 bool turned_round(const StepSystem& system) {
   const Bodies& bodies = system.problem.bodies;
   const double d = system.problem.map.d;
+  if (!(d * bodies.largest_spin(system.at.v) > std::numbers::pi)) return false;
   const Points changed = system.at.v - system.problem.map.v_free;
-  if (!(d * bodies.largest_spin(changed) > std::numbers::pi)) return false;
   const std::vector<bool> held = held_rotations(system);
   for (int b = 0; b < bodies.count(); ++b)
-    if (held[static_cast<std::size_t>(b)] && d * bodies.spin(b, changed) > std::numbers::pi) return true;
+    if (held[static_cast<std::size_t>(b)] && d * bodies.spin(b, system.at.v) > std::numbers::pi &&
+        d * bodies.spin(b, changed) > std::numbers::pi)
+      return true;
   return false;
 }
 

@@ -7,9 +7,9 @@
 
 namespace pbd {
 
-/// True if a body that rows other than contacts' act on turns otherwise than by its free motion, by more than
-/// half a turn of the part d v of the step's displacement (the whole of it but by midpoint and newmark with
-/// alpha = 1/2).
+/// True if a body that rows other than contacts' act on turns by more than half a turn by the part d v of the
+/// step's displacement (the whole of it but by midpoint and newmark with alpha = 1/2), and by as much
+/// otherwise than by its free motion.
 bool turned_round(const StepSystem& system);
 
 }  // namespace pbd

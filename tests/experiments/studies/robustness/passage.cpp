@@ -128,6 +128,17 @@ TEST_CASE("what is thrown passes through nothing in a solved step, be it in touc
   CHECK(solved > 150);
 }
 
+TEST_CASE("a missed step leads no sheet below a half space") {
+  for (const int index : {247, 434}) {
+    INFO("scene " << index);
+    const ThrownPair pair = thrown_pair({Thing::sheet, Thing::half_space}, index, true);
+    pbd::Workspace workspace(pair.scene, pbd::Method{});
+    pbd::State state = pair.scene.initial;
+    CHECK(step(workspace, pair.h, state).status == pbd::Status::not_converged);
+    CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], pair.scene.initial, state));
+  }
+}
+
 TEST_CASE("a missed step cuts what begins in touch no deeper into each other than to their cores") {
   // Their first step ends in touch, the next one is missed.
   const std::vector<std::pair<std::array<Thing, 2>, int>> all{{{Thing::sphere, Thing::sphere}, 335},

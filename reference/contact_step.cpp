@@ -45,9 +45,16 @@ ContactStep::ContactStep(StepModel stated, const Scene& scene, const State& stat
     step.model.hard[static_cast<std::size_t>(row)] = false;
   }
   step.damping = damping_of(scene, step);
-  const RigidSystem system = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows()));
+  Vector load = system_at(step, step.start_velocity(), Vector::Zero(step.model.rows())).load;
+  // The free motion is without what only its end tells.
+  if (step.model.gyroscopic == GyroscopicTorque::at_end)
+    for (std::size_t b = 0; b < step.model.rotors.size(); ++b)
+      if (const Rotor& rotor = step.model.rotors[b]; rotor.unknown >= 0) {
+        const Vec3 spin = state.spin.col(static_cast<Eigen::Index>(b));
+        load.segment<3>(rotor.unknown) -= spin.cross(rotor.inertia.cwiseProduct(spin));
+      }
   const Points start_velocities = state.v;
-  const Vector free = step.start_velocity() - step.s() * system.load.cwiseQuotient(step.model.inertia);
+  const Vector free = step.start_velocity() - step.s() * load.cwiseQuotient(step.model.inertia);
   free_end_ = step.placement(free);
   free_ = led(step, step.shift() + step.d() * free, start_velocities);
   shifted_ = led(step, step.shift(), (1 - step.d() / h) * start_velocities);
@@ -62,11 +69,13 @@ Placement ContactStep::freely(double share) const {
   return at;
 }
 
-/// Whether a pair's gap vanishes on the way of the free motion, where its rates say or in one of sixteen
-/// parts of what is left, and the pair touches by its features there.
+/// Whether a pair's gap vanishes on the way of the free motion, and the pair touches by its features there.
+/// By its rates it does; of a face with a body it must on its way, in one of sixteen parts of what is left.
 bool ContactStep::meets_freely(const FeaturePair& pair, double gap, double ahead) const {
   constexpr double parts = 16, accuracy = 1e-6;  // of a part
   const double rated = gap > 0 ? gap / (gap - ahead) : 0, part = (1 - rated) / parts;
+  const bool on_plane = pair.b.count == 3 && (pair.a.of_body() || pair.b.of_body());
+  if (!on_plane) return search.on_both(pair, freely(rated));
   double share = rated;
   for (int k = 1; k <= parts && nearest(pair, freely(share)).gap > 0; ++k) share = rated + k * part;
   if (nearest(pair, freely(share)).gap > 0) return false;

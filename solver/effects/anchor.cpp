@@ -8,7 +8,7 @@ auto Constraint<Anchor>::node(const Anchor& effect, std::size_t i) -> Nodes {
   return {effect.node[i]};
 }
 
-double Constraint<Anchor>::softness(const Anchor& effect, std::size_t i) {
+double Constraint<Anchor>::compliance_scale(const Anchor& effect, std::size_t i) {
   return effect.compliance[i];
 }
 

@@ -11,7 +11,7 @@ struct Constraint<Anchor> : ConstraintShape<3, 1> {
   static constexpr bool fills_space = true;
 
   static Nodes node(const Anchor& effect, std::size_t i);
-  static double softness(const Anchor& effect, std::size_t i);
+  static double compliance_scale(const Anchor& effect, std::size_t i);
   static Square retardation(const Anchor& effect, std::size_t i);
   static void evaluate(const Anchor& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian);

@@ -21,7 +21,7 @@ auto Constraint<Bending>::node(const Bending& effect, std::size_t i) -> Nodes {
   return effect.node[i];
 }
 
-double Constraint<Bending>::softness(const Bending& effect, std::size_t i) {
+double Constraint<Bending>::compliance_scale(const Bending& effect, std::size_t i) {
   return effect.compliance[i];
 }
 

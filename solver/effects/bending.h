@@ -14,7 +14,7 @@ namespace pbd {
 template <>
 struct Constraint<Bending> : ConstraintShape<1, 4> {
   static Nodes node(const Bending& effect, std::size_t i);
-  static double softness(const Bending& effect, std::size_t i);
+  static double compliance_scale(const Bending& effect, std::size_t i);
   static Square retardation(const Bending& effect, std::size_t i);
   static void evaluate(const Bending& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian);

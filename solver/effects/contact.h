@@ -30,14 +30,15 @@
 // gone into the overlap.
 //
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
-// meets, by features that are there when their gap closes; and whatever approached and touches in the solved
-// step, but parts by less than e of its speed at the start: such are let collide, and the step is solved
-// again, until there are no more. What parts where the step begins, and forces bring back in it, does not
-// collide. So what collides depends on the velocities that solve a step, not on how a solver shares impulses
-// among contacts; where friction leaves velocities open, what collides is open, too. A collision falls at its
-// step's end: the speed that comes back is e times that at the step's start, g h too small at most, from a
-// place up to v h above the ground: heights of rebounds are of first order in h. What one round has let
-// collide does so for the rest of the step, solved or missed.
+// meets, by features that are there when their gap closes (that motion is without the gyroscopic torque where
+// it is implicit; the gap closes by its rates where the step begins, that of a face also on the way); and
+// whatever approached and touches in the solved step, but parts by less than e of its speed at the start:
+// such are let collide, and the step is solved again, until there are no more. What parts where the step
+// begins, and forces bring back in it, does not collide. So what collides depends on the velocities that
+// solve a step, not on how a solver shares impulses among contacts; where friction leaves velocities open,
+// what collides is open, too. A collision falls at its step's end: the speed that comes back is e times that
+// at the step's start, g h too small at most, from a place up to v h above the ground: heights of rebounds
+// are of first order in h. What one round has let collide does so for the rest of the step, solved or missed.
 #pragma once
 
 #include <set>

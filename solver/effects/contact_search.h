@@ -85,8 +85,9 @@ class ContactSearch {
   bool look_again(const Configuration& start, const Configuration& end, const Configuration& free,
                   double tolerance, const ContactLists& contacts);
 
-  /// Of pairs that begin apart and meet on the way to `end`: lowers the shares of it that the columns of both
-  /// may go to one at which they are apart. True if any is lower.
+  /// Of pairs that begin apart and meet on the way to `end`, or begin in touch and cut into each other:
+  /// lowers the shares of it that the columns of both may go to one at which they are apart. True if any is
+  /// lower.
   bool hold_back(const Bodies& bodies, const Configuration& start, const Configuration& end,
                  std::vector<double>& share);
 
@@ -94,8 +95,8 @@ class ContactSearch {
   /// the way of the free motion.
   bool find_met(const Configuration& start, const Configuration& free, const ContactLists& contacts);
 
-  /// The share of the way from `start` to `end` at which a contact's gap closes, looked for at one at first
-  /// and from there on: none if it does not. Of surfaces the first one.
+  /// The share of the way from `start` to `end` at which the gap of a face closes, looked for at one at first
+  /// and from there on: none if it does not. Of other contacts the first one.
   std::optional<double> closes_at(const ActiveContact& contact, const Configuration& start,
                                   const Configuration& end, double first);
 
@@ -212,9 +213,10 @@ class ContactSearch {
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
                     const Configuration& end) const;
-  bool passes_through(const Pair& pair, const Configuration& start, const Configuration& end, double slack,
-                      bool in_suffices);
-  bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
+  enum class Cut { none, in, through };
+  Cut cut_on_way(const Pair& pair, const Configuration& start, const Configuration& end, double slack);
+  bool find_passed(const Pair& pair, const Configuration& start, const Configuration& end, double slack,
+                   Cut cut);
   bool meets(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
              double slack);
   double last_apart(const Pair& pair, const Configuration& start, const Configuration& end, double behind);

@@ -8,7 +8,7 @@ auto Constraint<Distance>::node(const Distance& effect, std::size_t i) -> Nodes 
   return effect.node[i];
 }
 
-double Constraint<Distance>::softness(const Distance& effect, std::size_t i) {
+double Constraint<Distance>::compliance_scale(const Distance& effect, std::size_t i) {
   return effect.compliance[i];
 }
 

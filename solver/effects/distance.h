@@ -10,7 +10,7 @@ namespace pbd {
 template <>
 struct Constraint<Distance> : ConstraintShape<1, 2> {
   static Nodes node(const Distance& effect, std::size_t i);
-  static double softness(const Distance& effect, std::size_t i);
+  static double compliance_scale(const Distance& effect, std::size_t i);
   static Square retardation(const Distance& effect, std::size_t i);
   static void evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian);

@@ -22,7 +22,7 @@ struct JointConstraint : BodyConstraintShape<R, B, P> {
   using Square = typename ConstraintShape<R, 2 * B + P>::Square;
 
   static std::array<int, B> body(const Joint& effect, std::size_t i) { return {effect.body[i]}; }
-  static double softness(const Joint& effect, std::size_t i) { return effect.compliance[i]; }
+  static double compliance_scale(const Joint& effect, std::size_t i) { return effect.compliance[i]; }
   static Square retardation(const Joint& effect, std::size_t i) {
     return effect.damping[i] * Square::Identity();
   }

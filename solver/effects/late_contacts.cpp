@@ -129,7 +129,9 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double held = pair.gives_way ? -infinity : behind - missing;
   const double allowed = std::min(std::max(pair.least_end - rounded, held), behind);
   if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;
-  if (effect_.continuous && !(pair.nearest > slack) && find_passed(pair, start, end, slack)) return true;
+  if (effect_.continuous && !(pair.nearest > slack) &&
+      find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
+    return true;
   if (pair.left) {
     const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
     // What clips a corner on its straight way, and ends where it may be, has passed nothing.

@@ -66,7 +66,7 @@ bool ContactSearch::is_left(const PairFeatures& features) const {
   return left_.contains(features);
 }
 
-/// A contact's carriers at a share of the way; what else there is is of no use.
+/// A contact's carriers at a share of the way, until the next call; what else there is is of no use.
 Configuration ContactSearch::placed_between(const ActiveContact& contact, const Configuration& start,
                                             const Configuration& end, double share) {
   if (between_x_.cols() != start.x.cols()) between_x_ = start.x;
@@ -92,7 +92,9 @@ Configuration ContactSearch::placed_between(const ActiveContact& contact, const 
 
 std::optional<double> ContactSearch::closes_at(const ActiveContact& contact, const Configuration& start,
                                                const Configuration& end, double first) {
-  if (contact.of_surfaces) return first;  // it has no carriers
+  // Only planes are passed by where their rates say otherwise: what is round is nearer than these say.
+  // Surfaces have no carriers.
+  if (contact.of_surfaces || contact.features.kind != ContactPoint::Kind::face) return first;
   const auto closed = [&](double share) {
     return touching_at(contact, placed_between(contact, start, end, share)).gap <= 0;
   };

@@ -40,10 +40,10 @@ bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, co
   return false;
 }
 
-/// True if a pair that begins in touch goes into each other on its way, deeper than a tenth of its radius,
-/// and out again unless `in_suffices`: what clips a corner by less has passed nothing.
-bool ContactSearch::passes_through(const Pair& pair, const Configuration& start, const Configuration& end,
-                                   double slack, bool in_suffices) {
+/// Whether a pair that begins in touch goes into each other on its way, deeper than a tenth of its radius,
+/// and whether it comes out again: what clips a corner by less has passed nothing.
+auto ContactSearch::cut_on_way(const Pair& pair, const Configuration& start, const Configuration& end,
+                               double slack) -> Cut {
   constexpr double clipped = 0.1;
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double travel = travel_between(one, two), round = round_radius_of(one, two);
@@ -54,16 +54,16 @@ bool ContactSearch::passes_through(const Pair& pair, const Configuration& start,
     share = std::min(1.0, share + std::max(gap, touching_for) / travel);
     gap = generate_between(pair, start, end, share, (1 - share) * travel + slack);
     inside |= gap < pair.deepest - clipped * round;
-    if (inside && (in_suffices || gap > -slack)) return true;
+    if (inside && gap > -slack) return Cut::through;
   }
-  return false;
+  return inside ? Cut::in : Cut::none;
 }
 
 /// Sets `overlapping_` to the planes between what of a pair touches where the step begins, and has passed at
-/// `end`; true if it has.
+/// `end`, as its way cuts it; true if it has.
 bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
-                                double slack) {
-  const bool through = passes_through(pair, start, end, slack, false);
+                                double slack, Cut cut) {
+  const bool through = cut == Cut::through;
   generate_between(pair, start, end, 0, 2 * slack);
   if (!through)
     std::erase_if(points_.found,
@@ -107,19 +107,20 @@ bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, 
                               std::vector<double>& share) {
   bool any = false;
   for (const NearPair& near : near_pairs_) {
-    const Motion &one = motions_[near.collider[0]], &two = motions_[near.collider[1]];
-    const double round = round_radius_of(one, two);  // none has a half space with a node or a triangle
-    const double slack = std::isfinite(round) ? overlooked * round : rounding * travel_between(one, two);
+    const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
+    if (!std::isfinite(slack)) continue;  // of a half space: from below it nodes and triangles are pushed out
     const Pair pair{.collider = near.collider,
                     .nearest = near.nearest,
                     .deepest = std::min(near.nearest, 0.0),
                     .overlooked = slack};
     apart_ = 0;
     // A missed step leaves no more than a clipped corner of what began in touch in each other, either.
-    if (!(pair.nearest > slack
-              ? meets(pair, start, end, -slack, slack)
-              : find_passed(pair, start, end, slack) || passes_through(pair, start, end, slack, true)))
-      continue;
+    if (pair.nearest > slack) {
+      if (!meets(pair, start, end, -slack, slack)) continue;
+    } else {
+      const Cut cut = cut_on_way(pair, start, end, slack);
+      if (!find_passed(pair, start, end, slack, cut) && cut == Cut::none) continue;
+    }
     any = true;
     const auto lower = [&](Eigen::Index column) { share[column] = std::min(share[column], apart_); };
     for (const int collider : near.collider) {

@@ -88,7 +88,7 @@ auto Constraint<TetStrain>::rest(const TetStrain& effect, std::size_t i) -> cons
   return effect.rest[i];
 }
 
-double Constraint<TetStrain>::softness(const TetStrain& effect, std::size_t i) {
+double Constraint<TetStrain>::compliance_scale(const TetStrain& effect, std::size_t i) {
   return 1 / tet_volume(effect.rest[i]);
 }
 

@@ -25,7 +25,7 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
 
   static Nodes node(const TetStrain& effect, std::size_t i);
   static const Positions& rest(const TetStrain& effect, std::size_t i);
-  static double softness(const TetStrain& effect, std::size_t i);
+  static double compliance_scale(const TetStrain& effect, std::size_t i);
   static Square unit_compliance(const TetStrain& effect);  // C^-1, 1/Pa
 
   /// C^-1 C_d

@@ -48,7 +48,7 @@ auto Constraint<TriangleStrain>::rest(const TriangleStrain& effect, std::size_t 
   return effect.rest[i];
 }
 
-double Constraint<TriangleStrain>::softness(const TriangleStrain& effect, std::size_t i) {
+double Constraint<TriangleStrain>::compliance_scale(const TriangleStrain& effect, std::size_t i) {
   return 1 / triangle_area(effect.rest[i]);
 }
 

@@ -17,7 +17,7 @@ struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
 
   static Nodes node(const TriangleStrain& effect, std::size_t i);
   static const Positions& rest(const TriangleStrain& effect, std::size_t i);
-  static double softness(const TriangleStrain& effect, std::size_t i);
+  static double compliance_scale(const TriangleStrain& effect, std::size_t i);
   static Square unit_compliance(const TriangleStrain& effect);  // C^-1 over the thickness, m/N
 
   /// C^-1 C_d

@@ -1,7 +1,7 @@
 // What every effect with rows states. At the positions of constraint i's K nodes Constraint<Effect> gives
-//   its value c(x), its Jacobian J = dc/dx and its compliance A, softness(effect, i) unit_compliance(effect),
-//   the retardation time T of its damping, asked for where the effect lists any,
-//   and a bound B (N s/m, one a node) of the geometric stiffness of its impulses p:
+//   its value c(x), its Jacobian J = dc/dx and its compliance A = compliance_scale(effect, i)
+//   unit_compliance(effect), the retardation time T of its damping, asked for where the effect lists any, and
+//   a bound B (N s/m, one a node) of the geometric stiffness of its impulses p:
 //     -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
 // depends on a rest shape states its positions, rest(effect, i). One whose rows leave directions free may
@@ -32,8 +32,8 @@ struct ConstraintShape {
   using Nodes = std::array<int, K>;
   using NodeBounds = Eigen::Matrix<double, 1, K>;  // of the geometric stiffness, one a node
 
-  /// What the compliances of an effect's constraints are a number each times: of rows that are as soft as
-  /// each other 1.
+  /// What the compliances of all of an effect's constraints are a number each times. Only an effect of
+  /// several rows and `one_material` has another one than 1.
   template <class Effect>
   static Square unit_compliance(const Effect&) {
     return Square::Identity();
@@ -72,7 +72,7 @@ concept RowEffect = requires(const Effect& effect, std::size_t i,
   requires BodyEffect<Effect> || requires {
     { Constraint<Effect>::node(effect, i) } -> std::same_as<typename Constraint<Effect>::Nodes>;
   };
-  { Constraint<Effect>::softness(effect, i) } -> std::same_as<double>;
+  { Constraint<Effect>::compliance_scale(effect, i) } -> std::same_as<double>;
   { Constraint<Effect>::unit_compliance(effect) } -> std::same_as<typename Constraint<Effect>::Square>;
   { Constraint<Effect>::retardation(effect, i) } -> std::same_as<typename Constraint<Effect>::Square>;
   Constraint<Effect>::evaluate(effect, i, x, value, jacobian);

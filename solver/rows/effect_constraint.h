@@ -20,13 +20,13 @@ std::size_t constraint_count(const E& effect) {
 /// A of constraint i.
 template <class E>
 typename Constraint<E>::Square compliance_of(const E& effect, std::size_t i) {
-  return Constraint<E>::softness(effect, i) * Constraint<E>::unit_compliance(effect);
+  return Constraint<E>::compliance_scale(effect, i) * Constraint<E>::unit_compliance(effect);
 }
 
 /// True if constraint i's A is positive definite; else it is 0.
 template <class E>
 bool gives_way(const E& effect, std::size_t i) {
-  return Constraint<E>::softness(effect, i) > 0;
+  return Constraint<E>::compliance_scale(effect, i) > 0;
 }
 
 /// Columns of constraint i: its nodes, or two a body.

@@ -31,6 +31,7 @@ class EffectRows final : public Source {
   using Value = typename C::Value;
   using Jacobian = typename C::Jacobian;
   using Square = typename C::Square;
+  static_assert(C::rows > 1 || !C::one_material, "ScaledSquares keeps no unit of single rows");
 
  public:
   EffectRows(const Scene& scene, const E& effect) : Source(kind_of(effect)), scene_(scene), effect_(effect) {}
@@ -246,10 +247,10 @@ class EffectRows final : public Source {
   void set_stiffness(const StepMap& map, Block& block) const {
     block.stiffness.resize(block.size());
     const bool damped = !block.offset.empty();
-    block.stiffness.set_one(inverse_of(damped ? block.compliance.one() : C::unit_compliance(effect_)));
+    block.stiffness.set_unit(inverse_of(damped ? block.compliance.unit() : C::unit_compliance(effect_)));
     for (std::size_t i = 0; i < block.size(); ++i)
       block.stiffness.set(
-          i, 1 / (damped ? block.compliance.factor(i) : C::softness(effect_, i) / (map.s * map.d)));
+          i, 1 / (damped ? block.compliance.factor(i) : C::compliance_scale(effect_, i) / (map.s * map.d)));
   }
 
   /// J of constraint i at other positions than its value's.
@@ -261,7 +262,7 @@ class EffectRows final : public Source {
   RowResidual linearise_block(const RowPlace& place, Block& block) const {
     RowResidual sums;
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
-    if (!damped) block.compliance.set_one(C::unit_compliance(effect_));
+    if (!damped) block.compliance.set_unit(C::unit_compliance(effect_));
     add_each(block, sums, [&](std::size_t i, RowResidual& own_sums) {
       Value value;
       const std::size_t entry = block.entry(i);
@@ -270,7 +271,7 @@ class EffectRows final : public Source {
       if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
       if (place.directions != nullptr) take_directions(block, i, *place.directions, block.jacobian[i]);
       if (damped) value -= block.offset[i];
-      if (!damped) block.compliance.set(i, C::softness(effect_, entry) / (place.map.s * place.map.d));
+      if (!damped) block.compliance.set(i, C::compliance_scale(effect_, entry) / (place.map.s * place.map.d));
       if constexpr (requires { effect_.bounds; })
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
@@ -286,7 +287,7 @@ class EffectRows final : public Source {
       return inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
     };
     const Square common = C::one_material && block.size() > 0 ? share_of(block.entry(0)) : Square::Identity();
-    block.compliance.set_one(common * C::unit_compliance(effect_));
+    block.compliance.set_unit(common * C::unit_compliance(effect_));
     block.offset.resize(block.size());
     block.begin_value.resize(block.size());
     each_own(block, [&](std::size_t i) {
@@ -310,7 +311,7 @@ class EffectRows final : public Source {
       const Square share = C::one_material ? common : share_of(entry);
       block.offset[i] = from - share * from;
       const double own_share = C::one_material ? 1 : share(0, 0);  // T is one number then
-      block.compliance.set(i, own_share * C::softness(effect_, entry) / (c.s * c.d));
+      block.compliance.set(i, own_share * C::compliance_scale(effect_, entry) / (c.s * c.d));
     });
   }
 

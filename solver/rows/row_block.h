@@ -56,7 +56,7 @@ struct RowBlock : ConstraintShape<R, K> {
     resize(count);
     typename Shape::Square along_normal = Shape::Square::Zero();
     along_normal(0, 0) = 1;
-    compliance.set_one(along_normal);
+    compliance.set_unit(along_normal);
     bounds.assign(count, {});
     if constexpr (R == 3) {
       friction.resize(count);

@@ -13,42 +13,42 @@ class ScaledSquares {
  public:
   using Value = Eigen::Matrix<double, Square::RowsAtCompileTime, 1>;
 
-  /// One of them.
+  /// One of them, while they live.
   class Entry {
    public:
-    Entry(double factor, const Square& one) : factor_(factor), one_(one) {}
-    operator Square() const { return factor_ * one_; }
-    double operator()(Eigen::Index row, Eigen::Index column) const { return factor_ * one_(row, column); }
-    double trace() const { return factor_ * one_.trace(); }
+    Entry(double factor, const Square& unit) : factor_(factor), unit_(unit) {}
+    operator Square() const { return factor_ * unit_; }
+    double operator()(Eigen::Index row, Eigen::Index column) const { return factor_ * unit_(row, column); }
+    double trace() const { return factor_ * unit_.trace(); }
     bool is_zero() const { return factor_ == 0; }
 
     Value operator*(const Value& x) const {
       if constexpr (Square::RowsAtCompileTime == 1)
-        return factor_ * x;  // `one` is 1
+        return factor_ * x;  // `unit` is 1
       else
-        return factor_ * (one_ * x);
+        return factor_ * (unit_ * x);
     }
 
    private:
     double factor_;
-    const Square& one_;
+    const Square& unit_;
   };
 
-  /// `one` for constraints of several rows; 1 for those of a single one.
-  void set_one(const Square& one) {
-    if constexpr (Square::RowsAtCompileTime > 1) one_ = one;
+  /// What each is a number times; of constraints of one row 1 alone.
+  void set_unit(const Square& unit) {
+    if constexpr (Square::RowsAtCompileTime > 1) unit_ = unit;
   }
-  const Square& one() const { return one_; }
+  const Square& unit() const { return unit_; }
   void set(std::size_t i, double factor) { factor_[i] = factor; }
   double factor(std::size_t i) const { return factor_[i]; }
-  Entry operator[](std::size_t i) const { return {factor_[i], one_}; }
+  Entry operator[](std::size_t i) const { return {factor_[i], unit_}; }
 
   void resize(std::size_t count) { factor_.resize(count); }
   std::size_t size() const { return factor_.size(); }
   std::size_t bytes() const { return factor_.size() * sizeof(double); }
 
  private:
-  Square one_ = Square::Identity();
+  Square unit_ = Square::Identity();
   std::vector<double> factor_;
 };
 

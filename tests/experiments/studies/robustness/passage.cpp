@@ -128,33 +128,25 @@ TEST_CASE("what is thrown passes through nothing in a solved step, be it in touc
   CHECK(solved > 150);
 }
 
-TEST_CASE("a missed step leads no sheet below a half space") {
-  for (const int index : {247, 434}) {
-    INFO("scene " << index);
-    const ThrownPair pair = thrown_pair({Thing::sheet, Thing::half_space}, index, true);
-    pbd::Workspace workspace(pair.scene, pbd::Method{});
-    pbd::State state = pair.scene.initial;
-    CHECK(step(workspace, pair.h, state).status == pbd::Status::not_converged);
-    CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], pair.scene.initial, state));
-  }
-}
-
 TEST_CASE("a missed step cuts what begins in touch no deeper into each other than to their cores") {
-  // Their first step ends in touch, the next one is missed.
-  const std::vector<std::pair<std::array<Thing, 2>, int>> all{{{Thing::sphere, Thing::sphere}, 335},
-                                                              {{Thing::box, Thing::capsule}, 45},
-                                                              {{Thing::hull, Thing::hull}, 94},
-                                                              {{Thing::box, Thing::static_mesh}, 109}};
-  for (const auto& [kinds, index] : all) {
-    INFO(thing_names[static_cast<std::size_t>(kinds[0])] << ", "
-                                                         << thing_names[static_cast<std::size_t>(kinds[1])]);
-    const ThrownPair pair = thrown_pair(kinds, index, true);
-    pbd::Workspace workspace(pair.scene, pbd::Method{});
-    pbd::State state = pair.scene.initial;
-    CHECK(step(workspace, pair.h, state).status == pbd::Status::ok);
-    CHECK(apart(pair.scene, pair.whole[0], pair.whole[1], state) < pair.apart);
-    const pbd::State from = state;
-    CHECK(step(workspace, pair.h, state).status == pbd::Status::not_converged);
-    CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], from, state));
-  }
+  constexpr std::array<std::array<Thing, 2>, 4> all{{{Thing::sphere, Thing::sphere},
+                                                     {Thing::box, Thing::capsule},
+                                                     {Thing::hull, Thing::hull},
+                                                     {Thing::box, Thing::static_mesh}}};
+  int missed = 0;
+  for (const auto& kinds : all)
+    for (int i = 0; i < 350; ++i) {
+      const ThrownPair pair = thrown_pair(kinds, i, true);
+      pbd::Workspace workspace(pair.scene, pbd::Method{});
+      pbd::State state = pair.scene.initial;
+      if (pair.steps < 2 || step(workspace, pair.h, state).status != pbd::Status::ok) continue;
+      if (!(apart(pair.scene, pair.whole[0], pair.whole[1], state) < pair.apart)) continue;
+      const pbd::State from = state;
+      if (step(workspace, pair.h, state).status != pbd::Status::not_converged) continue;
+      INFO(thing_names[static_cast<std::size_t>(kinds[0])]
+           << ", " << thing_names[static_cast<std::size_t>(kinds[1])] << ", scene " << i);
+      CHECK_FALSE(pass_through(pair.scene, pair.core[0], pair.core[1], from, state));
+      ++missed;
+    }
+  CHECK(missed > 20);
 }

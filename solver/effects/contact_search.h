@@ -211,6 +211,8 @@ class ContactSearch {
   bool is_round(int collider) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
   void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
+  Configuration placed_between(const ActiveContact& contact, const Configuration& start,
+                               const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
                     const Configuration& end) const;
   enum class Cut { none, in, through };
@@ -231,8 +233,6 @@ class ContactSearch {
   double beside(const std::array<int, 2>& pair) const;
   bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
-  Configuration placed_between(const ActiveContact& contact, const Configuration& start,
-                               const Configuration& end, double share);
   double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;

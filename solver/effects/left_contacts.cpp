@@ -66,61 +66,6 @@ bool ContactSearch::is_left(const PairFeatures& features) const {
   return left_.contains(features);
 }
 
-/// A contact's carriers at a share of the way, until the next call; what else there is is of no use.
-Configuration ContactSearch::placed_between(const ActiveContact& contact, const Configuration& start,
-                                            const Configuration& end, double share) {
-  if (between_x_.cols() != start.x.cols()) between_x_ = start.x;
-  between_pose_.resize(start.pose.size());
-  const auto place = [&](int node) {
-    between_x_.col(node) = start.x.col(node) + share * (end.x.col(node) - start.x.col(node));
-  };
-  for (const int side : {0, 1}) {
-    const int carrier = contact.carrier[side];
-    if (side == contact.node_side) {
-      place(carrier);
-    } else if (side == contact.triangle_side) {
-      for (const int node : effect_.triangle[carrier]) place(node);
-    } else {
-      const Pose &from = start.pose[carrier], &to = end.pose[carrier];
-      Pose& pose = between_pose_[carrier];
-      pose.x = from.x + share * (to.x - from.x);
-      pose.rotation = turned_between(from.rotation, to.rotation, share);
-    }
-  }
-  return {between_x_, between_pose_, start.time};
-}
-
-std::optional<double> ContactSearch::closes_at(const ActiveContact& contact, const Configuration& start,
-                                               const Configuration& end, double first) {
-  // Only planes are passed by where their rates say otherwise: what is round is nearer than these say.
-  // Surfaces have no carriers.
-  if (contact.of_surfaces || contact.features.kind != ContactPoint::Kind::face) return first;
-  const auto closed = [&](double share) {
-    return touching_at(contact, placed_between(contact, start, end, share)).gap <= 0;
-  };
-  if (closed(first)) return first;
-  constexpr int places = 16, halvings = 20;  // of the way
-  double open = first;
-  for (int k = 1; k <= places; ++k) {
-    double shut = first + (1 - first) * k / places;
-    if (!closed(shut)) {
-      open = shut;
-      continue;
-    }
-    for (int halving = 0; halving < halvings; ++halving) {
-      const double middle = (open + shut) / 2;
-      (closed(middle) ? shut : open) = middle;
-    }
-    return shut;
-  }
-  return std::nullopt;
-}
-
-bool ContactSearch::on_features(const ActiveContact& contact, const Configuration& start,
-                                const Configuration& end, double share) {
-  return contact.of_surfaces || on_shapes(contact, placed_between(contact, start, end, share));
-}
-
 /// True if two contacts of the same features say the same of a pair.
 bool ContactSearch::agree(const ActiveContact& one, const ActiveContact& two, const Configuration& at,
                           double slack) const {

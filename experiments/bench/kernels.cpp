@@ -16,13 +16,13 @@ namespace {
 
 using namespace pbd;
 
-/// About 3e5 tetrahedra, 384 MB of rows.
+/// About 3e5 tetrahedra, 172 MB of rows.
 const Scene& solid() {
   static const Scene scene = clamped_cube(300'000);
   return scene;
 }
 
-/// About 1e6 links, 88 MB of rows.
+/// About 1e6 links, 64 MB of rows.
 const Scene& sheet() {
   static const Scene scene = cloth(577, true);
   return scene;

@@ -39,13 +39,13 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   block.compliance.set(i, contact.compliance / (place.map.h * place.map.d));
   block.bounds[i] = {};
   using Operations = RowOperations<Block::rows, Block::nodes>;
-  Operations::invert_diagonal(block, place.inverse_mass, i);
+  Operations::invert_diagonal(block, place.inverse_mass, i, jacobian);
   const typename Block::Value r = rate + block.compliance[i] * block.impulse[i];
   const double size = value_rounding * largest_coordinate(contact, found, place.at) / place.map.d;
-  sums.add(squared_residual(block, i, r), size * size *
-                                              Operations::moving_squares(block, i, place.inverse_mass)[0] *
-                                              block.inverse_diagonal[i](0, 0));
-  sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
+  sums.add(squared_residual(block, i, r),
+           size * size * Operations::moving_squares(block, i, place.inverse_mass, jacobian)[0] *
+               block.inverse_diagonal[i](0, 0));
+  sums.impulses_squared += block.squared_effect(place.inverse_mass, i, jacobian);
 }
 
 }  // namespace

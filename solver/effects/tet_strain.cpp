@@ -22,12 +22,6 @@ Constraint<TetStrain>::Square inverse_elasticity(double nu) {
   return inverse;
 }
 
-Eigen::Matrix3d stress_of(const Constraint<TetStrain>::Value& p) {
-  Eigen::Matrix3d matrix;
-  matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
-  return matrix;
-}
-
 Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
   const auto& rest = effect.rest[i];
   return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
@@ -54,29 +48,17 @@ Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
 /// The least sum of two stretches that counts as one.
 constexpr double least_pair = 0.1;
 
-Vec3 axial(const Eigen::Matrix3d& m) {
-  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+/// Of a tetrahedron whose R follows F.
+StrainTurning turning_of(const Constraint<TetStrain>::Deformation& at) {
+  const Eigen::Matrix3d product = at.t.transpose() * at.f;
+  const Eigen::Matrix3d stretch = (product + product.transpose()) / 2;
+  const Eigen::Matrix3d pairs = stretch.trace() * Eigen::Matrix3d::Identity() - stretch;
+  const Eigen::Matrix3d above = pairs - least_pair * Eigen::Matrix3d::Identity();
+  // Its leading minors tell whether all sums of two are above.
+  if (!(above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0))
+    return {};
+  return {pairs.inverse(), stretch};
 }
-
-/// How the rotation R of a damped corotational tetrahedron follows F.
-struct Turning {
-  bool held = true;                  // fixed
-  Eigen::Matrix3d stretch, inverse;  // U, (tr U - U)^-1
-
-  Turning(const TetStrain& effect, const Constraint<TetStrain>::Deformation& at) {
-    if (effect.strain != Strain::corotational || !effect.damping) return;
-    const Eigen::Matrix3d product = at.t.transpose() * at.f;
-    stretch = (product + product.transpose()) / 2;
-    const Eigen::Matrix3d pairs = stretch.trace() * Eigen::Matrix3d::Identity() - stretch;
-    const Eigen::Matrix3d above = pairs - least_pair * Eigen::Matrix3d::Identity();
-    // Its leading minors tell whether all sums of two are above.
-    held = !(above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0);
-    if (!held) inverse = pairs.inverse();
-  }
-
-  /// w for a dF that R takes to `turned` y^T.
-  Vec3 turn(const Vec3& turned, const Vec3& y) const { return inverse * y.cross(turned); }
-};
 
 }  // namespace
 
@@ -121,9 +103,11 @@ auto Constraint<TetStrain>::strain(const TetStrain& effect, const Deformation& a
 
 auto Constraint<TetStrain>::push(const TetStrain& effect, const Deformation& at, const Value& impulse)
     -> Positions {
-  Eigen::Matrix3d stress = stress_of(impulse);
-  if (const Turning turning(effect, at); !turning.held)
-    stress -= cross_matrix(Vec3(turning.inverse * axial(stress * turning.stretch)));
+  Eigen::Matrix3d stress = symmetric_of(impulse);
+  if (turns(effect)) {
+    const StrainTurning turning = turning_of(at);
+    stress -= cross_matrix(turning.inverse * axial(stress * turning.stretch));
+  }
   Positions pushed;
   pushed.rightCols<3>().noalias() = at.t * stress * at.inverse.transpose();
   pushed.col(0) = -pushed.rightCols<3>().rowwise().sum();
@@ -136,36 +120,29 @@ Eigen::Matrix3d Constraint<TetStrain>::weighted_deformation(const TetStrain& eff
   return tet_volume(effect.rest[i]) * (effect.strain == Strain::linear ? Eigen::Matrix3d::Identity() : f);
 }
 
+bool Constraint<TetStrain>::turns(const TetStrain& effect) {
+  return effect.strain == Strain::corotational && effect.damping;
+}
+
+void Constraint<TetStrain>::linearise(const TetStrain& effect, std::size_t i, const Positions& x,
+                                      Value& value, StrainJacobians& jacobians, std::size_t row) {
+  const Deformation at = deformation(effect, i, x);
+  value = strain(effect, at);
+  jacobians.set(row, at.inverse, at.t);
+  if (turns(effect)) jacobians.set_turning(row, turning_of(at));
+}
+
 void Constraint<TetStrain>::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
                                      Jacobian& jacobian) {
-  const auto [inverse, f, t] = deformation(effect, i, x);
-  value = strain(effect, {inverse, f, t});
-  const Eigen::Matrix<double, 4, 3> y = tet_gradients(inverse);
-  for (int node_index = 0; node_index < 4; ++node_index)
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3;
-      jacobian.block<1, 3>(a, 3 * node_index) = y(node_index, a) * t.col(a).transpose();
-      jacobian.block<1, 3>(3 + a, 3 * node_index) =
-          y(node_index, b) * t.col(a).transpose() + y(node_index, a) * t.col(b).transpose();
-    }
-  const Turning turning(effect, {inverse, f, t});
-  if (turning.held) return;
-  for (int node_index = 0; node_index < 4; ++node_index)
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 w = turning.turn(t.row(k), y.row(node_index));
-      const Eigen::Matrix3d product = cross_matrix(w) * turning.stretch;
-      const Eigen::Matrix3d twice = product + product.transpose();
-      for (int a = 0; a < 3; ++a) {
-        jacobian(a, 3 * node_index + k) -= twice(a, a) / 2;
-        jacobian(3 + a, 3 * node_index + k) -= twice(a, (a + 1) % 3);
-      }
-    }
+  const Deformation at = deformation(effect, i, x);
+  value = strain(effect, at);
+  jacobian = strain_jacobian(at.inverse, at.t, turns(effect) ? turning_of(at) : StrainTurning{});
 }
 
 auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
                                             const Value& impulse) -> NodeBounds {
   if (effect.strain == Strain::linear) return NodeBounds::Zero();
-  const Eigen::Matrix3d stress = stress_of(impulse);
+  const Eigen::Matrix3d stress = symmetric_of(impulse);
   const Eigen::Matrix3d inverse = inverse_rest(effect, i);
   if (effect.strain == Strain::green) return stress_bound(tet_gradients(inverse), Eigen::Matrix3d(-stress));
   const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;

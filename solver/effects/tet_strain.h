@@ -14,6 +14,7 @@
 #pragma once
 
 #include "rows/constraint.h"
+#include "rows/kept_jacobians.h"
 #include "rows/source.h"
 
 namespace pbd {
@@ -37,6 +38,12 @@ struct Constraint<TetStrain> : ConstraintShape<6, 4> {
   };
   static Deformation deformation(const TetStrain& effect, std::size_t i, const Positions& x);
   static Value strain(const TetStrain& effect, const Deformation& at);
+
+  /// c, and J as rows keep it.
+  static void linearise(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
+                        StrainJacobians& jacobians, std::size_t row);
+  /// True if R follows F: J has a part by which it turns.
+  static bool turns(const TetStrain& effect);
 
   /// J^T p: T S Y^T, S the impulses as a symmetric matrix; of damped ones with what turns R.
   static Positions push(const TetStrain& effect, const Deformation& at, const Value& impulse);

@@ -24,7 +24,7 @@ bool ConjugateGradients::find_free(Rows& rows, Points& v, BlockSeconds seconds, 
     if (!block.bounded()) return;
     add_scattered(block, sums, [&](std::size_t i, Sums<2>& own) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      const typename Block::Value full = -block.inverse_diagonal[i] * r;
+      const typename Block::Value full = -block.by_inverse_diagonal(i, r);
       typename Block::Value change = allowed(block, i, block.impulse[i], full);
       const double missed = squared_residual(block, i, r, change);
       Free free = Free::all;
@@ -82,7 +82,7 @@ Sweep ConjugateGradients::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   visit_blocks(rows.blocks, seconds, [&]<class Block>(Block& block, std::size_t first_row) {
     add_scattered(block, sums, [&](std::size_t i, Sums<3>& own) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-      typename Block::Value next = block.inverse_diagonal[i] * r;
+      typename Block::Value next = block.by_inverse_diagonal(i, r);
       if (block.bounded() && free_[first_row + i] == Free::none) next.setZero();
       if (block.bounded() && free_[first_row + i] == Free::first) next.tail(Block::rows - 1).setZero();
       auto last = entries(last_, block, first_row, i);

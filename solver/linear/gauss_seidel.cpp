@@ -13,7 +13,7 @@ template <bool bounded, class Block>
 void solve_constraint(const std::vector<double>& inverse_mass, Block& block, std::size_t i, Points& v,
                       double& squared) {
   const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-  typename Block::Value change = -block.inverse_diagonal[i] * r;
+  typename Block::Value change = -block.by_inverse_diagonal(i, r);
   if constexpr (bounded) {
     change = allowed(block, i, block.impulse[i], change);
     squared += squared_residual(block, i, r, change);  // all that this change is for with friction

@@ -25,7 +25,7 @@ Sweep Jacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
     add_scattered(block, squared, [&](std::size_t i, double& sum) {
       const typename Block::Value r = block.residual(v, i, block.impulse[i]);
       const typename Block::Value change =
-          allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r);
+          allowed(block, i, block.impulse[i], -block.by_inverse_diagonal(i, r));
       sum += squared_residual(block, i, r, change);
       block.impulse[i] += omega_ * change;
       block.apply(rows.inverse_mass, i, omega_ * change, next_);

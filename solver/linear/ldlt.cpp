@@ -21,8 +21,9 @@ constexpr double relative_shift = 1e-10;
 template <class Block>
 double trace_of_delassus(const Block& block, const std::vector<double>& inverse_mass, std::size_t i) {
   double trace = 0;
+  const typename Block::Jacobian& jacobian = block.jacobian[i];
   for (int a = 0; a < Block::nodes; ++a)
-    trace += inverse_mass[block.node[i][a]] * block.jacobian[i].template middleCols<3>(3 * a).squaredNorm();
+    trace += inverse_mass[block.node[i][a]] * jacobian.template middleCols<3>(3 * a).squaredNorm();
   return trace;
 }
 
@@ -38,7 +39,7 @@ void Ldlt::assemble(const Rows& rows, Put&& put) const {
     std::visit(
         [&]<class Block>(const Block& block) {
           for (std::size_t i = 0; i < block.size(); ++i) {
-            const auto& jacobian = block.jacobian[i];
+            const typename Block::Jacobian& jacobian = block.jacobian[i];
             const int impulse = impulse_column_[b][i];
             std::array<int, Block::nodes * 3> column;
             for (std::size_t a = 0; a < Block::nodes; ++a)
@@ -152,7 +153,7 @@ double Ldlt::right_hand_side(const Rows& rows, const Points& v) {
             const typename Block::Value r = -block.residual(v, i, block.impulse[i]);
             const bool movable = block.inverse_diagonal[i].trace() > 0;
             if (!movable || (block.bounded() && held_[b][i])) continue;
-            squared += r.dot(block.inverse_diagonal[i] * r);
+            squared += r.dot(block.by_inverse_diagonal(i, r));
             if (impulse_column_[b][i] >= 0) {
               right_.template segment<Block::rows>(impulse_column_[b][i]) = r;
               continue;

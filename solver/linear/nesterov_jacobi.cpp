@@ -61,7 +61,7 @@ Sweep NesterovJacobi::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
       const typename Block::Value start = block.impulse[i] + beta_ * (block.impulse[i] - previous);
       const typename Block::Value r = block.residual(extrapolated_, i, start);
       const typename Block::Value change =
-          allowed(block, i, start, -omega_ * (block.inverse_diagonal[i] * r));
+          allowed(block, i, start, -omega_ * block.by_inverse_diagonal(i, r));
       own[0] += squared_residual(block, i, r, change) / (block.bounded() ? omega_ * omega_ : omega_);
       own[1] += change.dot(block.compliance[i] * change);
       if constexpr (is_local<Block>)  // its share of q^T W q, W symmetric

@@ -24,7 +24,7 @@ LinearLaw<Block> linear_law(const Block& block, std::size_t i, const Points& v, 
   const double weight = block.inverse_diagonal[i].trace() / Block::rows;  // about w
   if (!(weight > 0)) return law;                                          // nothing that it could move
   const typename Block::Value r = block.residual(v, i, block.impulse[i]);
-  const typename Block::Value step = -block.inverse_diagonal[i] * r;
+  const typename Block::Value step = -block.by_inverse_diagonal(i, r);
   const auto found = allowed_derivative(block, projected_law(block, i), i, block.impulse[i], step);
   law.by_step = found.by_change;
   Square compliance = block.compliance[i];

@@ -48,7 +48,7 @@ struct HardRows::System {
     double product = 0;
     each_row(rows, eliminated, [&](auto& block, std::size_t i, std::size_t first) {
       const auto r = part(own.residual_, block, first);
-      product += r.dot(block.inverse_diagonal[i] * r);
+      product += r.dot(block.by_inverse_diagonal(i, r));
     });
     return product;
   }

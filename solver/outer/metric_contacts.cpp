@@ -25,7 +25,7 @@ void each_contact(Rows& rows, const std::vector<bool>& eliminated, F&& f) {
 template <class Block>
 bool asks(const Block& block, std::size_t i, const Points& v) {
   const auto r = block.residual(v, i, block.impulse[i]);
-  return !allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r).isZero(0);
+  return !allowed(block, i, block.impulse[i], -block.by_inverse_diagonal(i, r)).isZero(0);
 }
 
 }  // namespace
@@ -109,6 +109,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
   each_contact(rows, eliminated, [&]<class Block>(const Block& block, std::size_t i) {
     if (!engaged_[next++]) return;
     constexpr int R = Block::rows;  // without friction the tangential rows are zero
+    const typename Block::Jacobian& jacobian = block.jacobian[i];
     local.node[k].fill(0);
     local.jacobian[k].setZero();
     local.bias[k].setZero();
@@ -121,7 +122,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
     local.law = block.law;
     for (int a = 0; a < Block::nodes; ++a) {
       const int node = block.node[i][a], number = number_[node];
-      const auto directions = block.jacobian[i].template middleCols<3>(3 * a);
+      const Eigen::Matrix<double, R, 3> directions = jacobian.template middleCols<3>(3 * a);
       if (number < 0) {  // it goes as it is told to
         local.bias[k].template head<R>() += directions * v.col(node);
         continue;

@@ -46,6 +46,8 @@ class EffectRows final : public Source {
     for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = columns_of(scene_, effect_, entries[i]);
     if (entries.size() < constraint_count(effect_)) block.entries = entries;
     if (kind().limited) block.bounds.resize(block.size());
+    if constexpr (requires { C::turns(effect_); })
+      if (C::turns(effect_)) block.jacobian.resize_turning();
     blocks.add(std::move(block));
   }
 
@@ -226,16 +228,33 @@ class EffectRows final : public Source {
     C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
   }
 
+  /// c, and J as the block keeps it.
+  void linearise_at(Block& block, std::size_t i, const Configuration& at, Value& value) const {
+    const std::size_t entry = block.entry(i);
+    const auto own = local_at(effect_, entry, block.node[i], at);
+    if constexpr (Block::keeps_matrices) {
+      C::evaluate(effect_, entry, own, value, block.jacobian[i]);
+    } else if constexpr (requires { C::linearise(effect_, entry, own, value, block.jacobian, i); }) {
+      C::linearise(effect_, entry, own, value, block.jacobian, i);
+    } else {
+      Jacobian jacobian;
+      C::evaluate(effect_, entry, own, value, jacobian);
+      block.jacobian.set(i, jacobian);
+    }
+    if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
+  }
+
   void keep_values(const StepBegin& begin, Block& block) const {
     block.begin_value.resize(block.size());
+    Jacobian unused;
     for (std::size_t i = 0; i < block.size(); ++i)
-      evaluate_anew(block, i, begin.at, block.begin_value[i], block.jacobian[i]);
+      evaluate_anew(block, i, begin.at, block.begin_value[i], unused);
   }
 
   void find_stops(const StepBegin& begin, Block& block) {
     const auto at = [&](std::size_t i) {
       Value value;
-      evaluate(block, i, begin.at, value, block.jacobian[i]);
+      linearise_at(block, i, begin.at, value);
       const auto own = local_at(effect_, block.entry(i), block.node[i], begin.at);
       return std::pair{value[0], largest_coordinate<E>(own, block.node[i], begin.inverse_mass)};
     };
@@ -264,12 +283,11 @@ class EffectRows final : public Source {
     const bool damped = !block.offset.empty();  // its compliance is set for the whole step
     if (!damped) block.compliance.set_unit(C::unit_compliance(effect_));
     add_each(block, sums, [&](std::size_t i, RowResidual& own_sums) {
-      Value value;
+      Value value, unused;
       const std::size_t entry = block.entry(i);
       const auto own = local_at(effect_, entry, block.node[i], place.at);
-      C::evaluate(effect_, entry, own, value, block.jacobian[i]);
-      if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
-      if (place.directions != nullptr) take_directions(block, i, *place.directions, block.jacobian[i]);
+      linearise_at(block, i, place.at, value);
+      if (place.directions != nullptr) linearise_at(block, i, *place.directions, unused);
       if (damped) value -= block.offset[i];
       if (!damped) block.compliance.set(i, C::compliance_scale(effect_, entry) / (place.map.s * place.map.d));
       if constexpr (requires { effect_.bounds; })
@@ -293,11 +311,11 @@ class EffectRows final : public Source {
     each_own(block, [&](std::size_t i) {
       const std::size_t entry = block.entry(i);
       Value value, ahead, behind;
-      Jacobian unused;
-      evaluate_anew(block, i, begin.at, value, block.jacobian[i]);
+      Jacobian jacobian, unused;
+      evaluate_anew(block, i, begin.at, value, jacobian);
       Value from = value;  // c0
-      if (c.x_v != 0) from += block.jacobian[i] * (c.x_v * block.gather(begin.v, i));
-      if (c.x_a != 0) from += block.jacobian[i] * (c.x_a * block.gather(begin.a, i));
+      if (c.x_v != 0) from += jacobian * (c.x_v * block.gather(begin.v, i));
+      if (c.x_a != 0) from += jacobian * (c.x_a * block.gather(begin.a, i));
       if (c.before != 0) {
         unwrap(value, block.begin_value[i]);
         from += c.before * (value - block.begin_value[i]);

@@ -180,7 +180,7 @@ double squared_residual(const Block& block, std::size_t i, const typename Block:
 /// The same with the change that a step of block Jacobi makes of it.
 template <class Block>
 double squared_residual(const Block& block, std::size_t i, const typename Block::Value& r) {
-  return squared_residual(block, i, r, allowed(block, i, block.impulse[i], -block.inverse_diagonal[i] * r));
+  return squared_residual(block, i, r, allowed(block, i, block.impulse[i], -block.by_inverse_diagonal(i, r)));
 }
 
 }  // namespace pbd

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "friction.h"
 #include "rows/chunks.h"
 #include "rows/constraint.h"
+#include "rows/kept_jacobians.h"
 #include "rows/scaled_squares.h"
 
 namespace pbd {
@@ -20,18 +22,37 @@ struct Bounds {
   Freedom freedom = Freedom::lawful;
 };
 
+/// Links and tetrahedra alone have their shapes.
+template <int R, int K>
+struct JacobiansOf {
+  using Type = std::vector<typename ConstraintShape<R, K>::Jacobian>;
+  static constexpr std::size_t bytes_of_each = sizeof(typename ConstraintShape<R, K>::Jacobian);
+};
+template <>
+struct JacobiansOf<1, 2> {
+  using Type = LinkJacobians;
+  static constexpr std::size_t bytes_of_each = LinkJacobians::bytes_of_each;
+};
+template <>
+struct JacobiansOf<6, 4> {
+  using Type = StrainJacobians;
+  static constexpr std::size_t bytes_of_each = StrainJacobians::bytes_of_each;
+};
+
 template <int R, int K>
 struct RowBlock : ConstraintShape<R, K> {
   using Shape = ConstraintShape<R, K>;
   using Velocities = Eigen::Matrix<double, 3 * K, 1>;
+  using Jacobians = typename JacobiansOf<R, K>::Type;
 
-  static constexpr std::size_t row_bytes = sizeof(typename Shape::Jacobian) + sizeof(typename Shape::Square) +
+  static constexpr bool keeps_matrices = std::is_same_v<Jacobians, std::vector<typename Shape::Jacobian>>;
+  static constexpr std::size_t row_bytes = JacobiansOf<R, K>::bytes_of_each + sizeof(typename Shape::Square) +
                                            sizeof(double) +
                                            2 * sizeof(typename Shape::Value);  // of a constraint, about
 
   std::vector<std::size_t> entries;  // of the effect that are rows; empty if all are
   std::vector<typename Shape::Nodes> node;
-  std::vector<typename Shape::Jacobian> jacobian;
+  Jacobians jacobian;
   std::vector<typename Shape::Value> bias;
   ScaledSquares<typename Shape::Square> compliance;  // Sigma
   std::vector<typename Shape::Square> inverse_diagonal;
@@ -74,11 +95,16 @@ struct RowBlock : ConstraintShape<R, K> {
   }
 
   std::int64_t bytes() const {
+    std::size_t of_jacobians = 0;
+    if constexpr (keeps_matrices)
+      of_jacobians = jacobian.size() * sizeof(jacobian[0]);
+    else
+      of_jacobians = jacobian.bytes();
     return static_cast<std::int64_t>(
         entries.size() * sizeof(std::size_t) + 2 * offset.size() * sizeof(bias[0]) +
         bounds.size() * sizeof(Bounds) + friction.size() * sizeof(double) +
-        delassus.size() * sizeof(delassus[0]) + compliance.bytes() + stiffness.bytes() +
-        size() * (sizeof(node[0]) + sizeof(jacobian[0]) + 2 * sizeof(bias[0]) + sizeof(inverse_diagonal[0])));
+        delassus.size() * sizeof(delassus[0]) + compliance.bytes() + stiffness.bytes() + of_jacobians +
+        size() * (sizeof(node[0]) + 2 * sizeof(bias[0]) + sizeof(inverse_diagonal[0])));
   }
 
   /// Velocities of constraint i's nodes, three entries a node.
@@ -91,7 +117,10 @@ struct RowBlock : ConstraintShape<R, K> {
   /// v += W J_i^T p
   void apply(const std::vector<double>& inverse_mass, std::size_t i, const typename Shape::Value& p,
              Points& v) const {
-    apply(inverse_mass, i, jacobian[i], p, v);
+    if constexpr (keeps_matrices)
+      apply(inverse_mass, i, jacobian[i], p, v);
+    else
+      jacobian.apply(i, node[i], inverse_mass, p, v);
   }
 
   /// v += W J^T p with other directions for constraint i
@@ -116,20 +145,32 @@ struct RowBlock : ConstraintShape<R, K> {
   bool bounded() const { return !bounds.empty(); }
   bool frictional() const { return !friction.empty(); }
 
-  /// |W J_i^T p|_M^2 of constraint i's impulse p, J.
-  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i) const {
-    const Velocities push = jacobian[i].transpose() * impulse[i];
+  /// N_ii^-1 r, or what stands for it. Of six rows in two sums: constraints that share nodes wait for each
+  /// other's.
+  typename Shape::Value by_inverse_diagonal(std::size_t i, const typename Shape::Value& r) const {
+    if constexpr (R < 6) return inverse_diagonal[i] * r;
+    const typename Shape::Value first =
+        inverse_diagonal[i].template leftCols<R / 2>() * r.template head<R / 2>();
+    const typename Shape::Value second =
+        inverse_diagonal[i].template rightCols<R / 2>() * r.template tail<R / 2>();
+    return first + second;
+  }
+
+  /// |W J^T p|_M^2 of constraint i's impulse p, with its J.
+  double squared_effect(const std::vector<double>& inverse_mass, std::size_t i,
+                        const typename Shape::Jacobian& whole) const {
+    const Velocities push = whole.transpose() * impulse[i];
     double sum = 0;
     for (int a = 0; a < K; ++a)
       sum += inverse_mass[node[i][a]] * push.template segment<3>(3 * a).squaredNorm();
     return sum;
   }
 
-  /// J_i v + b_i + Sigma_i p
-  typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
-    // Node by node: what is gathered in parts would be read as a whole before it is written. Apart from the
-    // bias, since what fast nodes do to a row may cancel. A single row has its shortest chain of sums by
-    // nodes, several rows by columns.
+  /// J_i v
+  typename Shape::Value rate(const Points& v, std::size_t i) const {
+    if constexpr (!keeps_matrices) return jacobian.rate(i, node[i], v);
+    // Node by node: what is gathered in parts would be read as a whole before it is written. A single row has
+    // its shortest chain of sums by nodes, several rows by columns.
     typename Shape::Value rate = Shape::Value::Zero();
     for (int a = 0; a < K; ++a) {
       if constexpr (R == 1)
@@ -137,7 +178,12 @@ struct RowBlock : ConstraintShape<R, K> {
       else
         for (int axis = 0; axis < 3; ++axis) rate += jacobian[i].col(3 * a + axis) * v(axis, node[i][a]);
     }
-    return bias[i] + compliance[i] * p + rate;
+    return rate;
+  }
+
+  /// J_i v + b_i + Sigma_i p; the rate apart from the bias, since what fast nodes do to a row may cancel.
+  typename Shape::Value residual(const Points& v, std::size_t i, const typename Shape::Value& p) const {
+    return bias[i] + compliance[i] * p + rate(v, i);
   }
 };
 

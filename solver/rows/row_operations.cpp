@@ -6,10 +6,10 @@ namespace pbd {
 
 template <int R, int K>
 bool RowOperations<R, K>::invert_diagonal(Block& block, const std::vector<double>& inverse_mass,
-                                          std::size_t i) {
+                                          std::size_t i, const Jacobian& jacobian) {
   Square n = block.compliance[i];
   for (int a = 0; a < K; ++a) {
-    const auto part = block.jacobian[i].template middleCols<3>(3 * a);
+    const auto part = jacobian.template middleCols<3>(3 * a);
     n.noalias() += inverse_mass[block.node[i][a]] * (part * part.transpose());
   }
   bool singular = false;
@@ -26,36 +26,39 @@ bool RowOperations<R, K>::invert_diagonal(Block& block, const std::vector<double
 
 template <int R, int K>
 auto RowOperations<R, K>::moving_squares(const Block& block, std::size_t i,
-                                         const std::vector<double>& inverse_mass) -> Value {
+                                         const std::vector<double>& inverse_mass, const Jacobian& jacobian)
+    -> Value {
   Value sum = Value::Zero();
   for (int a = 0; a < K; ++a)
     if (inverse_mass[block.node[i][a]] > 0)
-      sum += block.jacobian[i].template middleCols<3>(3 * a).rowwise().squaredNorm();
+      sum += jacobian.template middleCols<3>(3 * a).rowwise().squaredNorm();
   return sum;
 }
 
 template <int R, int K>
 void RowOperations<R, K>::linearise(const RowPlace& place, const Value& value, double size, Block& block,
                                     std::size_t i, RowResidual& sums) {
-  block.bias[i] = value / place.map.d - block.jacobian[i] * block.gather(place.v, i);
-  const bool singular = invert_diagonal(block, place.inverse_mass, i);
+  const Jacobian& jacobian = block.jacobian[i];
+  block.bias[i] = value / place.map.d - block.rate(place.v, i);
+  const bool singular = invert_diagonal(block, place.inverse_mass, i, jacobian);
   const Value r = value / place.map.d + block.compliance[i] * block.impulse[i];
   const double rounding = value_rounding * size / place.map.d;
-  sums.add(singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r),
-           rounding * rounding *
-               moving_squares(block, i, place.inverse_mass).dot(block.inverse_diagonal[i].diagonal()));
-  sums.impulses_squared += block.squared_effect(place.inverse_mass, i);
+  sums.add(
+      singular ? place.unreachable_mass * r.squaredNorm() : squared_residual(block, i, r),
+      rounding * rounding *
+          moving_squares(block, i, place.inverse_mass, jacobian).dot(block.inverse_diagonal[i].diagonal()));
+  sums.impulses_squared += block.squared_effect(place.inverse_mass, i, jacobian);
 }
 
 template <int R, int K>
 bool RowOperations<R, K>::meets(const StepBegin& begin, double open, bool upwards, double size,
-                                const Block& block, std::size_t i) {
+                                const Block& block, std::size_t i) requires(R == 1) {
   const StepMap& map = begin.map;
   const double sign = upwards ? 1 : -1;
   const auto along = [&](const auto& columns) { return sign * (block.jacobian[i] * columns)[0]; };
   const double closing = -along(block.gather(begin.v, i));
-  const double rounding =
-      value_rounding * size / map.d * std::sqrt(moving_squares(block, i, begin.inverse_mass)[0]);
+  const double rounding = value_rounding * size / map.d *
+                          std::sqrt(moving_squares(block, i, begin.inverse_mass, block.jacobian[i])[0]);
   if (!(closing > rounding)) return false;
   const double free = along(block.gather(map.v_free, i));
   const double moved = along(block.gather(map.x0, i)) - along(block.gather(begin.at.x, i)) + map.d * free;
@@ -70,7 +73,7 @@ namespace {
 template <class Block>
 Freedom freedom_of_errors(const Block& block, const typename Block::Value& missed, std::size_t i) {
   const auto& p = block.impulse[i];
-  const typename Block::Value full = -block.inverse_diagonal[i] * (missed + block.compliance[i] * p);
+  const typename Block::Value full = -(block.inverse_diagonal[i] * (missed + block.compliance[i] * p));
   return allowed(block, i, p, full) == full ? Freedom::free : Freedom::held;
 }
 
@@ -80,9 +83,8 @@ template <int R, int K>
 void RowOperations<R, K>::perturb(const RowError& error, const Value& value, const Jacobian& jacobian,
                                   Block& block, std::size_t i, Points& push) {
   block.apply(error.inverse_mass, i, jacobian, block.impulse[i], push);
-  const Value before = block.bias[i] + block.jacobian[i] * block.gather(error.v, i);
-  block.bias[i] =
-      (value / error.map.d - before) / error.scale - block.jacobian[i] * block.gather(error.error, i);
+  const Value before = block.bias[i] + block.rate(error.v, i);
+  block.bias[i] = (value / error.map.d - before) / error.scale - block.rate(error.error, i);
   if constexpr (R == 1)
     if (block.bounded()) block.bounds[i].freedom = freedom_of_errors(block, before, i);
   block.impulse[i].setZero();
@@ -120,7 +122,8 @@ void refresh_inverse_diagonal(Rows& rows) {
   for_each_block(rows.blocks, [&]<class Block>(Block& block) {
     if constexpr (!is_local<Block>)
       for (std::size_t i = 0; i < block.size(); ++i)
-        RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, rows.inverse_mass, i);
+        RowOperations<Block::rows, Block::nodes>::invert_diagonal(block, rows.inverse_mass, i,
+                                                                  block.jacobian[i]);
   });
 }
 

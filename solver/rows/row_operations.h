@@ -16,12 +16,14 @@ struct RowOperations {
   using Jacobian = typename Block::Jacobian;
   using Stiffness = Eigen::Matrix<double, 3 * K, 3 * K>;
 
-  /// Sets what stands for N_ii^-1 of constraint i; true if N_ii is singular.
-  static bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i);
+  /// Sets what stands for N_ii^-1 of constraint i, with its J; true if N_ii is singular.
+  static bool invert_diagonal(Block& block, const std::vector<double>& inverse_mass, std::size_t i,
+                              const Jacobian& jacobian);
 
   /// Of each row of J_i, the sum of squares over the columns that move: what is fixed rounds nothing, however
   /// far from its centre a row acts on it.
-  static Value moving_squares(const Block& block, std::size_t i, const std::vector<double>& inverse_mass);
+  static Value moving_squares(const Block& block, std::size_t i, const std::vector<double>& inverse_mass,
+                              const Jacobian& jacobian);
 
   /// Sets bias and N_ii^-1 by the value c (less its offset), J and Sigma that the block has, and adds to
   /// `sums`. `size` (m) is the constraint's largest coordinate.
@@ -32,7 +34,7 @@ struct RowOperations {
   /// met in the step by the speed at which it closes, not for what forces bring alone, nor for the rounding
   /// of places. `size` (m) is the constraint's largest coordinate.
   static bool meets(const StepBegin& begin, double open, bool upwards, double size, const Block& block,
-                    std::size_t i);
+                    std::size_t i) requires(R == 1);
 
   /// Source::perturb of constraint i with the turned value (less its offset) and Jacobian.
   static void perturb(const RowError& error, const Value& value, const Jacobian& jacobian, Block& block,

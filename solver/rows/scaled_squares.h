@@ -23,10 +23,9 @@ class ScaledSquares {
     bool is_zero() const { return factor_ == 0; }
 
     Value operator*(const Value& x) const {
-      if constexpr (Square::RowsAtCompileTime == 1)
-        return factor_ * x;  // `unit` is 1
-      else
-        return factor_ * (unit_ * x);
+      if constexpr (Square::RowsAtCompileTime == 1) return factor_ * x;  // `unit` is 1
+      const Value product = unit_ * x;  // one expression of all three would scale the matrix
+      return factor_ * product;
     }
 
    private:

@@ -14,7 +14,7 @@ template <class Block>
 double stored(const Block& block, std::size_t i, const typename Block::Value& r, double share) {
   using Value = typename Block::Value;
   if (!(block.compliance[i](0, 0) > 0)) {
-    const Value change = allowed(block, i, Value::Zero(), -block.inverse_diagonal[i] * r);
+    const Value change = allowed(block, i, Value::Zero(), -block.by_inverse_diagonal(i, r));
     return squared_residual(block, i, r, change) / 2;
   }
   Value impulse = Value::Zero();

@@ -25,12 +25,22 @@ double product_flops_per_s(int threads) {
   return threads * 2.0 * size * size * size / *std::min_element(seconds.begin(), seconds.end());
 }
 
+/// Operations of J v and J^T p of one constraint, as rows keep J.
+template <class Block>
+constexpr std::int64_t product_flops() {
+  constexpr std::int64_t squares = 45;  // of a product of two matrices of 3 rows and columns
+  if (std::is_same_v<typename Block::Jacobians, LinkJacobians>) return 8 + 3;
+  if (std::is_same_v<typename Block::Jacobians, StrainJacobians>)
+    return (9 + 2 * squares + 3) + (2 * squares + 6);
+  return 12 * Block::rows * Block::nodes;
+}
+
 /// Operations that a sweep needs at least: J v + b + Sigma p, D^-1 r, the impulse, and W J^T dp. What laws of
 /// friction need comes on top.
 template <class Block>
 std::int64_t least_flops(const Block& block) {
   constexpr std::int64_t R = Block::rows, K = Block::nodes;
-  return static_cast<std::int64_t>(block.size()) * (12 * R * K + 4 * R * R + 6 * K + 3 * R);
+  return static_cast<std::int64_t>(block.size()) * (product_flops<Block>() + 4 * R * R + 6 * K + 3 * R);
 }
 
 /// So many copies of rows, each with columns of its own.
@@ -47,7 +57,6 @@ EffectRows copies_of(const EffectRows& one, std::size_t copies) {
         const std::size_t count = block.size();
         block.entries.clear();
         repeat(block.node);
-        repeat(block.jacobian);
         repeat(block.bias);
         block.compliance.resize(copies * count);
         repeat(block.inverse_diagonal);
@@ -55,10 +64,16 @@ EffectRows copies_of(const EffectRows& one, std::size_t copies) {
         repeat(block.bounds);
         repeat(block.friction);
         repeat(block.delassus);
-        for (std::size_t i = count; i < block.size(); ++i)
+        using Block = std::decay_t<decltype(block)>;
+        if constexpr (Block::keeps_matrices)
+          repeat(block.jacobian);
+        else
+          block.jacobian.resize(copies * count);
+        for (std::size_t i = count; i < block.size(); ++i) {
+          if constexpr (!Block::keeps_matrices) block.jacobian.copy(i % count, i);
           block.compliance.set(i, block.compliance.factor(i % count));
-        for (std::size_t i = count; i < block.size(); ++i)
           for (int& node : block.node[i]) node += static_cast<int>(i / count * one.inverse_mass.size());
+        }
       },
       all.block);
   return all;

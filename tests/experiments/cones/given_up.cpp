@@ -16,7 +16,8 @@ Rows contradictory(Rows rows) {
   for (const AnyBlock& any : blocks)
     std::visit(
         [&](auto block) {
-          for (auto& jacobian : block.jacobian) jacobian *= -1;
+          if constexpr (std::decay_t<decltype(block)>::keeps_matrices)  // contacts do
+            for (auto& jacobian : block.jacobian) jacobian *= -1;
           for (auto& bias : block.bias) {
             bias *= -1;
             bias[0] -= 1;

@@ -27,7 +27,7 @@ Eigen::MatrixXd wrenches(const Scene& scene) {
     for (std::size_t i = 0; i < block.size(); ++i, row += Block::rows)
       for (int a = 0; a < Block::nodes; ++a) {
         const int column = block.node[i][static_cast<std::size_t>(a)];
-        const auto part = block.jacobian[i].template middleCols<3>(3 * a);
+        const Eigen::Matrix<double, Block::rows, 3> part = block.jacobian[i].template middleCols<3>(3 * a);
         if (column < scene.nodes()) {
           all.template block<Block::rows, 3>(row, 6 * column) = part;
           continue;

@@ -71,15 +71,40 @@ struct Moving {
   }
 };
 
+/// On a body's; a deformable triangle's nodes take forces up in its middle plane.
+bool is_on_face(const FeaturePair& pair) {
+  return pair.b.count == 3 && !pair.a.deformable && !pair.b.deformable;
+}
+
+/// Whether both are over the same face of the same side.
+bool over_one_face(const FeaturePair& one, const Nearest& at_one, const FeaturePair& two,
+                   const Nearest& at_two) {
+  constexpr double same = 1e-10;
+  return is_on_face(one) && is_on_face(two) && one.surface == two.surface &&
+         (at_one.normal - at_two.normal).norm() <= same &&
+         std::abs(at_one.normal.dot(at_one.on_b - at_two.on_b)) <=
+             same * (at_one.on_b.norm() + at_two.on_b.norm());
+}
+
 }  // namespace
 
 ContactPose ContactStep::pose_at(const Vector& velocity) const {
   ContactPose pose;
   pose.end = step.end(velocity);
   pose.at = placement_of(pose.end);
+  std::map<std::array<int, 2>, double> least;  // gap of each pair of sides, m
+  std::vector<Nearest> found;
   for (const JudgedContact& own : contacts) {
-    double& gap = pose.least.try_emplace(own.pair.surface, infinity).first->second;
-    gap = std::min(gap, nearest(own.pair, pose.at).gap);
+    found.push_back(nearest(own.pair, pose.at));
+    double& gap = least.try_emplace(own.pair.surface, infinity).first->second;
+    gap = std::min(gap, found.back().gap);
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const JudgedContact& own = contacts[i];
+    double& level = pose.level.emplace_back(own.collides ? found[i].gap : least.at(own.pair.surface));
+    for (std::size_t k = 0; own.collides && k < contacts.size(); ++k)
+      if (over_one_face(own.pair, found[i], contacts[k].pair, found[k]))
+        level = std::min(level, found[k].gap);
   }
   return pose;
 }
@@ -87,8 +112,8 @@ ContactPose ContactStep::pose_at(const Vector& velocity) const {
 ContactRow ContactStep::row_of(const JudgedContact& own, const ContactPose& pose, const Placement& at) const {
   ContactRow row;
   Nearest found = nearest(own.pair, at);
-  const bool on_face = own.pair.b.count == 3 && !own.pair.a.deformable && !own.pair.b.deformable;
-  if (on_face) found.place += (pose.least.at(own.pair.surface) - found.gap) * found.normal;
+  if (is_on_face(own.pair))
+    found.place += (pose.level[static_cast<std::size_t>(&own - contacts.data())] - found.gap) * found.normal;
   const Eigen::Matrix3d directions = directions_of(found.normal, own.reference);
   for (const auto& [feature, weight, sign] :
        {std::tuple{&own.pair.a, &found.weight[0], 1.0}, std::tuple{&own.pair.b, &found.weight[1], -1.0}})

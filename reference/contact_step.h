@@ -57,7 +57,8 @@ struct BoundedRow {
 struct ContactPose {
   State end;
   Placement at;
-  std::map<std::array<int, 2>, double> least;  // gap of each pair of sides, m
+  /// Of each contact the least gap of its pair of sides, or if it collides of what is over the same face, m.
+  std::vector<double> level{};
 };
 
 struct ContactStep {
@@ -83,7 +84,7 @@ struct ContactStep {
 
   ContactPose pose_at(const Vector& velocity) const;
 
-  /// Forces on a body's face act in one plane, so that all of them can stick at once: `least` off it. `at` is
+  /// Forces on a body's face act in one plane, so that all of them can stick at once: `level` off it. `at` is
   /// the pose's, or next to it.
   ContactRow row_of(const JudgedContact& contact, const ContactPose& pose, const Placement& at) const;
   ContactRow row_of(const JudgedContact& contact, const ContactPose& pose) const {

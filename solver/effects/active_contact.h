@@ -1,7 +1,7 @@
 // One contact of a step: its features, its directions (normal n and two tangents) and its columns. Impulses
-// push along n and t at x, both bodies at one place: those of a face on one plane, through the point of the
-// other body that is nearest to it; of a deformable triangle where its nodes take them up; else in the middle
-// of the gap.
+// push along n and t at x, both bodies at one place: those of a face on one plane, as far off it as the
+// pair's nearest contact is apart, or if it collides the face's nearest one; of a deformable triangle where
+// its nodes take them up; else in the middle of the gap.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ struct ActiveContact {
   bool of_surfaces = false;  // then `surface` is it, and there are no features
   SurfaceContact surface;
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
-  double nearest = 0;              // m, smallest gap of its pair
+  double gap = 0;                  // m, where it was made linear
+  double level = 0;                // m, of the plane in which a face's impulses act
   double apart = infinity;         // m, the gap from which it may wait (waiting_contacts.h)
   double target = 0;               // m, the gap aimed at
   double rebound = 0;              // m, the same where the shapes collide
@@ -88,16 +89,9 @@ inline Touching touching_at(const ActiveContact& contact, const Configuration& a
   return touching(features, a, b);
 }
 
-/// Sets `nearest` of contacts of bodies and nodes, a pair's in a row.
-inline void find_nearest(const Configuration& at, std::vector<ActiveContact>& contacts) {
-  for (auto first = contacts.begin(); first != contacts.end();) {
-    auto last = first;
-    double nearest = infinity;
-    for (; last != contacts.end() && last->pair() == first->pair(); ++last)
-      nearest = std::min(nearest, touching_at(*last, at).gap);
-    for (; first != last; ++first) first->nearest = nearest;
-  }
-}
+/// Sets `level` of contacts of bodies and nodes, a pair's in a row. What collides ends apart, however near
+/// other features of its pair are.
+void find_levels(const Configuration& at, std::vector<ActiveContact>& contacts);
 
 /// First of a side's columns among the row's K: a node's and a triangle's stand in front of their body's.
 template <class Block>
@@ -113,7 +107,7 @@ inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
   if (contact.triangle_side == 0) return found.point_a + contact.features.radius_a * found.normal;
   if (contact.triangle_side == 1) return found.point_b - contact.features.radius_b * found.normal;
   const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
-  return on_face ? Vec3(found.point_b + contact.nearest * found.normal)
+  return on_face ? Vec3(found.point_b + contact.level * found.normal)
                  : Vec3((found.point_a + found.point_b) / 2);
 }
 

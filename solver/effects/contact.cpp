@@ -156,7 +156,7 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
 void ContactRows::linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) {
   with_contacts(blocks, contacts_, [&]<class Block>(Block& block, auto& contacts) {
     if (Block::nodes != 5 && !contacts.empty() && !contacts[0].of_surfaces)
-      find_nearest(place.directions != nullptr ? *place.directions : place.at, contacts);
+      find_levels(place.directions != nullptr ? *place.directions : place.at, contacts);
     add_each(block, sums, [&](std::size_t i, RowResidual& own) {
       linearise_contact(place, start_v_, contacts[i], block, i, own);
     });

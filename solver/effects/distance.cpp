@@ -16,13 +16,22 @@ auto Constraint<Distance>::retardation(const Distance& effect, std::size_t i) ->
   return Square(effect.damping[i]);
 }
 
-void Constraint<Distance>::evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
-                                    Jacobian& jacobian) {
+Vec3 Constraint<Distance>::gradient(const Distance& effect, std::size_t i, const Positions& x, Value& value) {
   const Vec3 link = x.col(1) - x.col(0);
   const double length = link.norm();
-  const Vec3 direction = length > 0 ? Vec3(link / length) : Vec3::UnitX();
   value[0] = length - effect.rest_length[i];
-  jacobian << -direction.transpose(), direction.transpose();
+  return length > 0 ? Vec3(link / length) : Vec3::UnitX();
+}
+
+void Constraint<Distance>::evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
+                                    Jacobian& jacobian) {
+  const Vec3 by_second = gradient(effect, i, x, value);
+  jacobian << -by_second.transpose(), by_second.transpose();
+}
+
+void Constraint<Distance>::linearise(const Distance& effect, std::size_t i, const Positions& x, Value& value,
+                                     LinkJacobians& jacobians, std::size_t row) {
+  jacobians.set(row, gradient(effect, i, x, value));
 }
 
 auto Constraint<Distance>::geometric_bound(const Distance&, std::size_t, const Positions& x,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rows/constraint.h"
+#include "rows/kept_jacobians.h"
 #include "rows/source.h"
 
 namespace pbd {
@@ -14,6 +15,11 @@ struct Constraint<Distance> : ConstraintShape<1, 2> {
   static Square retardation(const Distance& effect, std::size_t i);
   static void evaluate(const Distance& effect, std::size_t i, const Positions& x, Value& value,
                        Jacobian& jacobian);
+  /// c, and J as rows keep it.
+  static void linearise(const Distance& effect, std::size_t i, const Positions& x, Value& value,
+                        LinkJacobians& jacobians, std::size_t row);
+  /// c, and u.
+  static Vec3 gradient(const Distance& effect, std::size_t i, const Positions& x, Value& value);
 
   /// d2c/dx2 = (I - u u^T)/length [1 -1; -1 1], of norm 2/length.
   static NodeBounds geometric_bound(const Distance& effect, std::size_t i, const Positions& x,

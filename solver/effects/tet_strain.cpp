@@ -22,6 +22,12 @@ Constraint<TetStrain>::Square inverse_elasticity(double nu) {
   return inverse;
 }
 
+Eigen::Matrix3d stress_of(const Constraint<TetStrain>::Value& p) {
+  Eigen::Matrix3d matrix;
+  matrix << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
+  return matrix;
+}
+
 Eigen::Matrix3d inverse_rest(const TetStrain& effect, std::size_t i) {
   const auto& rest = effect.rest[i];
   return Eigen::Matrix3d(rest.rightCols<3>().colwise() - rest.col(0)).inverse();
@@ -48,17 +54,36 @@ Eigen::Matrix3d directions(Strain strain, const Eigen::Matrix3d& f) {
 /// The least sum of two stretches that counts as one.
 constexpr double least_pair = 0.1;
 
-/// Of a tetrahedron whose R follows F.
-StrainTurning turning_of(const Constraint<TetStrain>::Deformation& at) {
-  const Eigen::Matrix3d product = at.t.transpose() * at.f;
-  const Eigen::Matrix3d stretch = (product + product.transpose()) / 2;
-  const Eigen::Matrix3d pairs = stretch.trace() * Eigen::Matrix3d::Identity() - stretch;
-  const Eigen::Matrix3d above = pairs - least_pair * Eigen::Matrix3d::Identity();
-  // Its leading minors tell whether all sums of two are above.
-  if (!(above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0))
-    return {};
-  return {pairs.inverse(), stretch};
+Vec3 axial(const Eigen::Matrix3d& m) {
+  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
 }
+
+/// How R follows F: by w = inverse ax(T^T dF).
+struct Turning {
+  Eigen::Matrix3d stretch;                            // U
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // (tr U - U)^-1, or 0 where R is held
+
+  explicit Turning(const Constraint<TetStrain>::Deformation& at) {
+    const Eigen::Matrix3d product = at.t.transpose() * at.f;
+    stretch = (product + product.transpose()) / 2;
+    const Eigen::Matrix3d pairs = stretch.trace() * Eigen::Matrix3d::Identity() - stretch;
+    const Eigen::Matrix3d above = pairs - least_pair * Eigen::Matrix3d::Identity();
+    // Its leading minors tell whether all sums of two are above.
+    if (above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0)
+      inverse = pairs.inverse();
+  }
+
+  /// B of kept_jacobians.h: the strain's change by -dR of a unit of each entry of ax, that of z first.
+  StrainJacobians::Turning by_skew() const {
+    StrainJacobians::Turning by;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Matrix3d turned = cross_matrix(inverse.col((k + 2) % 3)) * stretch;
+      by.col(k) << turned.diagonal(), turned(0, 1) + turned(1, 0), turned(1, 2) + turned(2, 1),
+          turned(2, 0) + turned(0, 2);
+    }
+    return by;
+  }
+};
 
 }  // namespace
 
@@ -103,9 +128,9 @@ auto Constraint<TetStrain>::strain(const TetStrain& effect, const Deformation& a
 
 auto Constraint<TetStrain>::push(const TetStrain& effect, const Deformation& at, const Value& impulse)
     -> Positions {
-  Eigen::Matrix3d stress = symmetric_of(impulse);
+  Eigen::Matrix3d stress = stress_of(impulse);
   if (turns(effect)) {
-    const StrainTurning turning = turning_of(at);
+    const Turning turning(at);
     stress -= cross_matrix(turning.inverse * axial(stress * turning.stretch));
   }
   Positions pushed;
@@ -129,20 +154,22 @@ void Constraint<TetStrain>::linearise(const TetStrain& effect, std::size_t i, co
   const Deformation at = deformation(effect, i, x);
   value = strain(effect, at);
   jacobians.set(row, at.inverse, at.t);
-  if (turns(effect)) jacobians.set_turning(row, turning_of(at));
+  if (turns(effect)) jacobians.set_turning(row, Turning(at).by_skew());
 }
 
 void Constraint<TetStrain>::evaluate(const TetStrain& effect, std::size_t i, const Positions& x, Value& value,
                                      Jacobian& jacobian) {
   const Deformation at = deformation(effect, i, x);
   value = strain(effect, at);
-  jacobian = strain_jacobian(at.inverse, at.t, turns(effect) ? turning_of(at) : StrainTurning{});
+  StrainJacobians::Turning turning;
+  if (turns(effect)) turning = Turning(at).by_skew();
+  jacobian = StrainJacobians::whole(at.inverse, at.t, turns(effect) ? &turning : nullptr);
 }
 
 auto Constraint<TetStrain>::geometric_bound(const TetStrain& effect, std::size_t i, const Positions& x,
                                             const Value& impulse) -> NodeBounds {
   if (effect.strain == Strain::linear) return NodeBounds::Zero();
-  const Eigen::Matrix3d stress = symmetric_of(impulse);
+  const Eigen::Matrix3d stress = stress_of(impulse);
   const Eigen::Matrix3d inverse = inverse_rest(effect, i);
   if (effect.strain == Strain::green) return stress_bound(tet_gradients(inverse), Eigen::Matrix3d(-stress));
   const Eigen::Matrix3d f = (x.rightCols<3>().colwise() - x.col(0)) * inverse;

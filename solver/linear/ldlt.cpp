@@ -128,7 +128,7 @@ bool Ldlt::find_held(Rows& rows, Points& v) {
         [&]<class Block>(Block& block) {
           for (std::size_t i = 0; block.bounded() && i < block.size(); ++i) {
             const typename Block::Value full =
-                -block.inverse_diagonal[i] * block.residual(v, i, block.impulse[i]);
+                -block.by_inverse_diagonal(i, block.residual(v, i, block.impulse[i]));
             const typename Block::Value change = allowed(block, i, block.impulse[i], full);
             // Not by `change`: that is less than `full` by rounding of the impulse, too.
             const bool held = !keeps(block, i, block.impulse[i] + full);

@@ -21,9 +21,8 @@ double SpectralBound::power_step(const Rows& rows) {
   for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
     add_each(block, quotient, [&](std::size_t i, Sums<2>& own) {
       auto p = entries(vector_, block, first_row, i);
-      const typename Block::Value g =
-          block.compliance[i] * p + block.jacobian[i] * block.gather(velocity_, i);
-      const typename Block::Value next = block.inverse_diagonal[i] * g;
+      const typename Block::Value g = block.compliance[i] * p + block.rate(velocity_, i);
+      const typename Block::Value next = block.by_inverse_diagonal(i, g);
       own[0] += g.dot(next);
       own[1] += p.dot(g);
       p = next;

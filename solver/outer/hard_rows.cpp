@@ -57,7 +57,7 @@ struct HardRows::System {
     own.force_.setZero();
     each_row(rows, eliminated, [&](auto& block, std::size_t i, std::size_t first) {
       auto s = part(own.direction_, block, first);
-      s = beta * s - block.inverse_diagonal[i] * part(own.residual_, block, first);
+      s = beta * s - block.by_inverse_diagonal(i, part(own.residual_, block, first));
       push(block, i, s, own.force_);
     });
     metric.solve(own.force_, own.push_);
@@ -67,7 +67,7 @@ struct HardRows::System {
     each_row(rows, eliminated, [&](auto& block, std::size_t i, std::size_t first) {
       const auto s = part(own.direction_, block, first);
       auto image = part(own.image_, block, first);
-      image = block.jacobian[i] * block.gather(own.push_, i) + block.compliance[i] * s;
+      image = block.rate(own.push_, i) + block.compliance[i] * s;
       curvature += s.dot(image);
     });
     return curvature;

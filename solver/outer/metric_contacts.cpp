@@ -122,7 +122,7 @@ void MetricContacts::couple(Rows& rows, const std::vector<bool>& eliminated, con
     local.law = block.law;
     for (int a = 0; a < Block::nodes; ++a) {
       const int node = block.node[i][a], number = number_[node];
-      const Eigen::Matrix<double, R, 3> directions = jacobian.template middleCols<3>(3 * a);
+      const auto directions = jacobian.template middleCols<3>(3 * a);
       if (number < 0) {  // it goes as it is told to
         local.bias[k].template head<R>() += directions * v.col(node);
         continue;

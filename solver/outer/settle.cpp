@@ -23,7 +23,7 @@ void apply_stiffness(const Rows& rows, const Points& along, Points& pushed) {
   each_stiff_block(rows.blocks, [&]<class Block>(const Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       const typename Block::Velocities push =
-          block.jacobian[i].transpose() * (block.stiffness[i] * (block.jacobian[i] * block.gather(along, i)));
+          block.jacobian[i].transpose() * (block.stiffness[i] * block.rate(along, i));
       for (int a = 0; a < Block::nodes; ++a)
         if (rows.inverse_mass[block.node[i][a]] > 0)
           pushed.col(block.node[i][a]) += push.template segment<3>(3 * a);
@@ -35,7 +35,7 @@ void apply_stiffness(const Rows& rows, const Points& along, Points& pushed) {
 void respond(const Points& change, Rows& rows) {
   each_stiff_block(rows.blocks, [&]<class Block>(Block& block) {
     for (std::size_t i = 0; i < block.size(); ++i)
-      block.impulse[i] -= block.stiffness[i] * (block.jacobian[i] * block.gather(change, i));
+      block.impulse[i] -= block.stiffness[i] * block.rate(change, i);
   });
 }
 

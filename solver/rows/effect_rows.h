@@ -47,7 +47,7 @@ class EffectRows final : public Source {
     if (entries.size() < constraint_count(effect_)) block.entries = entries;
     if (kind().limited) block.bounds.resize(block.size());
     if constexpr (requires { C::turns(effect_); })
-      if (C::turns(effect_)) block.jacobian.resize_turning();
+      if (C::turns(effect_)) block.jacobian.begin_turning();
     blocks.add(std::move(block));
   }
 
@@ -228,19 +228,12 @@ class EffectRows final : public Source {
     C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
   }
 
-  /// c, and J as the block keeps it.
-  void linearise_at(Block& block, std::size_t i, const Configuration& at, Value& value) const {
-    const std::size_t entry = block.entry(i);
-    const auto own = local_at(effect_, entry, block.node[i], at);
-    if constexpr (Block::keeps_matrices) {
-      C::evaluate(effect_, entry, own, value, block.jacobian[i]);
-    } else if constexpr (requires { C::linearise(effect_, entry, own, value, block.jacobian, i); }) {
-      C::linearise(effect_, entry, own, value, block.jacobian, i);
-    } else {
-      Jacobian jacobian;
-      C::evaluate(effect_, entry, own, value, jacobian);
-      block.jacobian.set(i, jacobian);
-    }
+  /// c at a constraint's own places, and J as the block keeps it.
+  void linearise_at(Block& block, std::size_t i, const typename C::Positions& own, Value& value) const {
+    if constexpr (Block::keeps_matrices)
+      C::evaluate(effect_, block.entry(i), own, value, block.jacobian[i]);
+    else
+      C::linearise(effect_, block.entry(i), own, value, block.jacobian, i);
     if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
   }
 
@@ -254,8 +247,8 @@ class EffectRows final : public Source {
   void find_stops(const StepBegin& begin, Block& block) {
     const auto at = [&](std::size_t i) {
       Value value;
-      linearise_at(block, i, begin.at, value);
       const auto own = local_at(effect_, block.entry(i), block.node[i], begin.at);
+      linearise_at(block, i, own, value);
       return std::pair{value[0], largest_coordinate<E>(own, block.node[i], begin.inverse_mass)};
     };
     stops_.find(begin, effect_.bounds, block, at,
@@ -286,8 +279,9 @@ class EffectRows final : public Source {
       Value value, unused;
       const std::size_t entry = block.entry(i);
       const auto own = local_at(effect_, entry, block.node[i], place.at);
-      linearise_at(block, i, place.at, value);
-      if (place.directions != nullptr) linearise_at(block, i, *place.directions, unused);
+      linearise_at(block, i, own, value);
+      if (place.directions != nullptr)
+        linearise_at(block, i, local_at(effect_, entry, block.node[i], *place.directions), unused);
       if (damped) value -= block.offset[i];
       if (!damped) block.compliance.set(i, C::compliance_scale(effect_, entry) / (place.map.s * place.map.d));
       if constexpr (requires { effect_.bounds; })

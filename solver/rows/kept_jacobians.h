@@ -1,6 +1,7 @@
 // What rows keep of their Jacobians J, one a constraint: the matrix where nothing less will do. A link's
-// gradients by its two ends are opposite, of which one is kept; a tetrahedron's are products of its rest's
-// inverse and of the directions of its strain, 18 numbers for 72 (tet_strain.h). A sweep reads so much less.
+// gradients by its two ends are opposite: one of them is kept. A tetrahedron's are products of its rest's
+// inverse and of the directions of its strain, 18 numbers for 72, and where its material's rotation follows
+// 18 more (tet_strain.h). A sweep reads so much less.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@
 
 namespace pbd {
 
-/// J = (-g, g).
+/// J = (-g, g), g in units of the value a metre.
 class LinkJacobians {
  public:
   using Value = Eigen::Matrix<double, 1, 1>;
@@ -22,7 +23,7 @@ class LinkJacobians {
 
   void resize(std::size_t count) { gradient_.resize(count); }
   std::size_t bytes() const { return gradient_.size() * bytes_of_each; }
-  void set(std::size_t i, const Whole& jacobian) { gradient_[i] = jacobian.tail<3>().transpose(); }
+  void set(std::size_t i, const Vec3& gradient) { gradient_[i] = gradient; }
   void copy(std::size_t from, std::size_t to) { gradient_[to] = gradient_[from]; }
 
   Whole operator[](std::size_t i) const {
@@ -48,51 +49,42 @@ class LinkJacobians {
   std::vector<Vec3> gradient_;
 };
 
-/// A symmetric matrix by its entries xx, yy, zz, xy, yz, zx.
-inline Eigen::Matrix3d symmetric_of(const Eigen::Matrix<double, 6, 1>& entries) {
-  Eigen::Matrix3d matrix;
-  matrix << entries[0], entries[3], entries[5],  //
-      entries[3], entries[1], entries[4],        //
-      entries[5], entries[4], entries[2];
-  return matrix;
-}
-
-/// (M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)
-inline Vec3 axial(const Eigen::Matrix3d& m) {
-  return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
-}
-
-/// How the rotation of a tetrahedron's material follows dF: by w = inverse ax(T^T dF).
-struct StrainTurning {
-  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // (tr U - U)^-1, or 0 where it is held fixed
-  Eigen::Matrix3d stretch = Eigen::Matrix3d::Zero();  // U
-};
-
-Eigen::Matrix<double, 6, 12> strain_jacobian(const Eigen::Matrix3d& rest_inverse,
-                                             const Eigen::Matrix3d& directions, const StrainTurning& turning);
-
-/// J v = the entries of M - [w]x U + its transpose, those of the diagonal halved, M = T^T dF, dF = [v1-v0,
-/// v2-v0, v3-v0] Dm^-1; J^T p = T (S - [inverse ax(S U)]x) Dm^-T by nodes 1 to 3.
+/// With M = T^T dF and dF = [v1 - v0, v2 - v0, v3 - v0] Dm^-1
+///   J v = e(M) - B (M_yx - M_xy, M_zy - M_yz, M_xz - M_zx),   e(M) = (M_xx, M_yy, M_zz, M_xy + M_yx, ..)
+/// and by nodes 1 to 3 J^T p = T (S - [(w_2, w_3, w_1)]x) Dm^-T, S the symmetric matrix of p and w = B^T p.
+/// B = 0 where the rotation is held.
 class StrainJacobians {
+  /// The rows of Dm^-1, and the columns of T. Three numbers are read as four, of which the last is of no use.
+  using Kept = std::array<double, 20>;
+
  public:
   using Value = Eigen::Matrix<double, 6, 1>;
   using Whole = Eigen::Matrix<double, 6, 12>;
-  static constexpr std::size_t bytes_of_each = 20 * sizeof(double);
+  using Turning = Eigen::Matrix<double, 6, 3>;                // B
+  static constexpr std::size_t bytes_of_each = sizeof(Kept);  // but for what turns
 
-  void resize(std::size_t count) { kept_.resize(count); }
-  /// Some turn; else none does, and nothing is kept of it.
-  void resize_turning() { turning_.resize(kept_.size()); }
-  std::size_t bytes() const { return kept_.size() * sizeof(Kept) + turning_.size() * sizeof(StrainTurning); }
+  void resize(std::size_t count) {
+    kept_.resize(count);
+    if (!turning_.empty()) turning_.resize(count, Turning::Zero());
+  }
+  /// B = 0, until it is set; before, nothing is kept of it.
+  void begin_turning() { turning_.assign(kept_.size(), Turning::Zero()); }
+  std::size_t bytes() const { return kept_.size() * sizeof(Kept) + turning_.size() * sizeof(Turning); }
+
+  /// Dm^-1 (1/m) and T.
   void set(std::size_t i, const Eigen::Matrix3d& rest_inverse, const Eigen::Matrix3d& directions) {
     Eigen::Matrix3d::Map(kept_[i].data()) = rest_inverse.transpose();
     Eigen::Matrix3d::Map(kept_[i].data() + 9) = directions;
   }
-  void set_turning(std::size_t i, const StrainTurning& turning) { turning_[i] = turning; }
+  void set_turning(std::size_t i, const Turning& turning) { turning_[i] = turning; }
   void copy(std::size_t from, std::size_t to) {
     kept_[to] = kept_[from];
     if (!turning_.empty()) turning_[to] = turning_[from];
   }
   Whole operator[](std::size_t i) const;
+  /// J of these; without `turning` B = 0.
+  static Whole whole(const Eigen::Matrix3d& rest_inverse, const Eigen::Matrix3d& directions,
+                     const Turning* turning);
 
   /// J_i v
   Value rate(std::size_t i, const std::array<int, 4>& node, const Points& v) const {
@@ -106,16 +98,13 @@ class StrainJacobians {
     }
     for (int a = 0; a < 3; ++a)
       m[a] = df[0] * all(kept[9 + 3 * a]) + df[1] * all(kept[10 + 3 * a]) + df[2] * all(kept[11 + 3 * a]);
-    if (!turning_.empty()) return turning_rate(i, matrix_of(m).transpose());
-    const Lanes normal =
-        __builtin_shufflevector(__builtin_shufflevector(m[0], m[1], 0, 5, 2, 3), m[2], 0, 1, 6, 3);
-    const Lanes below =
-        __builtin_shufflevector(__builtin_shufflevector(m[1], m[2], 0, 5, 2, 3), m[0], 0, 1, 6, 3);
-    const Lanes above =
-        __builtin_shufflevector(__builtin_shufflevector(m[2], m[0], 0, 5, 2, 3), m[1], 0, 1, 6, 3);
-    const Lanes shear = below + __builtin_shufflevector(above, above, 1, 2, 0, 3);
+    const Lanes diagonal = one_of_each(m[0], m[1], m[2]), below = one_of_each(m[1], m[2], m[0]),
+                before = one_of_each(m[2], m[0], m[1]);
+    const Lanes above = __builtin_shufflevector(before, before, 1, 2, 0, 3);
+    const Lanes shear = below + above, skew = below - above;
     Value rate;
-    rate << normal[0], normal[1], normal[2], shear[0], shear[1], shear[2];
+    rate << diagonal[0], diagonal[1], diagonal[2], shear[0], shear[1], shear[2];
+    if (!turning_.empty()) rate -= turning_[i] * vector_of(skew);
     return rate;
   }
 
@@ -123,17 +112,13 @@ class StrainJacobians {
   void apply(std::size_t i, const std::array<int, 4>& node, const std::vector<double>& inverse_mass,
              const Value& p, Points& v) const {
     const Kept& kept = kept_[i];
+    Vec3 w = Vec3::Zero();
+    if (!turning_.empty()) w = turning_[i].transpose() * p;
     const Lanes x = three(kept, 3), y = three(kept, 4), z = three(kept, 5);
-    std::array<Lanes, 3> along;  // T S, by columns
-    if (turning_.empty()) {
-      along[0] = x * all(p[0]) + y * all(p[3]) + z * all(p[5]);
-      along[1] = x * all(p[3]) + y * all(p[1]) + z * all(p[4]);
-      along[2] = x * all(p[5]) + y * all(p[4]) + z * all(p[2]);
-    } else {
-      const Eigen::Matrix3d turned = turning_stress(i, p);
-      for (int a = 0; a < 3; ++a)
-        along[a] = x * all(turned(0, a)) + y * all(turned(1, a)) + z * all(turned(2, a));
-    }
+    const std::array<Lanes, 3> along{// T (S - [..]x), by columns
+                                     x * all(p[0]) + y * all(p[3] - w[0]) + z * all(p[5] + w[2]),
+                                     x * all(p[3] + w[0]) + y * all(p[1]) + z * all(p[4] - w[1]),
+                                     x * all(p[5] - w[2]) + y * all(p[4] + w[1]) + z * all(p[2])};
     std::array<Lanes, 3> push;
     for (int k = 0; k < 3; ++k)
       push[k] =
@@ -143,9 +128,6 @@ class StrainJacobians {
   }
 
  private:
-  /// The rows of Dm^-1, and the columns of T. Three of them are read as four numbers, of which the last is of
-  /// no use.
-  using Kept = std::array<double, 20>;
   using Lanes [[gnu::vector_size(32)]] = double;
   static Lanes three(const Kept& kept, int k) {
     Lanes lanes;
@@ -153,18 +135,13 @@ class StrainJacobians {
     return lanes;
   }
   static Lanes all(double value) { return Lanes{value, value, value, value}; }
-  static Vec3 vector_of(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
-  static Eigen::Matrix3d matrix_of(const std::array<Lanes, 3>& columns) {
-    Eigen::Matrix3d matrix;
-    for (int a = 0; a < 3; ++a) matrix.col(a) = vector_of(columns[a]);
-    return matrix;
+  static Lanes one_of_each(const Lanes& a, const Lanes& b, const Lanes& c) {
+    return __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 5, 2, 3), c, 0, 1, 6, 3);
   }
-  Value turning_rate(std::size_t i, const Eigen::Matrix3d& m) const;
-  /// S - [inverse ax(S U)]x
-  Eigen::Matrix3d turning_stress(std::size_t i, const Value& p) const;
+  static Vec3 vector_of(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
 
   std::vector<Kept> kept_;
-  std::vector<StrainTurning> turning_;
+  std::vector<Turning> turning_;
 };
 
 }  // namespace pbd

@@ -145,15 +145,15 @@ struct RowBlock : ConstraintShape<R, K> {
   bool bounded() const { return !bounds.empty(); }
   bool frictional() const { return !friction.empty(); }
 
-  /// N_ii^-1 r, or what stands for it. Of six rows in two sums: constraints that share nodes wait for each
-  /// other's.
+  /// N_ii^-1 r, or what stands for it. Of six rows by two shorter chains of sums: sweeps wait for them.
   typename Shape::Value by_inverse_diagonal(std::size_t i, const typename Shape::Value& r) const {
-    if constexpr (R < 6) return inverse_diagonal[i] * r;
-    const typename Shape::Value first =
-        inverse_diagonal[i].template leftCols<R / 2>() * r.template head<R / 2>();
-    const typename Shape::Value second =
-        inverse_diagonal[i].template rightCols<R / 2>() * r.template tail<R / 2>();
-    return first + second;
+    if constexpr (R == 6) {
+      const typename Shape::Value first = inverse_diagonal[i].template leftCols<3>() * r.template head<3>(),
+                                  second = inverse_diagonal[i].template rightCols<3>() * r.template tail<3>();
+      return first + second;
+    } else {
+      return inverse_diagonal[i] * r;
+    }
   }
 
   /// |W J^T p|_M^2 of constraint i's impulse p, with its J.
@@ -168,17 +168,20 @@ struct RowBlock : ConstraintShape<R, K> {
 
   /// J_i v
   typename Shape::Value rate(const Points& v, std::size_t i) const {
-    if constexpr (!keeps_matrices) return jacobian.rate(i, node[i], v);
-    // Node by node: what is gathered in parts would be read as a whole before it is written. A single row has
-    // its shortest chain of sums by nodes, several rows by columns.
-    typename Shape::Value rate = Shape::Value::Zero();
-    for (int a = 0; a < K; ++a) {
-      if constexpr (R == 1)
-        rate += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
-      else
-        for (int axis = 0; axis < 3; ++axis) rate += jacobian[i].col(3 * a + axis) * v(axis, node[i][a]);
+    if constexpr (keeps_matrices) {
+      // Node by node: what is gathered in parts would be read as a whole before it is written. A single row
+      // has its shortest chain of sums by nodes, several rows by columns.
+      typename Shape::Value rate = Shape::Value::Zero();
+      for (int a = 0; a < K; ++a) {
+        if constexpr (R == 1)
+          rate += jacobian[i].template middleCols<3>(3 * a) * v.col(node[i][a]);
+        else
+          for (int axis = 0; axis < 3; ++axis) rate += jacobian[i].col(3 * a + axis) * v(axis, node[i][a]);
+      }
+      return rate;
+    } else {
+      return jacobian.rate(i, node[i], v);
     }
-    return rate;
   }
 
   /// J_i v + b_i + Sigma_i p; the rate apart from the bias, since what fast nodes do to a row may cancel.

@@ -55,13 +55,13 @@ bool RowOperations<R, K>::meets(const StepBegin& begin, double open, bool upward
                                 const Block& block, std::size_t i) requires(R == 1) {
   const StepMap& map = begin.map;
   const double sign = upwards ? 1 : -1;
-  const auto along = [&](const auto& columns) { return sign * (block.jacobian[i] * columns)[0]; };
-  const double closing = -along(block.gather(begin.v, i));
+  const auto along = [&](const Points& columns) { return sign * block.rate(columns, i)[0]; };
+  const double closing = -along(begin.v);
   const double rounding = value_rounding * size / map.d *
                           std::sqrt(moving_squares(block, i, begin.inverse_mass, block.jacobian[i])[0]);
   if (!(closing > rounding)) return false;
-  const double free = along(block.gather(map.v_free, i));
-  const double moved = along(block.gather(map.x0, i)) - along(block.gather(begin.at.x, i)) + map.d * free;
+  const double free = along(map.v_free);
+  const double moved = along(map.x0) - along(begin.at.x) + map.d * free;
   const double ahead = open + begin.coefficients.extension * moved;
   return ahead < 0 && closing > pressed_speed * std::abs(free + closing);
 }
@@ -73,7 +73,7 @@ namespace {
 template <class Block>
 Freedom freedom_of_errors(const Block& block, const typename Block::Value& missed, std::size_t i) {
   const auto& p = block.impulse[i];
-  const typename Block::Value full = -(block.inverse_diagonal[i] * (missed + block.compliance[i] * p));
+  const typename Block::Value full = -block.by_inverse_diagonal(i, missed + block.compliance[i] * p);
   return allowed(block, i, p, full) == full ? Freedom::free : Freedom::held;
 }
 

@@ -23,9 +23,12 @@ class ScaledSquares {
     bool is_zero() const { return factor_ == 0; }
 
     Value operator*(const Value& x) const {
-      if constexpr (Square::RowsAtCompileTime == 1) return factor_ * x;  // `unit` is 1
-      const Value product = unit_ * x;  // one expression of all three would scale the matrix
-      return factor_ * product;
+      if constexpr (Square::RowsAtCompileTime == 1) {
+        return factor_ * x;  // `unit` is 1
+      } else {
+        const Value product = unit_ * x;  // one expression of all three would scale the matrix
+        return factor_ * product;
+      }
     }
 
    private:

@@ -20,7 +20,8 @@ double beyond_own_rounding(const StepSystem& system, bool still, std::vector<dou
     if (slot.eliminated) continue;  // its impulses are no part of the rounding
     for_each_block(slot.view(system.rows), [&](const auto& block) {
       for (std::size_t i = 0; i < block.size(); ++i) {
-        const auto push = (block.jacobian[i].transpose() * block.impulse[i]).eval();
+        const typename std::decay_t<decltype(block)>::Jacobian& jacobian = block.jacobian[i];
+        const auto push = (jacobian.transpose() * block.impulse[i]).eval();
         double size = 0;  // m, of the constraint's places that move
         for (const int node : block.node[i])
           if (inverse_mass[static_cast<std::size_t>(node)] > 0)
@@ -30,9 +31,8 @@ double beyond_own_rounding(const StepSystem& system, bool still, std::vector<dou
         for (std::size_t a = 0; a < block.node[i].size(); ++a) {
           const auto node = static_cast<std::size_t>(block.node[i][a]);
           const auto first = 3 * static_cast<Eigen::Index>(a);
-          effects[node] +=
-              inverse_mass[node] * (push.template segment<3>(first).norm() +
-                                    block.jacobian[i].template middleCols<3>(first).norm() * of_value);
+          effects[node] += inverse_mass[node] * (push.template segment<3>(first).norm() +
+                                                 jacobian.template middleCols<3>(first).norm() * of_value);
         }
       }
     });

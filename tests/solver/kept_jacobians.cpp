@@ -30,10 +30,9 @@ TEST_CASE("a link's gradient by one end stands for both") {
   LinkJacobians jacobians;
   jacobians.resize(1);
   const Vec3 gradient = Vec3::Random();
-  LinkJacobians::Whole whole;
-  whole << -gradient.transpose(), gradient.transpose();
-  jacobians.set(0, whole);
-  CHECK(jacobians[0] == whole);
+  jacobians.set(0, gradient);
+  CHECK(jacobians[0].leftCols<3>() == -gradient.transpose());
+  CHECK(jacobians[0].rightCols<3>() == gradient.transpose());
   const std::array node{1, 0};
   const Points v = Points::Random(3, 2);
   CHECK(jacobians.rate(0, node, v)[0] == Approx(gradient.dot(v.col(0) - v.col(1))).epsilon(rounding));
@@ -43,27 +42,23 @@ TEST_CASE("a link's gradient by one end stands for both") {
 TEST_CASE("a tetrahedron's rows are made of its rest and its directions") {
   const bool turns = GENERATE(false, true);
   const Eigen::Matrix3d inverse = Eigen::Matrix3d::Random(), directions = Eigen::Matrix3d::Random();
-  StrainTurning turning;
+  StrainJacobians::Turning turning = StrainJacobians::Turning::Zero();
   StrainJacobians jacobians;
   jacobians.resize(1);
   jacobians.set(0, inverse, directions);
   if (turns) {
-    turning.inverse.setRandom();
-    turning.stretch.setRandom();
-    for (Eigen::Matrix3d* each : {&turning.inverse, &turning.stretch})
-      *each = (*each + each->transpose()).eval();
-    jacobians.resize_turning();
+    turning.setRandom();
+    jacobians.begin_turning();
     jacobians.set_turning(0, turning);
   }
   const std::array node{2, 0, 3, 1};
   const Points v = Points::Random(3, 4);
   Eigen::Matrix3d edges;
   edges << v.col(0) - v.col(2), v.col(3) - v.col(2), v.col(1) - v.col(2);
-  Eigen::Matrix3d m = directions.transpose() * edges * inverse;
-  const Vec3 w = turning.inverse * Vec3(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
-  for (int k = 0; k < 3; ++k) m.col(k) -= w.cross(turning.stretch.col(k));
+  const Eigen::Matrix3d m = directions.transpose() * edges * inverse;
   StrainJacobians::Value expected;
   expected << m(0, 0), m(1, 1), m(2, 2), m(0, 1) + m(1, 0), m(1, 2) + m(2, 1), m(2, 0) + m(0, 2);
+  expected -= turning * Vec3(m(1, 0) - m(0, 1), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0));
   CHECK((jacobians.rate(0, node, v) - expected).norm() <= rounding * (1 + expected.norm()));
   Eigen::Matrix<double, 12, 1> local;
   local << v.col(2), v.col(0), v.col(3), v.col(1);

@@ -16,8 +16,10 @@ Rows contradictory(Rows rows) {
   for (const AnyBlock& any : blocks)
     std::visit(
         [&](auto block) {
-          if constexpr (std::decay_t<decltype(block)>::keeps_matrices)  // contacts do
+          if constexpr (std::decay_t<decltype(block)>::keeps_matrices)
             for (auto& jacobian : block.jacobian) jacobian *= -1;
+          else
+            REQUIRE(block.size() == 0);  // contacts alone
           for (auto& bias : block.bias) {
             bias *= -1;
             bias[0] -= 1;

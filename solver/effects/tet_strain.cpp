@@ -73,7 +73,7 @@ struct Turning {
       inverse = pairs.inverse();
   }
 
-  /// B of kept_jacobians.h: the strain's change by -dR of a unit of each entry of ax, that of z first.
+  /// B of kept_jacobians.h: in each column what a unit of ax takes off the strain as it turns R; z, x, y.
   StrainJacobians::Turning by_skew() const {
     StrainJacobians::Turning by;
     for (int k = 0; k < 3; ++k) {

@@ -33,7 +33,7 @@ TEST_CASE("what collides with a face is pushed as far off it as it ends, by the 
     REQUIRE(report.status == pbd::Status::ok);
     const JudgedClaim judged = judge_claim(
         "cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report));
-    CHECK(judged.nearest.of_scale <= 1e-6);  // by rows a hundred times its tolerance
+    CHECK(judged.nearest.of_scale <= 1e-6);  // as `judged_frames` asks at this tolerance
   }
 }
 

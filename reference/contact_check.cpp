@@ -23,12 +23,12 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactS
 void check_rebound(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, double slack, Findings& findings) {
   const int a = c.collider[0], b = c.collider[1];
-  if (!is_euler_step(claim) || explicit_forces(claim) || open.law.compliance > 0 ||
+  if (!is_euler_step(claim) || explicit_forces(claim) || open.law.compliance > 0 || c.met ||
       std::max(a, b) >= sides.count())
-    return findings.leave_out("rebound: by this integrator, of what gives way, on surfaces");
+    return findings.leave_out("rebound: by this integrator, of what gives way, met on the way, on surfaces");
   if (!(open.normal * claim.h > open.impulse) || c.gap <= slack) return;
   const auto approach = [&](const State& state) {
-    return c.normal.dot(sides.velocity(a, c.point, state) - sides.velocity(b, c.point, state));
+    return c.normal.dot(sides.velocity(c, 0, state) - sides.velocity(c, 1, state));
   };
   const double missed = claim.h * (approach(claim.end) + open.law.restitution * approach(claim.start));
   findings.require("rebound", name_of(a, b) + ", m", std::abs(missed), slack);
@@ -44,8 +44,8 @@ void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSla
       (claim.friction == Friction::cone ? open.law.friction * open.slip.norm() * claim.h : 0);
   const bool surface = std::max(a, b) >= sides.count();
   double proved = -infinity;
-  if (explicit_forces(claim)) {
-    findings.leave_out("gap told: by this integrator");
+  if (explicit_forces(claim) || c.met) {
+    findings.leave_out("gap told: by this integrator, of what met on the way");
   } else if (!surface) {
     proved = separation(sides.placed(a, claim.end), sides.placed(b, claim.end), c.normal);
     findings.require("gap told", name, proved - c.gap, step_rounding * size + open.velocity * claim.h);
@@ -86,6 +86,23 @@ void check_place(const StepClaim& claim, const Contact& contact, const ClaimedCo
                        beside_surface(claim, contact, c.point, node_of(1 - k)), allowed);
 }
 
+/// What met on the way touched there, as its bodies stood.
+void check_meeting(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
+                   const Sides& sides, Findings& findings) {
+  constexpr double apart = 3e-4;  // of the round radius: what is documented of the search of contacts
+  if (!c.met || !(open.normal * claim.h > open.impulse)) return;
+  if (std::max(c.collider[0], c.collider[1]) >= sides.count())
+    return findings.leave_out("place of meeting: on surfaces");
+  const PlacedShape a = sides.placed_as_met(c, 0), b = sides.placed_as_met(c, 1);
+  const auto round = [&](std::size_t side, const PlacedShape& own) {
+    return sides.is_node(c.collider[side]) ? infinity : size_of(*own.shape).round;
+  };
+  const double size = c.met->arm[0].norm() + c.met->arm[1].norm();
+  findings.require("place of meeting", name_of(c.collider[0], c.collider[1]) + ", apart, m",
+                   separation(a, b, c.normal),
+                   apart * std::min(round(0, a), round(1, b)) + step_rounding * size);
+}
+
 void check_sliding(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, Findings& findings) {
   const double mu = open.law.friction;
@@ -110,6 +127,7 @@ void check_contacts(const StepClaim& claim, const Contact& contact, double level
     check_force(claim, claimed, open, findings);
     check_gap(claim, claimed, open, sides, findings);
     check_place(claim, contact, claimed, open, sides, findings);
+    check_meeting(claim, claimed, open, sides, findings);
     check_sliding(claim, claimed, open, sides, findings);
   }
 }

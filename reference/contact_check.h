@@ -13,6 +13,7 @@
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
 //   place    what acts on a deformable surface is no farther from one of its triangles than the thickness,
 //            the gap told and the triangle's longest side, by which features may go on as planes and lines
+//   meeting  what met on the way was no farther apart there than 3e-4 of the smaller round radius
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (`round` of support.h), whichever is more, and (1 + mu) s h: with each
@@ -20,13 +21,14 @@
 //            shapes and half spaces as support.h tells, closed meshes as far as mesh_depth.h proves it, where
 //            they do not begin deeper than the rest of this
 //
-// Limits: under explicit forces the normal told is that of the step's begin, and no gap is proved along it;
-// nor is the slip known there or on surfaces by which the convex law opens contacts; what touches and should
-// have bounced is not told; sliding is not judged under explicit forces, whose directions are those of the
-// step's begin, nor of blended directions, the box law and surfaces; depth not of compliant contacts, what
-// bounces under other integrators, which place it by more than its velocity at the end, creases of
-// surfaces, and triangles that a body or an edge cuts and closed meshes that are in something as a step
-// begins.
+// Limits: of what met on the way the forces are judged and that it touched as it stood, not that the way led
+// there: that was another iterate's. Under explicit forces the normal told is that of the step's begin, and
+// no gap is proved along it; nor is the slip known there or on surfaces by which the convex law opens
+// contacts; what touches and should have bounced is not told; sliding is not judged under explicit forces,
+// whose directions are those of the step's begin, nor of blended directions, the box law and surfaces; depth
+// not of compliant contacts, what bounces under other integrators, which place it by more than its velocity
+// at the end, creases of surfaces, and triangles that a body or an edge cuts and closed meshes that are in
+// something as a step begins.
 #pragma once
 
 #include "step_claim.h"

@@ -83,6 +83,7 @@ class LinearisedStep {
   }
 
   void add(const Contact& contact, const ClaimedContact& each, const Placement& end) {
+    if (each.met) throw SetupError(where, "what met on the way of the step", "contacts where it ends");
     for (const int k : each.collider)
       if (k < 0 || k >= static_cast<int>(contact.collider.size()))
         throw SetupError(where, "a contact of a node or surface", "contacts of bodies");

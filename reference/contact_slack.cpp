@@ -10,14 +10,15 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
   const ContactLaw& law = sides.law(a, b);
   const double normal = contact.force.dot(contact.normal);
   const double centres = sides.least_inverse_mass(a) + sides.least_inverse_mass(b);
-  const auto inverse = [&](int k, int other) {
-    return sides.inverse_mass(
-        k, explicit_forces(claim) ? sides.longest_lever(k, other) : sides.lever(k, contact.point));
+  const auto inverse = [&](std::size_t side) {
+    const int k = contact.collider[side];
+    return sides.inverse_mass(k, explicit_forces(claim) ? sides.longest_lever(k, contact.collider[1 - side])
+                                                        : sides.lever(contact, side));
   };
-  const double all = inverse(a, b) + inverse(b, a) + 2 * law.compliance / (claim.h * claim.h);
+  const double all = inverse(0) + inverse(1) + 2 * law.compliance / (claim.h * claim.h);
   Vec3 slip = Vec3::Zero();
   if (a < sides.count() && b < sides.count())
-    slip = sides.velocity(a, contact.point, claim.end) - sides.velocity(b, contact.point, claim.end);
+    slip = sides.velocity(contact, 0, claim.end) - sides.velocity(contact, 1, claim.end);
   const auto across = [&](const Vec3& v) -> Vec3 { return v - contact.normal.dot(v) * contact.normal; };
   const Vec3 conveyed = across(sides.surface_velocity(a) - sides.surface_velocity(b));
   slip = across(slip) + conveyed;

@@ -36,6 +36,7 @@ Findings StepCheck::judge(const StepClaim& claim) const {
   if (is_euler_step(claim)) {
     check_motion(claim, findings);
     check_momentum(claim, *model_, level, findings);
+    check_turns(claim, *model_, findings);
   } else {
     findings.leave_out("motion and momentum: by this integrator or blend of directions");
   }

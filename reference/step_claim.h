@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,12 +12,21 @@
 
 namespace pbd::reference {
 
+/// How the bodies of a contact stood to each other where they met on the way of a step: from a's and b's
+/// centre to where they touched (m), and body to world.
+struct ClaimedMeeting {
+  std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};
+  std::array<Eigen::Matrix3d, 2> rotation{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+};
+
 /// `force` (N) acts on a at `point` (m), its opposite on b; `normal` points from b to a. Numbers count
-/// colliders, then the contact effect's nodes, then (of surfaces) the scene's nodes.
+/// colliders, then the contact effect's nodes, then (of surfaces) the scene's nodes. What `met` on the way is
+/// pushed there; `gap` goes on from there by the rates.
 struct ClaimedContact {
   std::array<int, 2> collider{};
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(), force = Vec3::Zero();
   double gap = 0;  // m
+  std::optional<ClaimedMeeting> met{};
 };
 
 /// Of two colliders or nodes, by such numbers: unit vectors that part them, from the second to the first.

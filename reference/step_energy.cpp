@@ -51,7 +51,7 @@ class Energy {
   void allow(double energy) { allowed_ += std::max(energy, 0.0); }
   void add_given(const Vector& force);
   void add_block(const Block& block, const RowVector& before, const RowVector& own);
-  double rounded_turns(int k, const Sides& sides, const Vec3& point) const;
+  double rounded_turns(const ClaimedContact& c, std::size_t side, const Sides& sides) const;
   void add_contact(const ClaimedContact& c, const Sides& sides);
 
   const StepClaim& claim_;
@@ -125,30 +125,30 @@ void Energy::add_constraints(const Vector& gamma) {
   });
 }
 
-/// What a turn's arc differs from its tangent, m.
-double Energy::rounded_turns(int k, const Sides& sides, const Vec3& point) const {
-  const Side own = sides.side(k);
-  if (own.body < 0) return 0;
+/// What a turn's arc differs from its tangent, m; what met on the way goes on along the tangent.
+double Energy::rounded_turns(const ClaimedContact& c, std::size_t side, const Sides& sides) const {
+  const Side own = sides.side(c.collider[side]);
+  if (own.body < 0 || c.met) return 0;
   const double turn = claim_.h * claim_.end.spin.col(own.body).norm();
-  return turn * turn * sides.lever(k, point) / 2;
+  return turn * turn * sides.lever(c, side) / 2;
 }
 
 void Energy::add_contact(const ClaimedContact& c, const Sides& sides) {
   const auto& [a, b] = c.collider;
   const double h = claim_.h;
   const ContactSlack open = slack_of(claim_, c, sides, level_);
-  const Vec3 start = sides.velocity(a, c.point, claim_.start) - sides.velocity(b, c.point, claim_.start);
+  const Vec3 start = sides.velocity(c, 0, claim_.start) - sides.velocity(c, 1, claim_.start);
   const double slip = open.slip.norm(), friction = h * open.friction.dot(open.slip);
-  for (const auto& [k, sign] : {std::pair{a, 1.0}, std::pair{b, -1.0}})
-    if (sides.inverse_mass(k, 1) == 0)
-      allow(-sign * h * c.force.dot(sides.velocity(k, c.point, claim_.end)));  // is led
+  for (const std::size_t side : {0, 1})
+    if (sides.inverse_mass(c.collider[side], 1) == 0)  // is led
+      allow((side == 0 ? -1 : 1) * h * c.force.dot(sides.velocity(c, side, claim_.end)));
   allow(-h * open.friction.dot(open.conveyed));
   terms_ += h * c.force.norm() * (slip + start.norm());
   allow(2 * open.law.friction * (std::abs(open.normal) * h + open.impulse) * open.velocity +
         (1 + open.law.friction) * slip * open.impulse);
   const double overlap =
       std::max(0.0, -separation(sides.placed(a, claim_.start), sides.placed(b, claim_.start), c.normal));
-  const double curved = rounded_turns(a, sides, c.point) + rounded_turns(b, sides, c.point);
+  const double curved = rounded_turns(c, 0, sides) + rounded_turns(c, 1, sides);
   if (open.law.restitution > 0) {
     allow(std::max(open.normal, 0.0) * (overlap + curved + h * open.velocity));
     allow((friction + h * open.friction.dot(start)) / 2);

@@ -41,4 +41,7 @@ void check_motion(const StepClaim& claim, Findings& findings);
 void check_momentum(const StepClaim& claim, const StepModel& model, double level, Findings& findings);
 void check_constraints(const StepClaim& claim, const StepModel& model, double level, Findings& findings);
 
+/// How bodies turned on the way (turn_check.cpp): the equations above hold after half a turn over, too.
+void check_turns(const StepClaim& claim, const StepModel& model, Findings& findings);
+
 }  // namespace pbd::reference

@@ -122,9 +122,13 @@ double level_of(const StepClaim& claim, const StepModel& model) {
   }
   for (const Joint& joint : model.rigid.joints)
     size = std::max({size, joint.point[0].norm(), joint.point[1].norm()});
+  double turn = 1;  // rad, of a rotation as it is stated
+  for (const Joint& joint : model.rigid.joints)
+    if (joint.kind == JointKind::angle)
+      turn = std::max(turn, std::abs(joint.rest + joint.rate * claim.end.time));
   const bool told = explicit_forces(claim) || !is_euler_step(claim);
   return claim.tolerance * (told ? claim.scale : scale_of(claim, model.rigid)) +
-         step_rounding * (std::sqrt(speed) + (std::sqrt(mass) * size + std::sqrt(inertia)) / claim.h);
+         step_rounding * (std::sqrt(speed) + (std::sqrt(mass) * size + turn * std::sqrt(inertia)) / claim.h);
 }
 
 }  // namespace pbd::reference

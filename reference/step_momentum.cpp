@@ -29,7 +29,7 @@ class Balance {
   }
   void leave_out(int unknown) { left_out_[static_cast<std::size_t>(unknown / 3)] = true; }
   void add_rotation(std::size_t b);
-  void add_force(int body, int node, const Vec3& point, const Vec3& force);
+  void add_force(int body, int node, const ClaimedContact& contact, std::size_t side);
   void sum_up_surface(const Contact& contact);
   void require_sum(double level, Findings& findings) const;
   std::string name_of(int unknown) const;
@@ -102,7 +102,8 @@ void Balance::add_constraints(const Vector& gamma, Findings& findings) {
   });
 }
 
-void Balance::add_force(int body, int node, const Vec3& point, const Vec3& force) {
+void Balance::add_force(int body, int node, const ClaimedContact& contact, std::size_t side) {
+  const Vec3 force = side == 0 ? contact.force : Vec3(-contact.force);
   const int u = model_.rigid.nodes.first[static_cast<std::size_t>(node)];
   if (u >= 0) add(u, -claim_.h * force);
   if (body < 0) return;
@@ -110,9 +111,11 @@ void Balance::add_force(int body, int node, const Vec3& point, const Vec3& force
   const int turn = model_.rigid.rotors[b].unknown;
   if (turn < 0) return;
   if (explicit_forces(claim_)) leave_out(turn);
-  const Vec3 lever = point - claim_.end.x.col(node);
-  add(turn, -claim_.h * (claim_.end.orientation[b].conjugate() * lever.cross(force)));
-  terms_.segment<3>(turn).array() += claim_.h * force.norm() * (point.norm() + lever.norm());
+  const Vec3 lever = contact.met ? contact.met->arm[side] : Vec3(contact.point - claim_.end.x.col(node));
+  const Eigen::Matrix3d rotation =
+      contact.met ? contact.met->rotation[side] : claim_.end.orientation[b].toRotationMatrix();
+  add(turn, -claim_.h * (rotation.transpose() * lever.cross(force)));
+  terms_.segment<3>(turn).array() += claim_.h * force.norm() * (contact.point.norm() + lever.norm());
 }
 
 /// Nodes of surfaces that are pressed count by their sum alone, if all of them count.
@@ -153,7 +156,7 @@ void Balance::add_contacts(const Contact& contact, Findings& findings) {
       const int body = k < colliders ? contact.collider[static_cast<std::size_t>(k)].body : -1;
       const int node = body < 0 ? contact.node[static_cast<std::size_t>(k - colliders)]
                                 : model_.rigid.rotors[static_cast<std::size_t>(body)].node;
-      add_force(body, node, claimed.point, force);
+      add_force(body, node, claimed, side);
     }
   if (!surface) return;
   sum_up_surface(contact);

@@ -67,24 +67,38 @@ Side Sides::side(int k) const {
   return {body, claim_.scene.bodies[static_cast<std::size_t>(body)].node};
 }
 
-PlacedShape Sides::placed(int k, const State& state) const {
+PlacedShape Sides::placed(int k, Frame carrier) const {
   const auto index = static_cast<std::size_t>(k);
-  const Side own = side(k);
-  Frame frame{state.x.col(own.node)};
-  if (own.body >= 0) {
+  if (!is_node(k)) {
     const Frame& inner = contact_.collider[index].frame;
-    frame.rotation = state.orientation[static_cast<std::size_t>(own.body)].toRotationMatrix();
-    frame = {frame.place(inner.origin), frame.rotation * inner.rotation};
+    carrier = {carrier.place(inner.origin), carrier.rotation * inner.rotation};
   }
-  return {&shapes_[index], frame};
+  return {&shapes_[index], carrier};
 }
 
-Vec3 Sides::velocity(int k, const Vec3& point, const State& state) const {
+PlacedShape Sides::placed(int k, const State& state) const {
   const Side own = side(k);
+  Frame carrier{state.x.col(own.node)};
+  if (own.body >= 0)
+    carrier.rotation = state.orientation[static_cast<std::size_t>(own.body)].toRotationMatrix();
+  return placed(k, carrier);
+}
+
+PlacedShape Sides::placed_as_met(const ClaimedContact& contact, std::size_t side) const {
+  const int k = contact.collider[side];
+  if (!is_node(k)) return placed(k, Frame{-contact.met->arm[side], contact.met->rotation[side]});
+  const double radius = std::get<Sphere>(shapes_[static_cast<std::size_t>(k)]).radius;
+  return placed(k, Frame{(side == 0 ? radius : -radius) * contact.normal});
+}
+
+Vec3 Sides::velocity(const ClaimedContact& contact, std::size_t side, const State& state) const {
+  const Side own = this->side(contact.collider[side]);
   Vec3 v = state.v.col(own.node);
   if (own.body < 0) return v;
+  const Vec3 spin = state.spin.col(own.body);
+  if (contact.met) return v + (contact.met->rotation[side] * spin).cross(contact.met->arm[side]);
   const auto& orientation = claim_.end.orientation[static_cast<std::size_t>(own.body)];
-  return v + (orientation * Vec3(state.spin.col(own.body))).cross(point - claim_.end.x.col(own.node));
+  return v + (orientation * spin).cross(contact.point - claim_.end.x.col(own.node));
 }
 
 Vec3 Sides::surface_velocity(int k) const {
@@ -93,9 +107,10 @@ Vec3 Sides::surface_velocity(int k) const {
   return placed(k, claim_.end).frame.rotation * own.surface_velocity;
 }
 
-double Sides::lever(int k, const Vec3& point) const {
-  const Side own = side(k);
-  return own.body < 0 ? 0.0 : (point - claim_.end.x.col(own.node)).norm();
+double Sides::lever(const ClaimedContact& contact, std::size_t side) const {
+  const Side own = this->side(contact.collider[side]);
+  if (own.body < 0) return 0;
+  return contact.met ? contact.met->arm[side].norm() : (contact.point - claim_.end.x.col(own.node)).norm();
 }
 
 double Sides::longest_lever(int k, int other) const {

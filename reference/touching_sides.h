@@ -29,10 +29,13 @@ class Sides {
   int count() const { return static_cast<int>(shapes_.size()); }
   Side side(int k) const;
   PlacedShape placed(int k, const State& state) const;
+  /// A side of a contact that met, in a world whose origin is where it touched.
+  PlacedShape placed_as_met(const ClaimedContact& contact, std::size_t side) const;
   bool is_node(int k) const { return k >= static_cast<int>(contact_.collider.size()); }
 
-  /// m/s, of the point of a side where the step ends, by the velocities of `state`.
-  Vec3 velocity(int k, const Vec3& point, const State& state) const;
+  /// m/s, of what touches of side 0 or 1 of a contact where the step ends, or where it met on the way, by the
+  /// velocities of `state`.
+  Vec3 velocity(const ClaimedContact& contact, std::size_t side, const State& state) const;
   /// m/s, of a side's surface along itself where the step ends, beside that of its points: the part of it
   /// across a normal counts.
   Vec3 surface_velocity(int k) const;
@@ -42,13 +45,15 @@ class Sides {
   /// Least change of the normal velocity by an impulse of 1 N s, times 3 of a surface, whose three weights
   /// may be equal.
   double least_inverse_mass(int k) const;
-  double lever(int k, const Vec3& point) const;
+  double lever(const ClaimedContact& contact, std::size_t side) const;
   /// The longest lever of k (m) at which a contact of both acts where the step begins: at one of their points
   /// nearest to each other or between them; against a half space at the other's point.
   double longest_lever(int k, int other) const;
   const ContactLaw& law(int a, int b) const;
 
  private:
+  PlacedShape placed(int k, Frame carrier) const;
+
   const StepClaim& claim_;
   const Contact& contact_;
   std::vector<Shape> shapes_;

@@ -25,7 +25,7 @@ std::string default_reference(const pbd::Scene& scene, const std::string& integr
 struct Judged {
   pbd::Points x;       // places at the end, m; what was reached of nodes if not ok
   pbd::State end;      // likewise
-  std::string status;  // ok or not_converged
+  std::string status;  // ok, not_converged or not_judged
   std::string reason;  // empty if ok
   int iterations = 0;
   double seconds = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <vector>
 
 #include "harness/interrupt.h"
 #include "names.h"
@@ -26,26 +28,37 @@ pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
                    const std::vector<Eigen::Quaterniond>& orientation) {
   const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
   pbd::Points all(3, scene.nodes() + 3 * bodies);
-  all.leftCols(scene.nodes()) = x;
+  std::vector<bool> held(scene.mass.size(), false);
+  for (const pbd::RigidBody& body : scene.bodies) {
+    const auto node = static_cast<std::size_t>(body.node);
+    held[node] = std::isinf(scene.mass[node]);
+  }
+  Eigen::Index next = 0;
+  for (int i = 0; i < scene.nodes(); ++i)
+    if (!held[static_cast<std::size_t>(i)]) all.col(next++) = x.col(i);
   for (Eigen::Index b = 0; b < bodies; ++b) {
     const auto& [node, inertia] = scene.bodies[static_cast<std::size_t>(b)];
+    if (!inertia.allFinite()) continue;
     const double mass = scene.mass[static_cast<std::size_t>(node)];
-    const pbd::Vec3 arm = inertia.allFinite() && std::isfinite(mass) ? pbd::Vec3((inertia / mass).cwiseSqrt())
-                                                                     : pbd::Vec3(pbd::Vec3::Ones());
+    const pbd::Vec3 arm =
+        std::isfinite(mass) ? pbd::Vec3((inertia / mass).cwiseSqrt()) : pbd::Vec3(pbd::Vec3::Ones());
     const Eigen::Matrix3d axes = orientation[static_cast<std::size_t>(b)].toRotationMatrix();
-    all.middleCols(scene.nodes() + 3 * b, 3) = (axes * arm.asDiagonal()).colwise() + x.col(node);
+    all.middleCols(next, 3) = (axes * arm.asDiagonal()).colwise() + x.col(node);
+    next += 3;
   }
-  return all;
+  return all.leftCols(next);
 }
 
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
   const auto farthest = [](const pbd::Points& d) {
-    return d.colwise().stableNorm().maxCoeff<Eigen::PropagateNaN>();
+    return d.cols() > 0 ? d.colwise().stableNorm().maxCoeff<Eigen::PropagateNaN>() : 0.0;
   };
   const double displacement = farthest(reference - start);
   const double error = farthest(x - reference);
   if (!std::isfinite(displacement)) return std::nan("");
-  return displacement > 0 ? error / displacement : error;
+  const double size = start.cols() > 0 ? start.cwiseAbs().maxCoeff() : 0.0;
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  return displacement > rounding * size ? error / displacement : error;
 }
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,

@@ -76,12 +76,13 @@ class WorstSpread {
   Worst low_, middle_, high_;
 };
 
-/// Positions of all nodes, and of points of each body at its radii of gyration along the principal axes (1 m
-/// where its inertia is infinite), 3 x (N + 3 B).
+/// Positions of nodes, of bodies those that are not held, and of points of each body of finite inertia at its
+/// radii of gyration along the principal axes (1 m of a held centre), 3 x (N + 3 B) at most.
 pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
                    const std::vector<Eigen::Quaterniond>& orientation);
 
-/// max |x - reference| / max |reference - start| over the places; if nothing moved, the numerator in metres;
+/// max |x - reference| / max |reference - start| over the places; if nothing moved but by rounding, the
+/// numerator in metres;
 /// NaN where the displacement is not finite.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 

@@ -16,8 +16,10 @@ pbd::reference::StepClaim claim_of(const pbd::Scene& scene, const pbd::Workspace
   claim.scale = report.scale;
   for (std::size_t effect = 0; effect < scene.effects.size(); ++effect)
     claim.forces.push_back(workspace.forces(effect));
-  for (const pbd::ContactForce& each : workspace.contacts())
+  for (const pbd::ContactForce& each : workspace.contacts()) {
     claim.contacts.push_back({each.collider, each.point, each.normal, each.force, each.gap});
+    if (each.met) claim.contacts.back().met = {each.met->arm, each.met->rotation};
+  }
   return claim;
 }
 

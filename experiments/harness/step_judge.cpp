@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "harness/measure.h"
@@ -39,6 +40,13 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
 
 JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim,
                         const pbd::reference::IntegratorMap* map) {
+  if (std::any_of(claim.contacts.begin(), claim.contacts.end(),
+                  [](const auto& contact) { return contact.met.has_value(); })) {
+    Judged unknown;
+    unknown.status = "not_judged";
+    unknown.reason = "contacts that met on the way of the step: the judge knows those where it ends";
+    return {unknown, {}, {}};
+  }
   JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction, map), {}, {}};
   judged.own = judged.nearest = distance(claim, judged.reference);
   for (const auto& [kept, start] :
@@ -90,7 +98,7 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
 
 std::string StepJudge::text() const {
   std::string text = fmt::format("judged: {} steps by {}", judged_, reference_);
-  if (unsolved_ > 0) text += fmt::format(", which did not solve {} of them", unsolved_);
+  if (unsolved_ > 0) text += fmt::format(", which solved or knew {} of them not", unsolved_);
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
   if (judged_ > unsolved_ + missed_)
     text += fmt::format(

@@ -96,7 +96,8 @@ double end_error(const Scene& scene, const Trajectory& found, const State& truth
 }
 
 double way(const Scene& scene, const State& end) {
-  return (all_places(scene, end) - all_places(scene, scene.initial)).colwise().norm().maxCoeff();
+  const Points moved = all_places(scene, end) - all_places(scene, scene.initial);
+  return moved.cols() > 0 ? moved.colwise().norm().maxCoeff() : 0;
 }
 
 Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest) {

@@ -90,7 +90,7 @@ SceneFile read_scene_file(const std::filesystem::path& file, const std::vector<s
   read_step(root, found);
   if (auto keys = root.table("method")) {
     found.method = read_method(*keys, found.method);
-    for (const auto* key : {"integrator", "direction_blend", "outer", "beta"})
+    for (const auto* key : {"integrator", "direction_blend", "outer", "relaxation", "beta"})
       if (keys->has(key)) found.method_where[key] = keys->where(key);
   }
   read_probes(root, found);

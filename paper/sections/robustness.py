@@ -171,7 +171,7 @@ def passages_text(pairs):
 def touch_text(pairs):
     said = pairs[pairs["continuous"] == 1].sum(numeric_only=True)
     return (f"Ways are looked at for what begins a step apart. {int(said['passed_in_touch'])} solved steps that begin in touch pass. "
-            f"{int(said['steps_turned'])} solved steps turn a body by more than half a turn; their ways are not judged.")
+            f"{int(said['steps_turned'])} solved steps turn a body by more than half a turn; their ways are followed round, as the spin tells.")
 
 
 def passages_table(pairs):

@@ -6,15 +6,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "collision/contact_point.h"
 #include "collision/rounded_triangle.h"
 #include "collision/surface_contact.h"
 #include "rows/bodies.h"
+#include "rows/costs.h"
 #include "scene.h"
 
 namespace pbd {
+
+/// What has met on the way of a step that an iterate takes: its normal n and its arms are those of the place
+/// where it was found, whatever turns later. The gap is linear in where the step ends, n . (x_a + t_a x arm_a
+/// - x_b - t_b x arm_b) + offset, t the rotation by the arcs as they act at that place: its impulses act
+/// there.
+struct Meeting {
+  Vec3 normal;        // unit, from b to a
+  double offset = 0;  // m
+  MetOnWay of_bodies;
+  std::array<Eigen::Matrix3d, 2> turn_per_arc;  // 1/m, of a body there
+  Vec3 weight;                                  // of a triangle's nodes
+};
 
 /// One contact of a step.
 struct ActiveContact {
@@ -28,6 +42,8 @@ struct ActiveContact {
   TriangleFeature triangle;
   bool of_surfaces = false;  // then `surface` is it, and there are no features
   SurfaceContact surface;
+  std::shared_ptr<const Meeting>
+      meeting;                     // of what has met on the way: then of `features` only the key counts
   Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
   double gap = 0;                  // m, where it was made linear
   double level = 0;                // m, of the plane in which a face's impulses act
@@ -80,8 +96,35 @@ inline Frame frame_of(const ActiveContact& contact, int side, const Configuratio
   return {pose.x, pose.rotation};
 }
 
+/// Where what acts on a side of a meeting would be, if it only moved and did not turn.
+inline Vec3 meeting_place(const ActiveContact& contact, int side, const Configuration& at) {
+  const int carrier = contact.carrier[side];
+  if (side == contact.triangle_side) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) sum += contact.meeting->weight[k] * at.x.col(contact.triangle.node[k]);
+    return sum;
+  }
+  if (side == contact.node_side) return at.x.col(carrier);
+  return at.pose[carrier].x + contact.meeting->of_bodies.arm[side];
+}
+
+inline Touching meeting_at(const ActiveContact& contact, const Configuration& at) {
+  const Meeting& meeting = *contact.meeting;
+  Touching found{meeting.offset, meeting.normal, meeting_place(contact, 0, at),
+                 meeting_place(contact, 1, at)};
+  found.gap += meeting.normal.dot(found.point_a - found.point_b);
+  for (const int side : {0, 1}) {
+    if (side == contact.node_side || side == contact.triangle_side) continue;
+    const Eigen::Index column = at.x.cols() - std::ssize(at.pose) + contact.carrier[side];
+    const Vec3 turn = meeting.turn_per_arc[side] * at.x.col(column);
+    found.gap += (side == 0 ? 1 : -1) * meeting.normal.dot(turn.cross(meeting.of_bodies.arm[side]));
+  }
+  return found;
+}
+
 /// Of what has features.
 inline Touching touching_at(const ActiveContact& contact, const Configuration& at) {
+  if (contact.meeting) return meeting_at(contact, at);
   const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
   if (contact.triangle_side < 0) return touching(contact.features, a, b);
   ContactPoint features = contact.features;
@@ -104,6 +147,8 @@ int column_of(const ActiveContact& contact, int side) {
 /// Where impulses act, m: at one place of both, so that together they turn nothing; those of a face on one
 /// plane, so that all its points can stick at once, however far from it each is.
 inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
+  if (contact.meeting && contact.triangle_side >= 0)
+    return contact.triangle_side == 0 ? found.point_a : found.point_b;
   if (contact.triangle_side == 0) return found.point_a + contact.features.radius_a * found.normal;
   if (contact.triangle_side == 1) return found.point_b - contact.features.radius_b * found.normal;
   const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
@@ -139,15 +184,18 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
     const double sign = side == 0 ? 1 : -1;
     if constexpr (Block::nodes == 5)
       if (side == contact.triangle_side) {
-        const Vec3 weight = weights_at(contact.triangle, at.x, place);
+        const Vec3 weight =
+            contact.meeting ? contact.meeting->weight : weights_at(contact.triangle, at.x, place);
         for (int k = 0; k < 3; ++k) jacobian.template middleCols<3>(3 * k) = sign * weight[k] * directions;
         continue;
       }
     jacobian.template middleCols<3>(column) = sign * directions;
     if (side == contact.node_side) continue;
     const Pose& pose = at.pose[contact.carrier[side]];
+    const Vec3 arm = contact.meeting ? contact.meeting->of_bodies.arm[side] : Vec3(place - pose.x);
     jacobian.template middleCols<3>(column + 3) =
-        -sign * directions * cross_matrix(place - pose.x) * pose.turn_per_arc;
+        -sign * directions * cross_matrix(arm) *
+        (contact.meeting ? contact.meeting->turn_per_arc[side] : pose.turn_per_arc);
   }
   return found;
 }

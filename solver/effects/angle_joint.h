@@ -17,6 +17,9 @@ template <>
 struct Constraint<AngleJoint> : JointConstraint<AngleJoint, 1> {
   static constexpr double period = 2 * std::numbers::pi;  // rad, of c
 
+  static double angle_asked(const AngleJoint& effect, std::size_t i, double time) {
+    return effect.rest_angle[i] + effect.rate[i] * time;
+  }
   static void evaluate(const AngleJoint& effect, std::size_t i, const Positions& at, Value& value,
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const AngleJoint& effect, std::size_t i, const Positions& at,

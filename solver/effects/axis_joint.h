@@ -8,6 +8,8 @@ namespace pbd {
 
 template <>
 struct Constraint<AxisJoint> : JointConstraint<AxisJoint, 2> {
+  static constexpr double turned_out = 0.866;  // |c|, sine of 60 degrees
+
   static void evaluate(const AxisJoint& effect, std::size_t i, const Positions& at, Value& value,
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const AxisJoint& effect, std::size_t i, const Positions& at,

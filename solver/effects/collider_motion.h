@@ -18,6 +18,7 @@ struct ColliderMotion {
   double radius = 0;           // m, of the farthest point about it; infinite for a half space
   double round = 0;            // m, radius of what is round of the shape
   Vec3 course = Vec3::Zero();  // m, where its velocity takes it
+  double beside = 0;           // m, that its points go beside its course, as far as is known
   double travel = 0;   // m, that its points move at most beside its course; of a half space, its centre
   double turn = 0;     // rad, that it turns at most
   bool grown = false;  // it goes farther than it was searched for

@@ -58,6 +58,7 @@ void ContactSearch::begin(const SearchedStep& step) {
   near_pairs_.clear();
   late_.clear();
   late_surfaces_.clear();
+  let_go_.clear();
   left_.clear();
   left_surfaces_.clear();
   far_.clear();
@@ -72,7 +73,8 @@ void ContactSearch::set_out(const SearchedStep& step) {
   for (Motion& motion : motions_) {
     motion.course = shift_of(motion, step.bodies, step.start.x, step.straight);
     const Displacement moved = displacement(motion, step.bodies, step.start, step.free);
-    motion.travel = farthest_travel(motion, moved) + room * motion.course.norm();
+    motion.beside = farthest_travel(motion, moved);
+    motion.travel = motion.beside + room * motion.course.norm();
     motion.turn = moved.turn;
     motion.grown = true;
     if (motion.kind == Carrier::body && motion.radius > 0)
@@ -99,7 +101,9 @@ bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
   };
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, step.bodies, step.start, x);
-    grow(motion.travel, farthest_travel(motion, moved), motion.grown);
+    const double beside = farthest_travel(motion, moved);
+    grow(motion.travel, beside, motion.grown);
+    if (motion.grown) motion.beside = std::max(motion.beside, beside);
     grow(motion.turn, moved.turn, motion.grown);
   }
   if (surfaces_)

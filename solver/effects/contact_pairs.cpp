@@ -14,6 +14,7 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
   const Motion &one = motions_[first], &two = motions_[second];
   if (one.kind == Carrier::node) return search_nodes(first, second, start.x, task);
   const double travel = travel_between(one, two);
+  const std::size_t before = task.near.size();
   PairPoints& points = task.points;
   if (two.kind == Carrier::triangle) points.triangle.place(corners(two, start.x));
   find_points({first, second}, one.frame, two.frame, {effect_.margin + travel, one.turn + two.turn}, points);
@@ -24,7 +25,42 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
     if (contact.law.restitution == 0) contact.apart = near * travel;
     if (two.kind != Carrier::triangle || nearest_of_surface(contact, start)) task.near.push_back(contact);
   }
+  if (effect_.continuous && std::isfinite(nearest)) {
+    const auto within = [&](double reach) {
+      find_points({first, second}, one.frame, two.frame, {reach, 0}, points);
+      double least = infinity;
+      for (const ContactPoint& point : points.found)
+        least = std::min(least, gap_of(point, one.frame, two.frame));
+      return least;
+    };
+    const double slack = overlooked * round_radius_of(one, two);
+    nearest = gap_by_reach(within, effect_.margin + travel, slack);
+    if (is_fast(one, two)) {
+      task.near.resize(before);
+      if (!(nearest > slack)) search_meetings(first, second, start, task);
+    }
+  }
   task.pairs.push_back({{first, second}, nearest, task.near.size()});
+}
+
+/// What of a fast pair touches where the step begins.
+void ContactSearch::search_meetings(int first, int second, const Configuration& start,
+                                    SearchTask& task) const {
+  const Motion &one = motions_[first], &two = motions_[second];
+  const double slack = overlooked * round_radius_of(one, two);
+  const auto before = static_cast<std::ptrdiff_t>(task.near.size());
+  find_points({first, second}, one.frame, two.frame, {slack, 0}, task.points);
+  for (const ContactPoint& point : task.points.found) {
+    ActiveContact contact = active(point, first, second, task.points.triangle);
+    contact.meeting = std::make_shared<Meeting>(meeting_of(contact, start, start, start, 0));
+    task.near.push_back(std::move(contact));
+  }
+  const auto begin = task.near.begin() + before;
+  const auto beside = std::stable_partition(begin, task.near.end(), [&](const ActiveContact& contact) {
+    return on_shapes(contact, start, slack, task.points);
+  });
+  if (beside != begin) task.near.erase(beside, task.near.end());
+  for (auto each = begin; each != task.near.end(); ++each) each->features.kind = ContactPoint::Kind::point;
 }
 
 /// Spheres of two nodes, if they are near.

@@ -134,7 +134,7 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   };
   for (const ActiveContact& contact : near) {
     const PairFeatures features{pair.collider, contact.features.key};
-    if (!is_left(features) && late_contact(features) == late_.end()) add(contact);
+    if (contact.meeting || (!is_left(features) && late_contact(features) == late_.end())) add(contact);
   }
   for (const ActiveContact& contact : late_)
     if (contact.pair() == pair.collider) add(contact);
@@ -144,7 +144,8 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   const auto of_pair = left_.lower_bound({pair.collider, 0});
   const bool left = of_pair != left_.end() && of_pair->collider == pair.collider;
   const double depth = (left ? std::min(besides_, overlooked) : overlooked) * round;
-  if (bounded && (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
+  if ((bounded || is_fast(one, two)) &&
+      (left || wary * travel * travel > 8 * round * (overlooked * round + deepest)))
     far_.push_back({pair.collider, pair.nearest, deepest, depth, left,
                     effect_.between(pair.collider[0], pair.collider[1]).compliance > 0});
 }

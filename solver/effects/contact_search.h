@@ -25,6 +25,14 @@
 // generate.h says of them, which may be too large; a triangle that begins cut by one may end cut by other
 // features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
+// Under continuous contact a pair is followed on its way to where a solved iterate ends. What it meets there
+// joins the step as a `Meeting` (active_contact.h): a row that is linear, and asks of the end that what met
+// goes no nearer than it was. Of what meets on one way that joins which meets first, and what meets less than
+// a round radius later: what comes after may be missed for it. What a meeting pushes, and comes nowhere near
+// on the way of a solved iterate, is let go once: what meets again without it stays. What goes farther
+// against each other than it is round has, from there on, no other contacts than what it meets, or touches
+// where the step begins: features that are carried about by what turns tell nothing of a way.
+//
 // Where nothing was near at all, boxes many times their motions apart say for how long that holds: until then
 // no step is searched (clearance.h).
 //
@@ -38,7 +46,9 @@
 // features than these are long leaves; what then passes or overlaps is found where the step ends.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <optional>
 #include <set>
@@ -111,8 +121,9 @@ class ContactSearch {
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
   static constexpr double rounding = 1e-9;      // of a way
   static constexpr int most_places = 10000;     // of a way: a hundred sizes take some hundred
-  static constexpr double room = search_room;   // so that few steps are searched anew
-  static constexpr double near = 0.5;           // of a way: what is farther may wait
+  static constexpr double clipped_unseen = 0.01;  // of the radius: half of that is what may be cut unseen
+  static constexpr double room = search_room;     // so that few steps are searched anew
+  static constexpr double near = 0.5;             // of a way: what is farther may wait
 
   using Motion = ColliderMotion;
 
@@ -124,6 +135,14 @@ class ContactSearch {
     bool left = false;            // by a contact that had held it apart
     bool gives_way = false;       // by its law's compliance
     double least_end = infinity;  // m, gap that its contacts tell of
+    bool pushed = false;          // by something that it met
+    double bent = 0;              // m, that turns make of how what pushes it goes on
+    double least = 0;             // m, gap on its way
+  };
+  struct Met {  // on a way, in the order of pairs
+    std::array<int, 2> collider;
+    double share, window;  // of the way, at which they meet, and that they go a round radius in
+    std::vector<ActiveContact> contacts;
   };
   struct NearPair {
     std::array<int, 2> collider;
@@ -177,6 +196,7 @@ class ContactSearch {
   bool is_above(int first, int second) const;
   void look_for_clearance(const Configuration& start);
   void search_pair(int first, int second, const Configuration& start, SearchTask& task) const;
+  void search_meetings(int first, int second, const Configuration& start, SearchTask& task) const;
   void search_nodes(int first, int second, const Points& x, SearchTask& task) const;
   void search_asked(const Configuration& start);
   void add_pair(const NearPair& pair, std::span<const ActiveContact> near, ContactLists& contacts);
@@ -198,8 +218,10 @@ class ContactSearch {
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
   // Late contacts: late_contacts.cpp, and passing_contacts.cpp for what meets on the way. The way between is
-  // that of turns below pi, and straight for nodes.
-  static Eigen::Matrix3d turned_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double share);
+  // straight, and turns by one angular velocity.
+  static Vec3 turn_between(int body, const Configuration& start, const Configuration& end);
+  double way_between(const Pair& pair, const Configuration& start, const Configuration& end) const;
+  static Pose pose_between(int body, const Configuration& start, const Configuration& end, double share);
   Frame frame_between(int collider, const Configuration& start, const Configuration& end, double share) const;
   double generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
                           double share, double reach);
@@ -210,7 +232,32 @@ class ContactSearch {
   bool is_convex(int collider) const;
   bool is_round(int collider) const;
   void keep_deepening(const Pair& pair, const Configuration& start, const Configuration& end, double allowed);
-  void part_by_planes(const Pair& pair, const Configuration& start, const Configuration& end, double share);
+  /// True of what goes farther against each other than it is round: it is held by what meets on its way
+  /// alone.
+  bool is_fast(const Motion& one, const Motion& two) const;
+  double gap_between(const Pair& pair, const Configuration& start, const Configuration& end, double share,
+                     double reach, double slack);
+  /// m, of what `within(reach)` finds, its least gap: the farther it looks, the farther beside each other are
+  /// features that say less than how far the shapes are apart, so that what seems to touch is looked at
+  /// again.
+  template <class Within>
+  static double gap_by_reach(const Within& within, double reach, double slack) {
+    constexpr double farther = 4;
+    double gap = within(reach), least = -infinity;
+    constexpr double rounding = 1e-12;
+    for (double nearer = std::max(2 * slack, rounding * reach); !(gap > slack) && nearer < reach;
+         nearer *= farther) {
+      if (const double found = within(nearer); std::isfinite(found)) return std::max(found, least);
+      least = nearer;
+    }
+    return std::max(gap, least);
+  }
+  void keep_meetings(const Pair& pair, const Configuration& start, const Configuration& end, double share,
+                     double allowed);
+  bool find_meetings(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
+                     double slack);
+  static Meeting meeting_of(const ActiveContact& contact, const Configuration& at, const Configuration& start,
+                            const Configuration& end, double share);
   Configuration placed_between(const ActiveContact& contact, const Configuration& start,
                                const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
@@ -226,12 +273,19 @@ class ContactSearch {
                   double apart, double& overlapping);
   bool find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end);
   void add_late(const ActiveContact& found, double target);
+  void add_first_met();
+  bool let_go();
+  void see_contacts(const Configuration& end, const ContactLists& contacts);
+  double bent(const ActiveContact& contact, const Configuration& end) const;
   bool is_told(const ActiveContact& found, const Configuration& at);
   bool see_overlaps(const Configuration& start, const Configuration& end, const ContactLists& contacts);
 
   // Contacts that leave their features: left_contacts.cpp.
   double beside(const std::array<int, 2>& pair) const;
-  bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack);
+  bool on_shape(int collider, const Vec3& point, const Configuration& at, double slack,
+                PairPoints& points) const;
+  bool on_shapes(const ActiveContact& contact, const Configuration& at, double slack,
+                 PairPoints& points) const;
   bool on_shapes(const ActiveContact& contact, const Configuration& at);
   double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
@@ -263,6 +317,9 @@ class ContactSearch {
   std::vector<ActiveContact> near_before_;
   std::vector<Pair> far_;  // those that go far in this step
   std::vector<ActiveContact> late_;
+  std::uint64_t meetings_ = 0;        // so far: each has a name of its own
+  double touching_ = 0, inside_ = 0;  // shares of a way at which `meets` found a pair so
+  double least_ = 0;                  // m, gap of a pair on the way that `meets` walked
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
@@ -271,6 +328,8 @@ class ContactSearch {
   Points between_x_;  // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;
   std::vector<ActiveContact> overlapping_;
+  std::vector<Met> met_;
+  std::set<std::array<int, 2>> let_go_;  // pairs whose meetings were, in this step
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;
   PairPoints points_;

@@ -52,6 +52,7 @@ void add_contact_stiffness(const ActiveContact& contact, const StepMap& map, con
       for (const int node : block.node[i]) added_mass[node] += map.d / 2 * bound;
       return;
     }
+  if (contact.meeting) return;  // its rows are linear
   const ContactPoint& features = contact.features;
   const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
   const Touching found = touching_at(contact, at);

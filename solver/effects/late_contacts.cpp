@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "effects/contact_search.h"
@@ -10,15 +11,30 @@ double ContactSearch::gap_of(const ContactPoint& point, const Frame& at_first, c
   return point.swapped ? touching(point, at_second, at_first).gap : touching(point, at_first, at_second).gap;
 }
 
-Eigen::Matrix3d ContactSearch::turned_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
-                                              double share) {
-  return Eigen::Quaterniond(from).slerp(share, Eigen::Quaterniond(to)).toRotationMatrix();
+/// rad, in the world, of a body on the way to `end`: as its arcs tell, so that it may be more than half a
+/// turn.
+Vec3 ContactSearch::turn_between(int body, const Configuration& start, const Configuration& end) {
+  return start.pose[body].turn_per_arc * end.x.col(end.x.cols() - std::ssize(end.pose) + body);
+}
+
+Pose ContactSearch::pose_between(int body, const Configuration& start, const Configuration& end,
+                                 double share) {
+  const Pose& from = start.pose[body];
+  const Vec3 turn = turn_between(body, start, end);
+  const Eigen::Matrix3d turned(Eigen::AngleAxisd(share * turn.norm(), turn.stableNormalized()));
+  return {from.x + share * (end.pose[body].x - from.x), turned * from.rotation, turned * from.turn_per_arc};
 }
 
 Frame ContactSearch::frame_between(int collider, const Configuration& start, const Configuration& end,
                                    double share) const {
+  const Motion& motion = motions_[collider];
+  if (motion.kind == Carrier::body) {
+    const Pose pose = pose_between(motion.carrier, start, end, share);
+    const Frame& own = effect_.collider[collider].frame;
+    return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
+  }
   const Frame from = placed_frame(collider, start), to = placed_frame(collider, end);
-  return {from.origin + share * (to.origin - from.origin), turned_between(from.rotation, to.rotation, share)};
+  return {from.origin + share * (to.origin - from.origin), from.rotation};
 }
 
 /// Sets `points_.found` to the points of a pair that are within reach at a share of the way from `start` to
@@ -121,14 +137,16 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   // Of triangles no less than what a solved step may miss of their nodes.
   const double missed = two.kind == Carrier::triangle ? besides_ * round : 0;
   const double slack = std::max(pair.overlooked, missed);
-  const double travel = travel_between(one, two), rounded = 1e-12 * (one.radius + two.radius + travel);
+  const auto extent = [](const Motion& own) { return std::isfinite(own.radius) ? own.radius : 0; };
+  const double travel = travel_between(one, two), rounded = 1e-12 * (extent(one) + extent(two) + travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
   // What its contacts tell of is theirs to hold, but not where their features lay behind the start: those ask
   // for no more than what they were then.
   const double missing = besides_ * (round + travel);  // by a solved step
   const double held = pair.gives_way ? -infinity : behind - missing;
   const double allowed = std::min(std::max(pair.least_end - rounded, held), behind);
-  if (effect_.continuous && pair.nearest > slack && meets(pair, start, end, allowed, slack)) return true;
+  if (effect_.continuous && (pair.nearest > slack || is_fast(one, two)))
+    return find_meetings(pair, start, end, allowed, slack);
   if (effect_.continuous && !(pair.nearest > slack) &&
       find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
     return true;
@@ -178,40 +196,112 @@ void ContactSearch::add_late(const ActiveContact& found, double target) {
 }
 
 /// True if a late contact says the same of what overlaps: its row is solved, and the tolerance leaves the
-/// rest. Under `continuous` contact what is found may have passed, which no row's residual tells.
+/// rest. Never of a meeting: each has a name of its own.
 bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at) {
   const auto known = late_contact({found.pair(), found.features.key});
-  return !effect_.continuous && known != late_.end() && touching_at(*known, at).gap < 0 &&
+  return known != late_.end() && touching_at(*known, at).gap < 0 &&
          agree(*known, found, at, beside(found.pair()));
 }
 
-bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,
-                                 const ContactLists& contacts) {
-  if (far_.empty()) return false;
+/// m, that the turns of bodies make at most of a meeting's gap, which goes on as if they did not turn.
+double ContactSearch::bent(const ActiveContact& contact, const Configuration& end) const {
+  double sum = 0;
+  for (const int side : {0, 1}) {
+    if (side == contact.node_side || side == contact.triangle_side) continue;
+    const Eigen::Index column = end.x.cols() - std::ssize(end.pose) + contact.carrier[side];
+    const double turn = (contact.meeting->turn_per_arc[side] * end.x.col(column)).norm();
+    sum += turn * turn / 2 * contact.meeting->of_bodies.arm[side].norm();
+  }
+  return sum;
+}
+
+/// What the contacts tell of pairs that go far.
+void ContactSearch::see_contacts(const Configuration& end, const ContactLists& contacts) {
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
-  for (Pair& pair : far_) pair.least_end = infinity;
+  for (Pair& pair : far_) pair.least_end = infinity, pair.pushed = false, pair.bent = 0;
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       if (contact.of_surfaces) continue;
       const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{contact.pair()}, in_order);
       if (pair == far_.end() || pair->collider != contact.pair()) continue;
       pair->least_end = std::min(pair->least_end, touching_at(contact, end).gap);
+      if (!contact.meeting || !contact.late || !contact.acts) continue;
+      pair->pushed = true;
+      pair->bent = std::max(pair->bent, bent(contact, end));
     }
-  bool seen = false;
+}
+
+/// Of what met, what met first of all that each of both meets, and what did by less than its window later.
+void ContactSearch::add_first_met() {
+  std::map<std::pair<Carrier, int>, double> first;  // of bodies and nodes
+  const auto each_mover = [&](const Met& met, const auto& act) {
+    for (const int collider : met.collider) {
+      const Motion& motion = motions_[collider];
+      if (!motion.moves) continue;
+      if (motion.kind != Carrier::triangle)
+        act(std::pair{motion.kind, motion.carrier});
+      else
+        for (const int node : effect_.triangle[motion.carrier]) act(std::pair{Carrier::node, node});
+    }
+  };
+  for (const Met& met : met_)
+    each_mover(met, [&](const auto& mover) {
+      const auto known = first.emplace(mover, met.share).first;
+      known->second = std::min(known->second, met.share);
+    });
+  for (const Met& met : met_) {
+    bool late = false;
+    each_mover(met, [&](const auto& mover) { late |= met.share > first.at(mover) + met.window; });
+    if (late) continue;
+    for (const ActiveContact& contact : met.contacts) add_late(contact, 0);
+  }
+}
+
+/// Lets what a meeting pushes, but comes nowhere near on its way, go; true if there is any that has not been.
+bool ContactSearch::let_go() {
+  bool any = false;
   for (const Pair& pair : far_) {
+    if (!pair.pushed || !(pair.least > pair.overlooked + pair.bent) || !let_go_.insert(pair.collider).second)
+      continue;
+    std::erase_if(late_, [&](const ActiveContact& contact) {
+      return contact.meeting && contact.pair() == pair.collider;
+    });
+    any = true;
+  }
+  return any;
+}
+
+bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,
+                                 const ContactLists& contacts) {
+  if (far_.empty()) return false;
+  see_contacts(end, contacts);
+  met_.clear();
+  bool seen = false;
+  for (Pair& pair : far_) {
+    pair.least = 0;
     // What a contact that has just been dropped did is not where the pair will be.
     if (std::binary_search(dropped_.begin(), dropped_.end(), pair.collider)) continue;
-    if (!find_overlapping(pair, start, end)) continue;
+    least_ = 0;
+    if (!find_overlapping(pair, start, end)) {
+      pair.least = least_;
+      continue;
+    }
     const bool unexplained = overlapping_.empty();
     std::erase_if(overlapping_, [&](const ActiveContact& found) { return is_told(found, end); });
     if (!unexplained && overlapping_.empty()) continue;
     seen = true;
+    if (!unexplained && overlapping_.front().meeting && pair.deepest == 0) {
+      const double round = round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
+      met_.push_back({pair.collider, touching_, round / way_between(pair, start, end), overlapping_});
+      continue;
+    }
     for (const ActiveContact& found : overlapping_) {
       const double began = begins_cut(pair) ? touching_at(found, start).gap : pair.deepest;
       add_late(found, std::min(pair.deepest, began));
     }
   }
-  return seen;
+  add_first_met();
+  return seen || let_go();
 }
 
 /// Adds what deformable surfaces passed or overlap by where a solved iterate ends, as none of their contacts

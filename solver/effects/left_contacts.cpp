@@ -11,26 +11,31 @@ double ContactSearch::beside(const std::array<int, 2>& pair) const {
 }
 
 /// True if a collider is no farther from a point than `slack`, m.
-bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuration& at, double slack) {
+bool ContactSearch::on_shape(int collider, const Vec3& point, const Configuration& at, double slack,
+                             PairPoints& points) const {
   const Motion& own = motions_[collider];
   if (own.kind == Carrier::node) return true;  // it is round
   if (own.kind != Carrier::triangle)
-    return is_at(*own.shape, placed_frame(collider, at), point, slack, points_.scratch, points_.found);
-  points_.found.clear();
-  points_.triangle.place(corners(own, at.x));
-  generate(points_.triangle, Sphere{slack}, {point, Eigen::Matrix3d::Identity()}, Reach{0}, points_.scratch,
-           points_.found);
-  return !points_.found.empty();
+    return is_at(*own.shape, placed_frame(collider, at), point, slack, points.scratch, points.found);
+  points.found.clear();
+  points.triangle.place(corners(own, at.x));
+  generate(points.triangle, Sphere{slack}, {point, Eigen::Matrix3d::Identity()}, Reach{0}, points.scratch,
+           points.found);
+  return !points.found.empty();
 }
 
 /// True of what is endless and of surfaces, too.
-bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at) {
+bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at, double slack,
+                              PairPoints& points) const {
   if (contact.of_surfaces) return true;
   const auto& [a, b] = contact.collider;
   if (std::isinf(motions_[a].radius) || std::isinf(motions_[b].radius)) return true;
   const Touching found = touching_at(contact, at);
-  const double slack = beside(contact.pair());
-  return on_shape(a, found.point_a, at, slack) && on_shape(b, found.point_b, at, slack);
+  return on_shape(a, found.point_a, at, slack, points) && on_shape(b, found.point_b, at, slack, points);
+}
+
+bool ContactSearch::on_shapes(const ActiveContact& contact, const Configuration& at) {
+  return on_shapes(contact, at, beside(contact.pair()), points_);
 }
 
 /// m, how far apart the convex shapes of a contact are along its normal.
@@ -200,7 +205,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       const PairFeatures features{contact.pair(), contact.features.key};
-      if (contact.of_surfaces || is_left(features)) continue;
+      if (contact.of_surfaces || contact.meeting || is_left(features)) continue;
       // However a solver shares the impulses of what touches.
       if (!contact.acts && touching_at(contact, end).gap > contact.target + beside(features.collider))
         continue;

@@ -7,6 +7,8 @@ namespace pbd {
 
 template <>
 struct Constraint<PerpendicularJoint> : JointConstraint<PerpendicularJoint, 1> {
+  static constexpr double turned_out = 0.866;  // |c|, sine of 60 degrees
+
   static void evaluate(const PerpendicularJoint& effect, std::size_t i, const Positions& at, Value& value,
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const PerpendicularJoint& effect, std::size_t i, const Positions& at,

@@ -8,6 +8,8 @@ namespace pbd {
 
 template <>
 struct Constraint<RotationJoint> : JointConstraint<RotationJoint, 3> {
+  static constexpr double turned_out = 1;  // |c|, of 60 degrees
+
   static void evaluate(const RotationJoint& effect, std::size_t i, const Positions& at, Value& value,
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const RotationJoint& effect, std::size_t i, const Positions& at,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "geometry.h"
@@ -21,7 +22,16 @@ struct EffectCost {
   double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step
 };
 
-/// What a contact does at the end of a step, in the world: `force` acts on a, its opposite on b.
+/// How the bodies of a contact stood to each other where they met on the way of a step, in the world; of a
+/// node or triangle nothing.
+struct MetOnWay {
+  std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};  // m, from a's and b's centre to where they touched
+  std::array<Eigen::Matrix3d, 2> rotation{Eigen::Matrix3d::Identity(),
+                                          Eigen::Matrix3d::Identity()};  // body to world
+};
+
+/// What a contact does at the end of a step, in the world: `force` acts on a, its opposite on b. What has met
+/// on the way was pushed there, and `gap` goes on from there by the bodies' rates.
 struct ContactForce {
   std::array<int, 2> collider;  // a and b: colliders, then the effect's nodes, then (surfaces) the scene's
   Vec3 point;                   // m
@@ -29,6 +39,7 @@ struct ContactForce {
   Vec3 force;                   // N
   Vec3 slip;                    // m/s, of a against b across the normal
   double gap;                   // m
+  std::optional<MetOnWay> met{};
 };
 
 /// Measures of an effect's constraints as a state has them.

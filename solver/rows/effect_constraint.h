@@ -73,18 +73,21 @@ typename Constraint<E>::Positions local_at(const E& effect, std::size_t i,
   }
 }
 
-/// Largest coordinate of a constraint, m; of bodies that turn also their radius of gyration.
+/// Largest coordinate of constraint i, m; of bodies that turn also their radius of gyration, and the way that
+/// this goes about the angle that it asks for, if it asks for one.
 template <class E>
-double largest_coordinate(const typename Constraint<E>::Positions& at,
+double largest_coordinate(const E& effect, std::size_t i, const typename Constraint<E>::Positions& at,
                           const typename Constraint<E>::Nodes& columns,
                           const std::vector<double>& inverse_mass) {
   if constexpr (BodyEffect<E>) {
-    double most = at.node.size() > 0 ? at.node.cwiseAbs().sum() : 0.0;
+    double most = at.node.size() > 0 ? at.node.cwiseAbs().sum() : 0.0, turn = 1;
+    if constexpr (requires { Constraint<E>::angle_asked(effect, i, at.time); })
+      turn = std::max(turn, std::abs(Constraint<E>::angle_asked(effect, i, at.time)));
     std::size_t next = 0;
     for (const Pose* pose : at.body) {
       most = std::max(most, pose->x.cwiseAbs().maxCoeff());
       const int rotation = columns[next + 1];
-      if (inverse_mass[rotation] > 0) most = std::max(most, 1 / pose->turn_per_arc.row(0).norm());
+      if (inverse_mass[rotation] > 0) most = std::max(most, turn / pose->turn_per_arc.row(0).norm());
       next += 2;
     }
     return most;

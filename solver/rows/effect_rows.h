@@ -74,6 +74,29 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) sums += linearise_block(place, std::get<Block>(any));
   }
 
+  bool turns_over(const Configuration& start, const Configuration& between) const override {
+    if constexpr (requires { C::turned_out; }) {
+      const auto is_out = [&](std::size_t i, const Configuration& at) {
+        Value value;
+        Jacobian unused;
+        C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, unused);
+        return value.norm() > C::turned_out;
+      };
+      for (std::size_t i = 0; i < constraint_count(effect_); ++i)
+        if (!gives_way(effect_, i) && is_out(i, between) && !is_out(i, start)) return true;
+    }
+    return false;
+  }
+
+  bool drives_round(double h) const override {
+    if constexpr (has_period)
+      for (std::size_t i = 0; i < constraint_count(effect_); ++i)
+        if (!gives_way(effect_, i) && force_bounds(effect_, i) == ForceBounds{-infinity, infinity} &&
+            std::abs(effect_.rate[i]) * h > C::period / 2)
+          return true;
+    return false;
+  }
+
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override {
     for (const AnyBlock& any : blocks) {
@@ -249,7 +272,8 @@ class EffectRows final : public Source {
       Value value;
       const auto own = local_at(effect_, block.entry(i), block.node[i], begin.at);
       linearise_at(block, i, own, value);
-      return std::pair{value[0], largest_coordinate<E>(own, block.node[i], begin.inverse_mass)};
+      return std::pair{value[0],
+                       largest_coordinate(effect_, block.entry(i), own, block.node[i], begin.inverse_mass)};
     };
     stops_.find(begin, effect_.bounds, block, at,
                 [&](std::size_t i) { return !gives_way(effect_, block.entry(i)); });
@@ -287,8 +311,8 @@ class EffectRows final : public Source {
       if constexpr (requires { effect_.bounds; })
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
-      Operations::linearise(place, value, largest_coordinate<E>(own, block.node[i], place.inverse_mass),
-                            block, i, own_sums);
+      const double largest = largest_coordinate(effect_, entry, own, block.node[i], place.inverse_mass);
+      Operations::linearise(place, value, largest, block, i, own_sums);
     });
     return sums;
   }

@@ -184,6 +184,16 @@ class Source {
   /// The impact of the step, as far as it is known.
   virtual Impact impact(ConstBlockSpan) const { return Impact::none; }
 
+  /// True if bodies that a hard constraint holds to each other's directions are turned far out of them at
+  /// `between`, a place on a step's way, though not at `start`: who ends the way as it asks has turned over.
+  virtual bool turns_over(const Configuration& /*start*/, const Configuration& /*between*/) const {
+    return false;
+  }
+
+  /// True if a hard constraint drives bodies by more than half a turn in h seconds, which it cannot tell from
+  /// the other way round.
+  virtual bool drives_round(double /*h*/) const { return false; }
+
   // Of contacts alone.
 
   /// Lets what approached and touches in the step that is solved by v (to `accuracy`, sqrt(J)), but was not

@@ -151,7 +151,7 @@ void StepRun::solve(const Observer& observer) {
       report.reason = "each solution calls for other rows";
     } else if (ended && report.status == Status::ok && turned_round(system)) {
       report.status = Status::not_converged;
-      report.reason = "a joint turns a body by more than half a turn, which it cannot tell from less";
+      report.reason = "a joint turns a body over or by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
     if (solved_anew < w.method.max_outer && looks_early() && w.history.widen(system, nearly(w.method))) {

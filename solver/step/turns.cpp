@@ -1,5 +1,6 @@
 #include "step/turns.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace pbd {
@@ -20,12 +21,35 @@ std::vector<bool> held_rotations(const StepSystem& system) {
   return held;
 }
 
+/// True if a joint is open far on the way: half a turn over opens it by more than 60 degrees for a third of
+/// the way, if both bodies turn steadily.
+bool turned_over(const StepSystem& system) {
+  constexpr int places = 16;
+  const Bodies& bodies = system.problem.bodies;
+  std::vector<Pose> start, pose;
+  const Points at_start = 0 * system.at.x;
+  bodies.place(at_start, start);
+  for (int k = 1; k < places; ++k) {
+    const Points x = k / double(places) * system.at.x;  // of rotations, which are zero as a step begins
+    bodies.place(x, pose);
+    const Configuration begin{at_start, start, 0}, between{x, pose, 0};
+    if (std::any_of(system.slots.begin(), system.slots.end(),
+                    [&](const Slot& slot) { return slot.source->turns_over(begin, between); }))
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool turned_round(const StepSystem& system) {
   const Bodies& bodies = system.problem.bodies;
-  const double d = system.problem.map.d;
-  if (!(d * bodies.largest_spin(system.at.v) > std::numbers::pi)) return false;
+  const double d = system.problem.map.d, h = system.problem.map.h;
+  for (const Slot& slot : system.slots)
+    if (slot.source->drives_round(h)) return true;
+  constexpr double least = 1;  // rad: two that turn over each other turn by more than twice this
+  if (!(d * bodies.largest_spin(system.at.v) > least)) return false;
+  if (turned_over(system)) return true;
   const Points changed = system.at.v - system.problem.map.v_free;
   const std::vector<bool> held = held_rotations(system);
   for (int b = 0; b < bodies.count(); ++b)

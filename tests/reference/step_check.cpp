@@ -167,6 +167,30 @@ TEST_CASE("constraints: within a step an angle goes on past half a turn") {
   }
 }
 
+TEST_CASE("turns: a hinge does not turn over, and a motor goes no other way round") {
+  constexpr double pi = std::numbers::pi;
+  const auto hinged = [](const Vec3& turn, double rate) {
+    Scene scene;
+    add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+    add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1));
+    scene.effects.emplace_back(AxisJoint{{{0, 1}}, {{Vec3::UnitZ(), Vec3::UnitZ()}}, {0}});
+    if (rate != 0)
+      scene.effects.emplace_back(
+          AngleJoint{{{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {rate}, {0}});
+    Step step(scene);
+    step.end.spin.col(1) = turn / Step::h;
+    step.move();
+    step.forces[0] = {0, 0};
+    if (rate != 0) step.forces[1] = {0};
+    return refuted(step).count("turns");
+  };
+  CHECK(hinged(Vec3(0, 0, 2), 0) == 0);
+  CHECK(hinged(Vec3(pi, 0, 0), 0) == 1);
+  CHECK(hinged(Vec3(0, 0, 3), 3 / Step::h) == 0);
+  CHECK(hinged(Vec3(0, 0, 3.2), 3.2 / Step::h) == 0);
+  CHECK(hinged(Vec3(0, 0, 3.2 - 2 * pi), 3.2 / Step::h) == 1);
+}
+
 TEST_CASE("momentum: what free surfaces and bodies exchange adds up") {
   Scene scene;
   add_body(scene, Vec3(0.1, 0.1, 0.2), 2, Vec3::Constant(0.01));

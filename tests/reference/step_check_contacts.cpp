@@ -45,6 +45,27 @@ TEST_CASE("contacts: force, cone, slip, gap and depth") {
   CHECK(refuted(deep) == Names{"depth"});
 }
 
+TEST_CASE("contacts: what met on the way is pushed as it stood there") {
+  // The balls of balls(), turned by what is told of the way: where they touched is all that counts.
+  Step step = balls();
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(2, Vec3::UnitY()));
+  reference::ClaimedMeeting met;
+  met.rotation = {turned.toRotationMatrix(), turned.conjugate().toRotationMatrix()};
+  met.arm = {Vec3(0.1, 0, 0), Vec3(-0.1, 0, 0)};
+  step.contacts[0].met = met;
+  step.contacts[0].point = Vec3(5, 6, 7);  // of no use
+  CHECK(refuted(step).empty());
+  Step beside = step;
+  beside.contacts[0].met->arm[0] = Vec3(0.1, 0, 1e-3);
+  CHECK(refuted(beside) == Names{"angular momentum"});
+  Step apart = step;
+  apart.contacts[0].met->arm[1] = Vec3(-0.1001, 0, 0);
+  CHECK(refuted(apart) == Names{"place of meeting"});
+  Step open = step;
+  open.contacts[0].gap = 1e-6;
+  CHECK(refuted(open) == Names{"open contact"});
+}
+
 TEST_CASE("contacts: force, cone, slip and depth under integrators of second order") {
   for (const std::string_view integrator : {"newmark", "bdf2", "generalised_alpha"}) {
     INFO(integrator);

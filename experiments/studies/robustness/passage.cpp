@@ -63,8 +63,10 @@ class MovingCore {
     const auto body = static_cast<std::size_t>(core.body);
     node_ = scene.bodies[body].node;
     begin_ = from.orientation[body];
-    end_ = to.orientation[body];
-    turn_ = begin_.angularDistance(end_);
+    const Eigen::AngleAxisd least(begin_.conjugate() * to.orientation[body]);
+    const double told = (to.time - from.time) * to.spin.col(core.body).dot(least.axis());
+    constexpr double round = 2 * std::numbers::pi;
+    turn_ = (least.angle() + round * std::round((told - least.angle()) / round)) * least.axis();
   }
 
   Points at(std::size_t piece, double share) const {
@@ -73,14 +75,15 @@ class MovingCore {
       for (Eigen::Index k = 0; k < x.cols(); ++k) x.col(k) = of_node(node_of(piece, k), share);
       return x;
     }
-    return (begin_.slerp(share, end_).toRotationMatrix() * core_.piece[piece]).colwise() +
-           of_node(node_, share);
+    const Eigen::AngleAxisd turned(share * turn_.norm(), turn_.stableNormalized());
+    return ((begin_ * turned).toRotationMatrix() * core_.piece[piece]).colwise() + of_node(node_, share);
   }
 
   /// m a way, by which a piece at most goes along n.
   double rate(std::size_t piece, const Vec3& n) const {
     if (core_.body >= 0)
-      return n.dot(shift(node_)) + turn_ * std::sqrt(core_.piece[piece].colwise().squaredNorm().maxCoeff());
+      return n.dot(shift(node_)) +
+             turn_.norm() * std::sqrt(core_.piece[piece].colwise().squaredNorm().maxCoeff());
     double most = -infinity;
     for (const int node : core_.node[piece]) most = std::max(most, n.dot(shift(node)));
     return most;
@@ -98,8 +101,8 @@ class MovingCore {
   const Core& core_;
   const State &from_, &to_;
   int node_ = -1;
-  Eigen::Quaterniond begin_, end_;
-  double turn_ = 0;  // rad
+  Eigen::Quaterniond begin_;
+  Vec3 turn_ = Vec3::Zero();  // rad, in the body's axes
 };
 
 Vec3 middle(const Points& x) {

@@ -5,7 +5,8 @@
 // which all of the shape must be seen, in convex pieces rounded by a radius: points, segments, polyhedra, of
 // cylinders a prism inside, of closed meshes their triangles; of a surface the triangles without their
 // thickness. Things pass through each other where cores meet on the way from a step's begin to its end,
-// nodes and centres of bodies on straight ways, bodies turning by less than pi about one axis. Beside a half
+// nodes and centres of bodies on straight ways, bodies turning steadily about one axis: of the turns that
+// lead to where they end by the one that is nearest to what the end's spin makes of the time. Beside a half
 // space the end alone counts: who ends above it has not passed.
 //
 // The way is walked by what its distance proves: cores g apart along n are apart until

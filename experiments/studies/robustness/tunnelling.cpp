@@ -14,7 +14,7 @@ namespace {
 
 using namespace pbd;
 
-constexpr double half_turn = std::numbers::pi;  // rad: a way of more is not told by its end
+constexpr double half_turn = std::numbers::pi;  // rad
 
 /// Steps of scenes. A scene ends with its first step that misses its tolerance or passes.
 struct Tally {
@@ -77,7 +77,7 @@ Tally tally_of(const ThrownPair& pair) {
     const bool ok = step(workspace, pair.h, state).status == Status::ok;
     ++(ok ? tally.ok : tally.missed);
     tally.turned += ok && turns_round(state, pair.h);
-    if (passes(pair, from, state) && !(ok && turns_round(state, pair.h))) {
+    if (passes(pair, from, state)) {
       const bool apart_before = apart(pair.scene, pair.whole[0], pair.whole[1], from) >= pair.apart / 2;
       ++(!ok ? tally.passed_missed : apart_before ? tally.passed : tally.passed_in_touch);
       break;

@@ -49,12 +49,26 @@ TEST_CASE("the relative error is that of the worst node over the largest displac
   x.col(1) = pbd::Vec3(0, 2, 0);
   CHECK(relative_error(x, reference, start) == Approx(2.0 / 5));
   CHECK(relative_error(x, start, start) == Approx(std::sqrt(26.0)));  // nothing moved: in metres
+  const pbd::Points at = pbd::Points::Constant(3, 2, 8), rounded = pbd::Points::Constant(3, 2, 8 + 1e-14);
+  CHECK(relative_error(at, rounded, at) < 2e-14);  // but by rounding: likewise
   for (const double lost : {std::nan(""), pbd::infinity}) {
     pbd::Points nowhere = reference;
     nowhere(0, 1) = lost;
     CHECK_FALSE(std::isfinite(relative_error(nowhere, reference, start)));
     CHECK(std::isnan(relative_error(x, nowhere, start)));
   }
+}
+
+TEST_CASE("what is held counts in no error") {
+  pbd::Scene scene;
+  const int led = pbd::add_body(scene, pbd::Vec3(9, 0, 0), pbd::infinity, pbd::Vec3::Constant(pbd::infinity));
+  pbd::add_body(scene, pbd::Vec3::Zero(), 1e-3, pbd::Vec3::Constant(1e-9));
+  pbd::Points moved = scene.initial.x;
+  moved(0, 0) += 5;
+  std::vector<Eigen::Quaterniond> turned = scene.initial.orientation;
+  turned[static_cast<std::size_t>(led)] = Eigen::Quaterniond(0, 1, 0, 0);
+  CHECK(places(scene, moved, turned) == places(scene, scene.initial.x, scene.initial.orientation));
+  CHECK(places(scene, moved, turned).cwiseAbs().maxCoeff() == Approx(1e-3));  // radii of gyration
 }
 
 // A body turns freely about z, its moments equal, by w h in a step; radii of gyration r = sqrt(I/m).

@@ -137,6 +137,8 @@ const std::vector<Mistake> contact_mistakes{
      {"scene.toml:22: method.friction", "did you mean `coulomb`?"}},
     {contact("[method]\nintegrator = \"midpoint\"\n"),
      {"integrator: got midpoint with contact", "implicit_euler"}},
+    {contact("[method]\nrelaxation = \"ldlt\"\n"),
+     {"scene.toml:22: method.relaxation", "got ldlt with contact", "direct"}},
 };
 
 }  // namespace

@@ -1,0 +1,79 @@
+// Where the bodies of joints went on the way of an Euler step, each by its own steady turn.
+#include <cmath>
+#include <numbers>
+
+#include "joint_values.h"
+#include "step_equations.h"
+
+namespace pbd::reference {
+namespace {
+
+constexpr int places = 64;  // of the way: what turns by less than 200 rad goes by less than pi between two
+
+class Way {
+ public:
+  Way(const StepClaim& claim, const Joint& joint) : claim_(claim), joint_(joint) {}
+
+  /// Of the joint at a share of the way, with what it asks for where the step begins.
+  Vec3 value(double share) const {
+    const auto found = joint_value<double>(joint_, frame(0, share), frame(1, share), claim_.start.time);
+    Vec3 rows = Vec3::Zero();
+    for (int k = 0; k < joint_.rows; ++k) rows[k] = found[static_cast<std::size_t>(k)];
+    return rows;
+  }
+
+  double farthest_open() const {
+    double most = 0;
+    for (int k = 1; k < places; ++k) most = larger(most, value(k / double(places)).norm());
+    return most;
+  }
+
+  /// rad, that b turns about a's axis.
+  double twist() const {
+    double sum = 0;
+    for (int k = 0; k < places; ++k)
+      sum += std::remainder(value((k + 1) / double(places))[0] - value(k / double(places))[0],
+                            2 * std::numbers::pi);
+    return sum;
+  }
+
+ private:
+  JointFrame<double> frame(std::size_t side, double share) const {
+    const int node = joint_.node[side], body = joint_.body[side];
+    const Vec3 x = claim_.start.x.col(node) + share * (claim_.end.x.col(node) - claim_.start.x.col(node));
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (body >= 0)
+      q = turned_by(claim_.start.orientation[static_cast<std::size_t>(body)],
+                    share * claim_.h * claim_.end.spin.col(body));
+    return {{x.x(), x.y(), x.z()}, constant<double>(q)};
+  }
+
+  const StepClaim& claim_;
+  const Joint& joint_;
+};
+
+}  // namespace
+
+void check_turns(const StepClaim& claim, const StepModel& model, Findings& findings) {
+  const double right_angle = 1;                   // |c| of an axis or of two at right angles
+  const double right_turn = std::numbers::sqrt2;  // of a rotation
+  constexpr double begins_open = 0.85;            // of these: what a missed step leaves open is no way
+  for (const Joint& joint : model.rigid.joints) {
+    if (joint.compliance > 0) continue;
+    const auto row = static_cast<std::size_t>(joint.row);
+    const Way way(claim, joint);
+    const bool unbounded = model.bounds[row] == std::array<double, 2>{-infinity, infinity};
+    if (joint.kind == JointKind::angle && unbounded) {
+      findings.require("turns", model.name[row] + ", other than it drives, rad",
+                       std::abs(way.twist() - joint.rate * claim.h), std::numbers::pi);
+    } else if (joint.kind == JointKind::axis || joint.kind == JointKind::perpendicular ||
+               joint.kind == JointKind::rotation) {
+      // A little less, as no place need be where it is open most.
+      const double out = 0.99 * (joint.kind == JointKind::rotation ? right_turn : right_angle);
+      if (!(way.value(0).norm() < begins_open * out)) continue;
+      findings.require("turns", model.name[row] + ", open on its way", way.farthest_open(), out);
+    }
+  }
+}
+
+}  // namespace pbd::reference

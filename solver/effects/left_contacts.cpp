@@ -1,13 +1,20 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "effects/contact_search.h"
 
 namespace pbd {
 
-/// How far beside a shape its contacts may touch it, m.
+/// How far beside a shape its contacts may touch it, m: of what is tiny where it stands, by rounding.
 double ContactSearch::beside(const std::array<int, 2>& pair) const {
-  return besides_ * round_radius_of(motions_[pair[0]], motions_[pair[1]]);
+  constexpr double rounded = 64 * std::numeric_limits<double>::epsilon();
+  double size = 0;
+  for (const int collider : pair) {
+    const Motion& own = motions_[collider];
+    size = std::max(size, own.centre.cwiseAbs().maxCoeff() + (std::isfinite(own.radius) ? own.radius : 0));
+  }
+  return besides_ * round_radius_of(motions_[pair[0]], motions_[pair[1]]) + rounded * size;
 }
 
 /// True if a collider is no farther from a point than `slack`, m.

@@ -255,3 +255,33 @@ TEST_CASE("auto goes on by direct on few contacts and by sweeps on many") {
   if (many) CHECK(parts.contains("gauss_seidel"));
   CHECK(parts.contains("semismooth_newton") == !many);
 }
+
+// A rod leans on a smooth wall by balls of 1e-7 m: less than rounding is told of these from step to step.
+TEST_CASE("what is tiny where it stands is not let go by rounding") {
+  constexpr double tip = 1e-7, half = 0.5;
+  const double angle = 0.9 + 0.011 * GENERATE(range(0, 40));
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  const Eigen::Quaterniond across(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()));
+  const Eigen::Quaterniond leaning(Eigen::AngleAxisd(std::numbers::pi + angle, Vec3::UnitY()));
+  const Vec3 up = leaning * Vec3::UnitX();
+  const Vec3 middle(tip + half * std::abs(up.x()), 0, tip + half * std::abs(up.z()));
+  const int rod = add_body(scene, middle, 1, Vec3(1e-3, 1, 1) * (4 * half * half / 12), leaning);
+  Contact contact;
+  contact.materials = 2;
+  contact.law = {{.friction = 1}, {.friction = 0}, {.friction = 0}, {.friction = 0}};
+  contact.collider = {
+      {HalfSpace{}, 0},
+      {.shape = HalfSpace{}, .body = 0, .frame = {Vec3::Zero(), across.toRotationMatrix()}, .material = 1},
+      {.shape = Sphere{tip}, .body = rod, .frame = {half * Vec3::UnitX()}},
+      {.shape = Sphere{tip}, .body = rod, .frame = {-half * Vec3::UnitX()}}};
+  scene.effects = {Gravity{}, contact};
+  Method method;
+  method.relaxation = "direct";
+  method.tolerance = 1e-12;
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  for (int k = 0; k < 100; ++k) REQUIRE(step(workspace, 0.01, state).status == Status::ok);
+  INFO("at " << angle << " rad");
+  CHECK((state.x.col(rod) - middle).norm() < 1e-6);
+}

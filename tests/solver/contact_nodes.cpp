@@ -6,7 +6,7 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double h = 0.01;
+constexpr double nodes_h = 0.01;
 
 /// Nodes of these radii at places along x, with velocities along it; friction 0.5.
 struct Row {
@@ -38,20 +38,20 @@ TEST_CASE("nodes that meet share their momentum, and part at their share of the 
   for (const auto relaxation : {"direct", "gauss_seidel", "jacobi", "conjugate_gradients"}) {
     INFO(relaxation);
     const Method method = contact_method(relaxation);
-    const State dull = run(row_of(pair(), 0), method, h, 1);
+    const State dull = run(row_of(pair(), 0), method, nodes_h, 1);
     CHECK(std::abs(dull.v(0, 1) - 0.2) <= 1e-10);
     CHECK(std::abs(dull.v(0, 0) - 0.4) <= 1e-10);
-    const State later = run(row_of(pair(), 0), method, h, 3);
+    const State later = run(row_of(pair(), 0), method, nodes_h, 3);
     CHECK(std::abs(later.v(0, 0) - later.v(0, 1)) <= 1e-10);
     CHECK(std::abs(later.x(0, 1) - later.x(0, 0) - 0.3) <= 1e-10);
-    const State lively = run(row_of(pair(), 0.5), method, h, 1);
+    const State lively = run(row_of(pair(), 0.5), method, nodes_h, 1);
     CHECK(std::abs(lively.v(0, 1) - lively.v(0, 0) - 0.5) <= 1e-10);
     CHECK(std::abs(lively.v(0, 0) + 3 * lively.v(0, 1) - 1) <= 1e-10);
   }
 }
 
 TEST_CASE("nodes go through each other unless they are to touch, and so do those of one element") {
-  const State free = run(row_of(pair(), 0, false), contact_method("direct"), h, 100);
+  const State free = run(row_of(pair(), 0, false), contact_method("direct"), nodes_h, 100);
   CHECK(free.v(0, 0) == 1);
   CHECK(free.v(0, 1) == 0);
   // A chain whose spheres overlap their neighbours': the last node hits the first one's sphere alone.
@@ -59,11 +59,11 @@ TEST_CASE("nodes go through each other unless they are to touch, and so do those
   scene.effects.emplace_back(
       Distance{.node = {{0, 1}, {1, 2}}, .rest_length = {0.3, 0.2}, .compliance = {1, 1}});
   Workspace workspace(scene, contact_method("direct"));
-  State state = run(scene, contact_method("direct"), h, 1, workspace);
+  State state = run(scene, contact_method("direct"), nodes_h, 1, workspace);
   CHECK(workspace.contacts().empty());
   double least = infinity;  // m
   for (int k = 0; k < 40; ++k) {
-    REQUIRE(step(workspace, h, state).status == Status::ok);
+    REQUIRE(step(workspace, nodes_h, state).status == Status::ok);
     least = std::min(least, state.x(0, 2) - state.x(0, 0));
     for (const ContactForce& each : workspace.contacts()) CHECK(each.collider == std::array{0, 2});
   }
@@ -90,7 +90,7 @@ TEST_CASE("a node that lies on three others presses on each by its share of the 
     }
     scene.effects = {Gravity{}, contact};
     Workspace workspace(scene, contact_method("direct"));
-    const State end = run(scene, contact_method("direct"), h, 50, workspace);
+    const State end = run(scene, contact_method("direct"), nodes_h, 50, workspace);
     CHECK(end.v.cwiseAbs().maxCoeff() <= 1e-9);
     CHECK(std::abs(end.x(2, 3) - height) <= 1e-5);  // 2.0944 is not a third of a turn
     Vec3 sum = Vec3::Zero();

@@ -20,6 +20,7 @@
 #include "harness/measure.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
+#include "harness/step_judge.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
@@ -180,7 +181,11 @@ int compare(const CompareOptions& options) {
       throw_if_interrupted();
       const Trace trace =
           measure([&] { return contender.measure_once(file, way.state, way.workspace, judged.x); });
-      if (!comparison.add_trace(contender, trace)) {
+      if (trace.met_on_way) {
+        all_ok = false;
+        comparison.skip(contender, not_judged_if_met);
+        warn(fmt::format("`{}` is not compared: {}", contender.text, not_judged_if_met));
+      } else if (!comparison.add_trace(contender, trace)) {
         all_ok = false;
         warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));
       }

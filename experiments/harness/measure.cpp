@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <vector>
 
 #include "harness/interrupt.h"
@@ -57,8 +56,7 @@ double relative_error(const pbd::Points& x, const pbd::Points& reference, const 
   const double error = farthest(x - reference);
   if (!std::isfinite(displacement)) return std::nan("");
   const double size = start.cols() > 0 ? start.cwiseAbs().maxCoeff() : 0.0;
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  return displacement > rounding * size ? error / displacement : error;
+  return displacement > rounded_place * size ? error / displacement : error;
 }
 
 Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, const pbd::Method& method,
@@ -94,6 +92,9 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   };
   trace.report = pbd::step(workspace, h, end, observe);
   const double wall = seconds(Clock::now() - start - watching);
+  const auto contacts = workspace.contacts();
+  trace.met_on_way = std::any_of(contacts.begin(), contacts.end(),
+                                 [](const auto& each) { return each.met && !each.force.isZero(0); });
   const pbd::Report& report = trace.report;
   if (trace.points.empty() || trace.points.back().outer_iterations != report.outer_iterations)
     trace.points.push_back(

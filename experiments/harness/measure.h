@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,7 @@ struct TracePoint {
 struct Trace {
   std::vector<TracePoint> points;  // from the first iterate to the step's end
   pbd::Report report;
+  bool met_on_way = false;  // contacts act that met on the way of the step, which no judge knows
 };
 
 /// How often a step is timed, after a first run that is thrown away (it warms caches and the allocator).
@@ -81,9 +83,11 @@ class WorstSpread {
 pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
                    const std::vector<Eigen::Quaterniond>& orientation);
 
-/// max |x - reference| / max |reference - start| over the places; if nothing moved but by rounding, the
-/// numerator in metres;
-/// NaN where the displacement is not finite.
+/// What rounding may move a place by, of its coordinates.
+inline constexpr double rounded_place = 64 * std::numeric_limits<double>::epsilon();
+
+/// max |x - reference| / max |reference - start| over the places; the numerator in metres if nothing moved
+/// but by rounding; NaN where the displacement is not finite.
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
 
 /// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the places at

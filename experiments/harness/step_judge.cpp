@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "harness/measure.h"
 
@@ -30,10 +29,10 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
                     begin = places(claim.scene, claim.start.x, claim.start.orientation);
   const double metres = relative_error(reached, judged.x, judged.x),
                size = reached.cols() > 0 ? reached.cwiseAbs().maxCoeff() : 0;
-  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();  // where nothing moves is no scale
   const double apart = velocity_distance(claim.scene, claim.end, judged.end);
+  // Where nothing moves is no scale.
   return {relative_error(reached, judged.x, begin), metres,
-          metres <= rounding * size ? 0 : apart / claim.scale};
+          metres <= rounded_place * size ? 0 : apart / claim.scale};
 }
 
 }  // namespace
@@ -41,10 +40,10 @@ StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judg
 JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim,
                         const pbd::reference::IntegratorMap* map) {
   if (std::any_of(claim.contacts.begin(), claim.contacts.end(),
-                  [](const auto& contact) { return contact.met.has_value(); })) {
+                  [](const auto& contact) { return contact.met && !contact.force.isZero(0); })) {
     Judged unknown;
     unknown.status = "not_judged";
-    unknown.reason = "contacts that met on the way of the step: the judge knows those where it ends";
+    unknown.reason = not_judged_if_met;
     return {unknown, {}, {}};
   }
   JudgedClaim judged{judge_step(reference, claim.scene, claim.start, claim.h, claim.friction, map), {}, {}};
@@ -98,7 +97,7 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
 
 std::string StepJudge::text() const {
   std::string text = fmt::format("judged: {} steps by {}", judged_, reference_);
-  if (unsolved_ > 0) text += fmt::format(", which solved or knew {} of them not", unsolved_);
+  if (unsolved_ > 0) text += fmt::format(", which did not solve, or does not know, {} of them", unsolved_);
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
   if (judged_ > unsolved_ + missed_)
     text += fmt::format(

@@ -30,6 +30,9 @@ struct StepDistance {
 enum class JudgeStart { own, claim, claim_and_features_kept };
 inline constexpr std::array<std::string_view, 3> judge_start_names{"own", "claim", "claim and features kept"};
 
+inline constexpr std::string_view not_judged_if_met =
+    "contacts act that met on the way of the step: the judge knows those where it ends";
+
 /// What a reference says of a claim: by itself, and from the start from which it ends nearest to the claim.
 struct JudgedClaim {
   Judged reference;
@@ -37,8 +40,8 @@ struct JudgedClaim {
   JudgeStart start = JudgeStart::own;
 };
 
-/// `map` is that of another integrator than implicit Euler. Throws SetupError for what the reference does not
-/// know.
+/// `map` is that of another integrator than implicit Euler. Steps in which contacts act that met on the way
+/// are `not_judged`. Throws SetupError for what the reference does not know.
 JudgedClaim judge_claim(const std::string& reference, const pbd::reference::StepClaim& claim,
                         const pbd::reference::IntegratorMap* map = nullptr);
 

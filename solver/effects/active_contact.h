@@ -42,17 +42,16 @@ struct ActiveContact {
   TriangleFeature triangle;
   bool of_surfaces = false;  // then `surface` is it, and there are no features
   SurfaceContact surface;
-  std::shared_ptr<const Meeting>
-      meeting;                     // of what has met on the way: then of `features` only the key counts
-  Vec3 reference = Vec3::UnitX();  // the tangents are seen from this direction
-  double gap = 0;                  // m, where it was made linear
-  double level = 0;                // m, of the plane in which a face's impulses act
-  double apart = infinity;         // m, the gap from which it may wait (waiting_contacts.h)
-  double target = 0;               // m, the gap aimed at
-  double rebound = 0;              // m, the same where the shapes collide
-  double restitution = 0;          // e where the shapes collide in this step, else 0
-  double closing = 0;              // m/s, at which they approach each other where it begins; negative: part
-  bool late = false;               // seen where a solved iterate ended; `target` is set there
+  std::shared_ptr<const Meeting> meeting;  // of what has met on the way: of `features` the key alone counts
+  Vec3 reference = Vec3::UnitX();          // the tangents are seen from this direction
+  double gap = 0;                          // m, where it was made linear
+  double level = 0;                        // m, of the plane in which a face's impulses act
+  double apart = infinity;                 // m, the gap from which it may wait (waiting_contacts.h)
+  double target = 0;                       // m, the gap aimed at
+  double rebound = 0;                      // m, the same where the shapes collide
+  double restitution = 0;                  // e where the shapes collide in this step, else 0
+  double closing = 0;         // m/s, at which they approach each other where it begins; negative: part
+  bool late = false;          // seen where a solved iterate ended; `target` is set there
   std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with
   bool passes = false;        // its features have parted where the free motion closes its gap
   bool acts = false;          // has more of an impulse than an iterate's tolerance where that ended
@@ -96,41 +95,13 @@ inline Frame frame_of(const ActiveContact& contact, int side, const Configuratio
   return {pose.x, pose.rotation};
 }
 
-/// Where what acts on a side of a meeting would be, if it only moved and did not turn.
-inline Vec3 meeting_place(const ActiveContact& contact, int side, const Configuration& at) {
-  const int carrier = contact.carrier[side];
-  if (side == contact.triangle_side) {
-    Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) sum += contact.meeting->weight[k] * at.x.col(contact.triangle.node[k]);
-    return sum;
-  }
-  if (side == contact.node_side) return at.x.col(carrier);
-  return at.pose[carrier].x + contact.meeting->of_bodies.arm[side];
+/// A body's arc at `at`, from where the step begins (bodies.h), m.
+inline auto arc_of(int body, const Configuration& at) {
+  return at.x.col(at.x.cols() - std::ssize(at.pose) + body);
 }
 
-inline Touching meeting_at(const ActiveContact& contact, const Configuration& at) {
-  const Meeting& meeting = *contact.meeting;
-  Touching found{meeting.offset, meeting.normal, meeting_place(contact, 0, at),
-                 meeting_place(contact, 1, at)};
-  found.gap += meeting.normal.dot(found.point_a - found.point_b);
-  for (const int side : {0, 1}) {
-    if (side == contact.node_side || side == contact.triangle_side) continue;
-    const Eigen::Index column = at.x.cols() - std::ssize(at.pose) + contact.carrier[side];
-    const Vec3 turn = meeting.turn_per_arc[side] * at.x.col(column);
-    found.gap += (side == 0 ? 1 : -1) * meeting.normal.dot(turn.cross(meeting.of_bodies.arm[side]));
-  }
-  return found;
-}
-
-/// Of what has features.
-inline Touching touching_at(const ActiveContact& contact, const Configuration& at) {
-  if (contact.meeting) return meeting_at(contact, at);
-  const Frame a = frame_of(contact, 0, at), b = frame_of(contact, 1, at);
-  if (contact.triangle_side < 0) return touching(contact.features, a, b);
-  ContactPoint features = contact.features;
-  follow(contact.triangle, at.x, contact.triangle_side, features);
-  return touching(features, a, b);
-}
+/// Of what has features or has met.
+Touching touching_at(const ActiveContact& contact, const Configuration& at);
 
 /// Sets `level` of contacts of bodies and nodes, a pair's in a row. What collides ends apart, however near
 /// other features of its pair are.
@@ -151,54 +122,18 @@ inline Vec3 place_of(const ActiveContact& contact, const Touching& found) {
     return contact.triangle_side == 0 ? found.point_a : found.point_b;
   if (contact.triangle_side == 0) return found.point_a + contact.features.radius_a * found.normal;
   if (contact.triangle_side == 1) return found.point_b - contact.features.radius_b * found.normal;
-  const bool on_face = !contact.of_surfaces && contact.features.kind == ContactPoint::Kind::face;
+  const bool on_face =
+      !contact.of_surfaces && !contact.meeting && contact.features.kind == ContactPoint::Kind::face;
   return on_face ? Vec3(found.point_b + contact.level * found.normal)
                  : Vec3((found.point_a + found.point_b) / 2);
 }
 
 /// Largest coordinate of a contact, m.
-inline double largest_coordinate(const ActiveContact& contact, const Touching& found,
-                                 const Configuration& at) {
-  double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
-  if (contact.of_surfaces) return most;
-  for (const int side : {0, 1})
-    most = std::max(most, frame_of(contact, side, at).origin.cwiseAbs().maxCoeff());
-  return most;
-}
+double largest_coordinate(const ActiveContact& contact, const Touching& found, const Configuration& at);
 
-/// Gap and normal of a contact, and its row's J.
+/// Gap and normal of a contact, and its row's J. Of the blocks that contacts have.
 template <class Block>
-Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian) {
-  if constexpr (Block::nodes == 4)
-    if (contact.of_surfaces) {
-      const SurfaceTouching found = touching(contact.surface, at.x);
-      const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
-      for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
-      return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
-    }
-  Touching found = touching_at(contact, at);
-  const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
-  const Vec3 place = place_of(contact, found);
-  for (const int side : {0, 1}) {
-    const int column = 3 * column_of<Block>(contact, side);
-    const double sign = side == 0 ? 1 : -1;
-    if constexpr (Block::nodes == 5)
-      if (side == contact.triangle_side) {
-        const Vec3 weight =
-            contact.meeting ? contact.meeting->weight : weights_at(contact.triangle, at.x, place);
-        for (int k = 0; k < 3; ++k) jacobian.template middleCols<3>(3 * k) = sign * weight[k] * directions;
-        continue;
-      }
-    jacobian.template middleCols<3>(column) = sign * directions;
-    if (side == contact.node_side) continue;
-    const Pose& pose = at.pose[contact.carrier[side]];
-    const Vec3 arm = contact.meeting ? contact.meeting->of_bodies.arm[side] : Vec3(place - pose.x);
-    jacobian.template middleCols<3>(column + 3) =
-        -sign * directions * cross_matrix(arm) *
-        (contact.meeting ? contact.meeting->turn_per_arc[side] : pose.turn_per_arc);
-  }
-  return found;
-}
+Touching evaluate(const ActiveContact& contact, const Configuration& at, typename Block::Jacobian& jacobian);
 
 /// The directions in which the impulses of a row push a.
 template <class Block>

@@ -11,7 +11,8 @@ namespace {
 bool over_one_face(const ActiveContact& one, const ActiveContact& two) {
   constexpr double rounding = 1e-12;
   const ContactPoint &a = one.features, &b = two.features;
-  return a.kind == ContactPoint::Kind::face && b.kind == a.kind && one.collider == two.collider &&
+  return !one.meeting && !two.meeting && a.kind == ContactPoint::Kind::face && b.kind == a.kind &&
+         one.collider == two.collider &&
          (a.direction_b - b.direction_b).squaredNorm() <= rounding * rounding &&
          std::abs(a.direction_b.dot(a.point_b - b.point_b)) <=
              rounding * (a.point_b.norm() + b.point_b.norm());

@@ -58,7 +58,8 @@ void ContactSearch::begin(const SearchedStep& step) {
   near_pairs_.clear();
   late_.clear();
   late_surfaces_.clear();
-  let_go_.clear();
+  tried_.clear();
+  held_.clear();
   left_.clear();
   left_surfaces_.clear();
   far_.clear();

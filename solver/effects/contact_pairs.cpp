@@ -43,26 +43,6 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
   task.pairs.push_back({{first, second}, nearest, task.near.size()});
 }
 
-/// What of a fast pair touches where the step begins.
-void ContactSearch::search_meetings(int first, int second, const Configuration& start,
-                                    SearchTask& task) const {
-  const Motion &one = motions_[first], &two = motions_[second];
-  const double slack = overlooked * round_radius_of(one, two);
-  const auto before = static_cast<std::ptrdiff_t>(task.near.size());
-  find_points({first, second}, one.frame, two.frame, {slack, 0}, task.points);
-  for (const ContactPoint& point : task.points.found) {
-    ActiveContact contact = active(point, first, second, task.points.triangle);
-    contact.meeting = std::make_shared<Meeting>(meeting_of(contact, start, start, start, 0));
-    task.near.push_back(std::move(contact));
-  }
-  const auto begin = task.near.begin() + before;
-  const auto beside = std::stable_partition(begin, task.near.end(), [&](const ActiveContact& contact) {
-    return on_shapes(contact, start, slack, task.points);
-  });
-  if (beside != begin) task.near.erase(beside, task.near.end());
-  for (auto each = begin; each != task.near.end(); ++each) each->features.kind = ContactPoint::Kind::point;
-}
-
 /// Spheres of two nodes, if they are near.
 void ContactSearch::search_nodes(int first, int second, const Points& x, SearchTask& task) const {
   const Motion &one = motions_[first], &two = motions_[second];

@@ -26,12 +26,13 @@
 // features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
 // Under continuous contact a pair is followed on its way to where a solved iterate ends. What it meets there
-// joins the step as a `Meeting` (active_contact.h): a row that is linear, and asks of the end that what met
-// goes no nearer than it was. Of what meets on one way that joins which meets first, and what meets less than
-// a round radius later: what comes after may be missed for it. What a meeting pushes, and comes nowhere near
-// on the way of a solved iterate, is let go once: what meets again without it stays. What goes farther
-// against each other than it is round has, from there on, no other contacts than what it meets, or touches
-// where the step begins: features that are carried about by what turns tell nothing of a way.
+// joins the step, where it is no farther apart than 3e-4 r, as a `Meeting` (active_contact.h): a row that is
+// linear, and asks of the end that what met goes no nearer than it was. Of what meets on one way that joins
+// which meets first, and what meets less than a round radius later: what comes after may be missed for it.
+// A pair that a meeting pushes, and that comes nowhere near on the way of a solved iterate, is tried without:
+// if the way meets something then, it is held again. What goes farther against each other than it is round
+// has, from there on, no other contacts than what it meets, or touches where the step begins: features that
+// are carried about by what turns tell nothing of a way.
 //
 // Where nothing was near at all, boxes many times their motions apart say for how long that holds: until then
 // no step is searched (clearance.h).
@@ -46,14 +47,10 @@
 // features than these are long leaves; what then passes or overlaps is found where the step ends.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <compare>
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,6 +61,7 @@
 #include "effects/allowed_pairs.h"
 #include "effects/clearance.h"
 #include "effects/collider_motion.h"
+#include "effects/searched_pairs.h"
 
 namespace pbd {
 
@@ -127,59 +125,9 @@ class ContactSearch {
 
   using Motion = ColliderMotion;
 
-  struct Pair {
-    std::array<int, 2> collider;
-    double nearest = infinity;    // m, gap as it begins
-    double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
-    double overlooked = 0;        // m, depth that is not looked at
-    bool left = false;            // by a contact that had held it apart
-    bool gives_way = false;       // by its law's compliance
-    double least_end = infinity;  // m, gap that its contacts tell of
-    bool pushed = false;          // by something that it met
-    double bent = 0;              // m, that turns make of how what pushes it goes on
-    double least = 0;             // m, gap on its way
-  };
-  struct Met {  // on a way, in the order of pairs
-    std::array<int, 2> collider;
-    double share, window;  // of the way, at which they meet, and that they go a round radius in
-    std::vector<ActiveContact> contacts;
-  };
-  struct NearPair {
-    std::array<int, 2> collider;
-    double nearest;   // m, gap where the step begins
-    std::size_t end;  // of its contacts in `near_`
-  };
-  struct PairPoints {  // of one pair, and the room to find them
-    std::vector<ContactPoint> found;
-    CollisionScratch scratch;
-    RoundedTriangle triangle;  // the one that was placed last
-  };
-  struct NearView {
-    std::array<int, 2> collider;
-    double nearest;
-    std::span<const ActiveContact> contacts;
-  };
-  struct SearchTask {  // a part of the pairs that are searched, and what is near of them
-    PairPoints points;
-    std::vector<NearPair> pairs;
-    std::vector<ActiveContact> near;
-  };
-  struct PairFeatures {
-    std::array<int, 2> collider;  // the lower one first
-    std::uint64_t key;            // as `active` gives it
+  using Pair = FarPair;
+  using Met = MetPair;
 
-    auto operator<=>(const PairFeatures&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
-  };
-  struct TriangleName {  // of a contact: the same for all triangles that share the feature
-    int body;            // as the effect counts colliders
-    std::uint64_t key;
-    bool early;     // not late: late ones are kept before others
-    std::size_t i;  // in its list
-
-    bool operator<(const TriangleName& other) const {
-      return std::tie(body, key, early, i) < std::tie(other.body, other.key, other.early, other.i);
-    }
-  };
   // How far colliders go: contact_motion.cpp, with begin and extend.
   void set_out(const SearchedStep& step);
   void place_colliders(const Bodies& bodies, const Configuration& start,
@@ -217,8 +165,8 @@ class ContactSearch {
   bool nearest_of_surface(const ActiveContact& contact, const Configuration& at) const;
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
-  // Late contacts: late_contacts.cpp, and passing_contacts.cpp for what meets on the way. The way between is
-  // straight, and turns by one angular velocity.
+  // Late contacts: late_contacts.cpp, passing_contacts.cpp for ways, and meetings.cpp for what meets on them.
+  // The way between is straight, and turns by one angular velocity.
   static Vec3 turn_between(int body, const Configuration& start, const Configuration& end);
   double way_between(const Pair& pair, const Configuration& start, const Configuration& end) const;
   static Pose pose_between(int body, const Configuration& start, const Configuration& end, double share);
@@ -237,27 +185,12 @@ class ContactSearch {
   bool is_fast(const Motion& one, const Motion& two) const;
   double gap_between(const Pair& pair, const Configuration& start, const Configuration& end, double share,
                      double reach, double slack);
-  /// m, of what `within(reach)` finds, its least gap: the farther it looks, the farther beside each other are
-  /// features that say less than how far the shapes are apart, so that what seems to touch is looked at
-  /// again.
-  template <class Within>
-  static double gap_by_reach(const Within& within, double reach, double slack) {
-    constexpr double farther = 4;
-    double gap = within(reach), least = -infinity;
-    constexpr double rounding = 1e-12;
-    for (double nearer = std::max(2 * slack, rounding * reach); !(gap > slack) && nearer < reach;
-         nearer *= farther) {
-      if (const double found = within(nearer); std::isfinite(found)) return std::max(found, least);
-      least = nearer;
-    }
-    return std::max(gap, least);
-  }
   void keep_meetings(const Pair& pair, const Configuration& start, const Configuration& end, double share,
                      double allowed);
   bool find_meetings(const Pair& pair, const Configuration& start, const Configuration& end, double allowed,
                      double slack);
-  static Meeting meeting_of(const ActiveContact& contact, const Configuration& at, const Configuration& start,
-                            const Configuration& end, double share);
+  static void meet(const Configuration& at, const Configuration& start, const Configuration& end,
+                   double share, ActiveContact& contact);
   Configuration placed_between(const ActiveContact& contact, const Configuration& start,
                                const Configuration& end, double share);
   bool passes_round(const ContactPoint& point, const Pair& pair, const Configuration& start,
@@ -275,6 +208,7 @@ class ContactSearch {
   void add_late(const ActiveContact& found, double target);
   void add_first_met();
   bool let_go();
+  bool hold_again(bool seen);
   void see_contacts(const Configuration& end, const ContactLists& contacts);
   double bent(const ActiveContact& contact, const Configuration& end) const;
   bool is_told(const ActiveContact& found, const Configuration& at);
@@ -329,7 +263,8 @@ class ContactSearch {
   std::vector<Pose> between_pose_;
   std::vector<ActiveContact> overlapping_;
   std::vector<Met> met_;
-  std::set<std::array<int, 2>> let_go_;  // pairs whose meetings were, in this step
+  std::set<std::array<int, 2>> tried_;  // pairs, without their meetings, in this step
+  std::vector<ActiveContact> held_;     // late contacts before the pair that is tried was let go
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;
   PairPoints points_;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "effects/contact_search.h"
@@ -9,51 +8,6 @@ namespace pbd {
 
 double ContactSearch::gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second) {
   return point.swapped ? touching(point, at_second, at_first).gap : touching(point, at_first, at_second).gap;
-}
-
-/// rad, in the world, of a body on the way to `end`: as its arcs tell, so that it may be more than half a
-/// turn.
-Vec3 ContactSearch::turn_between(int body, const Configuration& start, const Configuration& end) {
-  return start.pose[body].turn_per_arc * end.x.col(end.x.cols() - std::ssize(end.pose) + body);
-}
-
-Pose ContactSearch::pose_between(int body, const Configuration& start, const Configuration& end,
-                                 double share) {
-  const Pose& from = start.pose[body];
-  const Vec3 turn = turn_between(body, start, end);
-  const Eigen::Matrix3d turned(Eigen::AngleAxisd(share * turn.norm(), turn.stableNormalized()));
-  return {from.x + share * (end.pose[body].x - from.x), turned * from.rotation, turned * from.turn_per_arc};
-}
-
-Frame ContactSearch::frame_between(int collider, const Configuration& start, const Configuration& end,
-                                   double share) const {
-  const Motion& motion = motions_[collider];
-  if (motion.kind == Carrier::body) {
-    const Pose pose = pose_between(motion.carrier, start, end, share);
-    const Frame& own = effect_.collider[collider].frame;
-    return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
-  }
-  const Frame from = placed_frame(collider, start), to = placed_frame(collider, end);
-  return {from.origin + share * (to.origin - from.origin), from.rotation};
-}
-
-/// Sets `points_.found` to the points of a pair that are within reach at a share of the way from `start` to
-/// `end`; returns the least gap, m.
-double ContactSearch::generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
-                                       double share, double reach) {
-  const auto [first, second] = pair.collider;
-  const Frame at_first = frame_between(first, start, end, share),
-              at_second = frame_between(second, start, end, share);
-  if (motions_[second].kind == Carrier::triangle) {
-    auto corner = corners(motions_[second], start.x);
-    const auto to = corners(motions_[second], end.x);
-    for (std::size_t k = 0; k < 3; ++k) corner[k] += share * (to[k] - corner[k]);
-    points_.triangle.place(corner);
-  }
-  find_points(pair.collider, at_first, at_second, Reach{reach}, points_);
-  double least = infinity;
-  for (const ContactPoint& point : points_.found) least = std::min(least, gap_of(point, at_first, at_second));
-  return least;
 }
 
 /// Sets `overlapping_` to what of `points_.found` overlaps at `end` by more than `allowed`, but not what lies
@@ -147,8 +101,7 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const double allowed = std::min(std::max(pair.least_end - rounded, held), behind);
   if (effect_.continuous && (pair.nearest > slack || is_fast(one, two)))
     return find_meetings(pair, start, end, allowed, slack);
-  if (effect_.continuous && !(pair.nearest > slack) &&
-      find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
+  if (effect_.continuous && find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
     return true;
   if (pair.left) {
     const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
@@ -203,18 +156,6 @@ bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at)
          agree(*known, found, at, beside(found.pair()));
 }
 
-/// m, that the turns of bodies make at most of a meeting's gap, which goes on as if they did not turn.
-double ContactSearch::bent(const ActiveContact& contact, const Configuration& end) const {
-  double sum = 0;
-  for (const int side : {0, 1}) {
-    if (side == contact.node_side || side == contact.triangle_side) continue;
-    const Eigen::Index column = end.x.cols() - std::ssize(end.pose) + contact.carrier[side];
-    const double turn = (contact.meeting->turn_per_arc[side] * end.x.col(column)).norm();
-    sum += turn * turn / 2 * contact.meeting->of_bodies.arm[side].norm();
-  }
-  return sum;
-}
-
 /// What the contacts tell of pairs that go far.
 void ContactSearch::see_contacts(const Configuration& end, const ContactLists& contacts) {
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
@@ -229,46 +170,6 @@ void ContactSearch::see_contacts(const Configuration& end, const ContactLists& c
       pair->pushed = true;
       pair->bent = std::max(pair->bent, bent(contact, end));
     }
-}
-
-/// Of what met, what met first of all that each of both meets, and what did by less than its window later.
-void ContactSearch::add_first_met() {
-  std::map<std::pair<Carrier, int>, double> first;  // of bodies and nodes
-  const auto each_mover = [&](const Met& met, const auto& act) {
-    for (const int collider : met.collider) {
-      const Motion& motion = motions_[collider];
-      if (!motion.moves) continue;
-      if (motion.kind != Carrier::triangle)
-        act(std::pair{motion.kind, motion.carrier});
-      else
-        for (const int node : effect_.triangle[motion.carrier]) act(std::pair{Carrier::node, node});
-    }
-  };
-  for (const Met& met : met_)
-    each_mover(met, [&](const auto& mover) {
-      const auto known = first.emplace(mover, met.share).first;
-      known->second = std::min(known->second, met.share);
-    });
-  for (const Met& met : met_) {
-    bool late = false;
-    each_mover(met, [&](const auto& mover) { late |= met.share > first.at(mover) + met.window; });
-    if (late) continue;
-    for (const ActiveContact& contact : met.contacts) add_late(contact, 0);
-  }
-}
-
-/// Lets what a meeting pushes, but comes nowhere near on its way, go; true if there is any that has not been.
-bool ContactSearch::let_go() {
-  bool any = false;
-  for (const Pair& pair : far_) {
-    if (!pair.pushed || !(pair.least > pair.overlooked + pair.bent) || !let_go_.insert(pair.collider).second)
-      continue;
-    std::erase_if(late_, [&](const ActiveContact& contact) {
-      return contact.meeting && contact.pair() == pair.collider;
-    });
-    any = true;
-  }
-  return any;
 }
 
 bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,
@@ -300,6 +201,7 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
       add_late(found, std::min(pair.deepest, began));
     }
   }
+  if (hold_again(seen)) return true;
   add_first_met();
   return seen || let_go();
 }

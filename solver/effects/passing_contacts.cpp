@@ -6,43 +6,35 @@
 
 namespace pbd {
 
-bool ContactSearch::is_fast(const Motion& one, const Motion& two) const {
-  return effect_.continuous &&
-         (one.course - two.course).norm() + one.beside + two.beside > round_radius_of(one, two);
+Frame ContactSearch::frame_between(int collider, const Configuration& start, const Configuration& end,
+                                   double share) const {
+  const Motion& motion = motions_[collider];
+  if (motion.kind == Carrier::body) {
+    const Pose pose = pose_between(motion.carrier, start, end, share);
+    const Frame& own = effect_.collider[collider].frame;
+    return {pose.x + pose.rotation * own.origin, pose.rotation * own.rotation};
+  }
+  const Frame from = placed_frame(collider, start), to = placed_frame(collider, end);
+  return {from.origin + share * (to.origin - from.origin), from.rotation};
 }
 
-/// What touches at a share of the way to `end`, as a row that says of `end` what its rate there makes of it.
-Meeting ContactSearch::meeting_of(const ActiveContact& contact, const Configuration& at,
-                                  const Configuration& start, const Configuration& end, double share) {
-  const Touching found = touching_at(contact, at);
-  const Vec3 place = place_of(contact, found);
-  Meeting meeting;
-  meeting.normal = found.normal;
-  if (contact.triangle_side >= 0) meeting.weight = weights_at(contact.triangle, at.x, place);
-  Vec3 way = Vec3::Zero();  // m, that a goes against b where it touches
-  for (const int side : {0, 1}) {
-    const double sign = side == 0 ? 1 : -1;
-    const int carrier = contact.carrier[side];
-    if (side == contact.triangle_side) {
-      for (int k = 0; k < 3; ++k) {
-        const int node = contact.triangle.node[k];
-        way += sign * meeting.weight[k] * (end.x.col(node) - start.x.col(node));
-      }
-    } else if (side == contact.node_side) {
-      way += sign * (end.x.col(carrier) - start.x.col(carrier));
-    } else {
-      const Pose& pose = at.pose[carrier];
-      meeting.of_bodies.arm[side] = place - pose.x;
-      meeting.of_bodies.rotation[side] = pose.rotation;
-      meeting.turn_per_arc[side] = pose.turn_per_arc;
-      const Vec3 turn = turn_between(carrier, start, end);
-      way += sign * (end.pose[carrier].x - start.pose[carrier].x + turn.cross(meeting.of_bodies.arm[side]));
-    }
+/// Sets `points_.found` to the points of a pair that are within reach at a share of the way from `start` to
+/// `end`; returns the least gap, m.
+double ContactSearch::generate_between(const Pair& pair, const Configuration& start, const Configuration& end,
+                                       double share, double reach) {
+  const auto [first, second] = pair.collider;
+  const Frame at_first = frame_between(first, start, end, share),
+              at_second = frame_between(second, start, end, share);
+  if (motions_[second].kind == Carrier::triangle) {
+    auto corner = corners(motions_[second], start.x);
+    const auto to = corners(motions_[second], end.x);
+    for (std::size_t k = 0; k < 3; ++k) corner[k] += share * (to[k] - corner[k]);
+    points_.triangle.place(corner);
   }
-  ActiveContact stated = contact;
-  stated.meeting = std::make_shared<Meeting>(meeting);
-  meeting.offset = found.gap + (1 - share) * meeting.normal.dot(way) - touching_at(stated, end).gap;
-  return meeting;
+  find_points(pair.collider, at_first, at_second, Reach{reach}, points_);
+  double least = infinity;
+  for (const ContactPoint& point : points_.found) least = std::min(least, gap_of(point, at_first, at_second));
+  return least;
 }
 
 /// m, at a share of the way, of what is within reach.
@@ -50,47 +42,6 @@ double ContactSearch::gap_between(const Pair& pair, const Configuration& start, 
                                   double share, double reach, double slack) {
   const auto within = [&](double each) { return generate_between(pair, start, end, share, each); };
   return gap_by_reach(within, reach, slack);
-}
-
-/// Sets `overlapping_` to what of `points_.found` touches at a share of the way, and says that `end` overlaps
-/// by more than `allowed`.
-void ContactSearch::keep_meetings(const Pair& pair, const Configuration& start, const Configuration& end,
-                                  double share, double allowed) {
-  overlapping_.clear();
-  for (const ContactPoint& point : points_.found)
-    overlapping_.push_back(active(point, pair.collider[0], pair.collider[1], points_.triangle));
-  const auto beside = std::stable_partition(
-      overlapping_.begin(), overlapping_.end(),
-      [&](const ActiveContact& contact) { return on_features(contact, start, end, share); });
-  if (beside != overlapping_.begin()) overlapping_.erase(beside, overlapping_.end());
-  for (ActiveContact& contact : overlapping_) {
-    const Configuration at = placed_between(contact, start, end, share);
-    contact.meeting = std::make_shared<Meeting>(meeting_of(contact, at, start, end, share));
-    contact.features.kind = ContactPoint::Kind::point;
-    contact.features.key = ~meetings_++;
-  }
-  std::erase_if(overlapping_,
-                [&](const ActiveContact& contact) { return !(touching_at(contact, end).gap < allowed); });
-}
-
-/// True if what begins apart meets on its way to `end`, or there; sets `overlapping_` to how.
-bool ContactSearch::find_meetings(const Pair& pair, const Configuration& start, const Configuration& end,
-                                  double allowed, double slack) {
-  if (!meets(pair, start, end, allowed, slack)) {
-    if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
-    inside_ = 1;
-    touching_ = entering(pair, start, end, -slack, apart_, inside_);
-  }
-  const double way = way_between(pair, start, end);
-  constexpr int rounds = 4;  // of halvings: more than a double has digits
-  for (int k = 0; k < rounds && (inside_ - touching_) * way > slack; ++k)
-    touching_ = entering(pair, start, end, -slack, touching_, inside_);
-  generate_between(pair, start, end, touching_, 3 * slack);
-  keep_meetings(pair, start, end, touching_, allowed);
-  if (!overlapping_.empty()) return true;
-  generate_between(pair, start, end, inside_, 0);
-  keep_meetings(pair, start, end, inside_, allowed);
-  return true;
 }
 
 /// True if what touches round has turned about each other by more than a right angle at `end`, and was in
@@ -109,33 +60,6 @@ bool ContactSearch::passes_round(const ContactPoint& point, const Pair& pair, co
   for (int k = 1; k < places; ++k)
     if (touching_after(k / double(places)).gap < -turned) return true;
   return false;
-}
-
-/// m, by which the gap of a pair falls at most on its way to `end`.
-double ContactSearch::way_between(const Pair& pair, const Configuration& start,
-                                  const Configuration& end) const {
-  Vec3 against = Vec3::Zero();
-  double beside = 0;
-  for (const std::size_t k : {0, 1}) {
-    const Motion& motion = motions_[pair.collider[k]];
-    Vec3 shift;
-    if (motion.kind == Carrier::triangle) {
-      const auto from = corners(motion, start.x), to = corners(motion, end.x);
-      shift = (to[0] - from[0] + to[1] - from[1] + to[2] - from[2]) / 3;
-      double most = 0;
-      for (std::size_t i = 0; i < 3; ++i) most = std::max(most, (to[i] - from[i] - shift).norm());
-      beside += most;
-    } else if (motion.kind == Carrier::node) {
-      shift = end.x.col(motion.carrier) - start.x.col(motion.carrier);
-    } else {
-      shift = end.pose[motion.carrier].x - start.pose[motion.carrier].x;
-      if (const double turn = turn_between(motion.carrier, start, end).norm(); turn > 0)
-        beside += motion.radius * turn;
-    }
-    against += k == 0 ? shift : Vec3(-shift);
-  }
-  return std::min(against.norm() + beside,
-                  travel_between(motions_[pair.collider[0]], motions_[pair.collider[1]]));
 }
 
 /// Whether a pair that begins in touch goes into each other on its way, deeper than a tenth of its radius,

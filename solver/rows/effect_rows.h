@@ -15,6 +15,7 @@
 
 #include "rows/effect_constraint.h"
 #include "rows/limit_stops.h"
+#include "rows/turned_joints.h"
 
 namespace pbd {
 
@@ -75,27 +76,10 @@ class EffectRows final : public Source {
   }
 
   bool turns_over(const Configuration& start, const Configuration& between) const override {
-    if constexpr (requires { C::turned_out; }) {
-      const auto is_out = [&](std::size_t i, const Configuration& at) {
-        Value value;
-        Jacobian unused;
-        C::evaluate(effect_, i, local_at(effect_, i, columns_of(scene_, effect_, i), at), value, unused);
-        return value.norm() > C::turned_out;
-      };
-      for (std::size_t i = 0; i < constraint_count(effect_); ++i)
-        if (!gives_way(effect_, i) && is_out(i, between) && !is_out(i, start)) return true;
-    }
-    return false;
+    return pbd::turns_over(scene_, effect_, start, between);
   }
 
-  bool drives_round(double h) const override {
-    if constexpr (has_period)
-      for (std::size_t i = 0; i < constraint_count(effect_); ++i)
-        if (!gives_way(effect_, i) && force_bounds(effect_, i) == ForceBounds{-infinity, infinity} &&
-            std::abs(effect_.rate[i]) * h > C::period / 2)
-          return true;
-    return false;
-  }
+  bool drives_round(double h) const override { return pbd::drives_round(effect_, h); }
 
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override {

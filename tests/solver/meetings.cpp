@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "effects/searched_pairs.h"
 #include "step/step.h"
 
 using namespace pbd;
@@ -12,12 +13,12 @@ using namespace pbd;
 namespace {
 
 /// A ball at rest in the origin's frame moves along x, `way` a step, at what stands at `x`.
-struct MetPair {
+struct ThrownBall {
   static constexpr double h = 0.01, radius = 0.1, ball_mass = 0.5;
   Scene scene;
   double speed;
 
-  MetPair(double way, const Vec3& begin, const Shape& other, double mass, const Vec3& inertia)
+  ThrownBall(double way, const Vec3& begin, const Shape& other, double mass, const Vec3& inertia)
       : speed(way / h) {
     Contact contact;
     contact.continuous = true;
@@ -45,9 +46,10 @@ struct MetPair {
 }  // namespace
 
 TEST_CASE("a fast ball meets another one on its way and goes on with it") {
-  constexpr double h = MetPair::h, radius = MetPair::radius, ball_mass = MetPair::ball_mass;
+  constexpr double h = ThrownBall::h, radius = ThrownBall::radius, ball_mass = ThrownBall::ball_mass;
   const double way = GENERATE(1.5, 10.0, 40.0), mass = GENERATE(0.01, 2.0, 1e3), gap = 0.7;
-  const MetPair balls(way, Vec3(-gap - 2 * radius, 0, 0), Sphere{radius}, mass, Vec3::Constant(0.01 * mass));
+  const ThrownBall balls(way, Vec3(-gap - 2 * radius, 0, 0), Sphere{radius}, mass,
+                         Vec3::Constant(0.01 * mass));
   const auto [end, contacts] = balls.end();
   const double p = (balls.speed - gap / h) / (1 / ball_mass + 1 / mass);
   INFO("way " << way << " m, " << mass << " kg");
@@ -61,14 +63,14 @@ TEST_CASE("a fast ball meets another one on its way and goes on with it") {
 }
 
 TEST_CASE("a rod that is met far out turns by the impulse there, however far both have gone") {
-  constexpr double h = MetPair::h, radius = MetPair::radius, ball_mass = MetPair::ball_mass;
+  constexpr double h = ThrownBall::h, radius = ThrownBall::radius, ball_mass = ThrownBall::ball_mass;
   // The faster, the harder to turn: the rod leans towards the ball by its turn's square.
   const auto [way, inertia] = GENERATE(std::pair(2.0, 40.0), std::pair(20.0, 4000.0));
   const double arm = 0.4, mass = 3, gap = 0.9, thick = 0.05;
   // The rod slides along itself: its arm is the one where it is met, not where the step ends.
   const double slide = -0.3, at = gap / way;
-  MetPair rod(way, Vec3(-gap - radius - thick, 0, arm + at * slide), Capsule{thick, 1.0}, mass,
-              Vec3(inertia, inertia, 0.01));
+  ThrownBall rod(way, Vec3(-gap - radius - thick, 0, arm + at * slide), Capsule{thick, 1.0}, mass,
+                 Vec3(inertia, inertia, 0.01));
   rod.scene.initial.v.col(1) = Vec3(0, 0, slide / h);
   const auto [end, contacts] = rod.end();
   const double p = (rod.speed - gap / h) / (1 / ball_mass + 1 / mass + arm * arm / inertia);
@@ -88,8 +90,8 @@ TEST_CASE("a rod that is met far out turns by the impulse there, however far bot
 
 TEST_CASE("what turns by more than half a turn a step is met where its turn leads it") {
   // The rod goes once round and a little on: by the shorter turn it would come near nothing.
-  constexpr double h = MetPair::h, turn = 2 * std::numbers::pi + 0.2;
-  MetPair rod(0, Vec3(GENERATE(0.4, -0.4), 0, 0), Capsule{0.05, 1.0}, 3, Vec3(0.3, 0.3, 0.01));
+  constexpr double h = ThrownBall::h, turn = 2 * std::numbers::pi + 0.2;
+  ThrownBall rod(0, Vec3(GENERATE(0.4, -0.4), 0, 0), Capsule{0.05, 1.0}, 3, Vec3(0.3, 0.3, 0.01));
   rod.scene.initial.spin.col(1) = Vec3(0, turn / h, 0);
   const auto [end, contacts] = rod.end();
   CHECK(contacts.size() >= 1);
@@ -97,14 +99,41 @@ TEST_CASE("what turns by more than half a turn a step is met where its turn lead
 }
 
 TEST_CASE("what was ahead of a ball before it was turned aside is not pushed") {
-  constexpr double h = MetPair::h;
-  MetPair balls(10, Vec3::Zero(), Sphere{0.1}, 1, Vec3::Constant(0.01));
+  constexpr double h = ThrownBall::h;
+  ThrownBall balls(10, Vec3::Zero(), Sphere{0.1}, 1, Vec3::Constant(0.01));
   balls.scene.initial.x.col(1) = Vec3(2, -0.1, 0);
   const int ahead = add_body(balls.scene, Vec3(5, 0, 0), 1, Vec3::Constant(0.01));
   std::get<Contact>(balls.scene.effects[0]).collider.push_back({Sphere{0.1}, ahead});
   const auto [end, contacts] = balls.end();
   CHECK(end.v(1, 0) * h > 0.3);  // turned aside
   CHECK(end.v.col(ahead) == Vec3::Zero());
+}
+
+// A ball is stopped by a wall at x = 5 on its free way, and so comes to be where a heavy one, from aside,
+// takes it along: by a contact whose normal is y, past the wall's end.
+TEST_CASE("what is turned aside later is not held by what it would have met") {
+  constexpr double h = ThrownBall::h, way = 10, stopped = 4.8, when = 0.48;  // m, m, of the step
+  ThrownBall balls(way, Vec3::Zero(), Sphere{0.1}, infinity, Vec3::Constant(infinity));
+  balls.scene.initial.x.col(1) = Vec3(5, 0, 0);
+  const int heavy = add_body(balls.scene, Vec3(stopped * when, -0.2 - way * when, 0), 1e6,
+                             Vec3::Constant(1e4), Eigen::Quaterniond::Identity(), Vec3(0, way / h, 0));
+  std::get<Contact>(balls.scene.effects[0]).collider.push_back({Sphere{0.1}, heavy});
+  const auto [end, contacts] = balls.end();
+  CHECK(end.x(1, 0) > 1);  // taken along
+  CHECK(end.x(0, 0) == Approx(way).epsilon(1e-3));
+}
+
+TEST_CASE("what features far beside each other say is looked at again from nearer") {
+  // 0.3 m apart; of a feature beside them a reach of 1 m tells -0.1 m.
+  const auto beside = [](double reach) { return reach < 0.3 ? infinity : reach < 1 ? 0.3 : -0.1; };
+  CHECK(gap_by_reach(beside, 10, 1e-3) == 0.3);
+  const auto touching = [](double) { return -1e-3; };
+  CHECK(gap_by_reach(touching, 10, 1e-3) == -1e-3);
+  // Where nothing nearer tells, they are at least as far apart as was looked.
+  const auto far = [](double reach) { return reach < 4 ? infinity : -0.1; };
+  const double told = gap_by_reach(far, 10, 1e-3);
+  CHECK(told > 0.9);
+  CHECK(told < 4);
 }
 
 TEST_CASE("a common speed makes nothing of what lies on each other, where contact is continuous") {
@@ -121,11 +150,11 @@ TEST_CASE("a common speed makes nothing of what lies on each other, where contac
     scene.effects = {Gravity{}, contact};
     Workspace workspace(scene, Method{});
     State state = scene.initial;
-    for (int k = 0; k < 20; ++k) REQUIRE(step(workspace, MetPair::h, state).status == Status::ok);
+    for (int k = 0; k < 20; ++k) REQUIRE(step(workspace, ThrownBall::h, state).status == Status::ok);
     return state;
   };
   const State resting = tipped(0), flying = tipped(100);
-  const Vec3 way(0, 100 * 20 * MetPair::h, 0);
+  const Vec3 way(0, 100 * 20 * ThrownBall::h, 0);
   CHECK((flying.x.col(1) - way - resting.x.col(1)).norm() < 1e-7);
   CHECK(resting.orientation[1].angularDistance(flying.orientation[1]) < 1e-6);
 }
@@ -136,7 +165,7 @@ TEST_CASE("what begins on a face does not cut across its edge where contact is c
   Scene scene;
   add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
   const Vec3 begin(side / 2 - 0.035, 0, side / 2), way(0.04, 0, -0.03);
-  const int node = add_node(scene, begin, 1, way / MetPair::h);
+  const int node = add_node(scene, begin, 1, way / ThrownBall::h);
   Contact contact;
   contact.continuous = GENERATE(true, false);
   contact.law[0].friction = 0;
@@ -147,7 +176,7 @@ TEST_CASE("what begins on a face does not cut across its edge where contact is c
   scene.effects.emplace_back(contact);
   Workspace workspace(scene, Method{});
   State state = scene.initial;
-  REQUIRE(step(workspace, MetPair::h, state).status == Status::ok);
+  REQUIRE(step(workspace, ThrownBall::h, state).status == Status::ok);
   const Vec3 end = contact.continuous ? Vec3(way.x(), 0, 0) : way;
   CHECK((state.x.col(node) - begin - end).norm() < 1e-8);
 }

@@ -147,6 +147,25 @@ TEST_CASE("methods are compared on a step with contact") {
   CHECK(compared.back()[11] == "ok");
 }
 
+TEST_CASE("what met on the way of a step is compared with no judge") {
+  const TemporaryFolder folder;
+  folder.write(
+      "hit.toml",
+      "[[rigid_body]]\nname = \"a\"\nshape = \"sphere\"\nradius_m = 0.1\nmass_kg = 1\n"
+      "velocity_m_s = [1000, 0, 0]\n[[rigid_body]]\nname = \"b\"\nshape = \"sphere\"\nradius_m = 0.1\n"
+      "mass_kg = 1\nposition_m = [2, 0, 0]\n[contact]\ncontinuous = true\n"
+      "[step]\nstep_s = 0.01\nduration_s = 0.01\n");
+  const auto judged = run_program({"simulate", folder.path / "hit.toml", "--check", "--judge", "every=1",
+                                   "-o", folder.path / "simulated"});
+  CHECK_THAT(judged.out + judged.err,
+             Catch::Contains("does not know, 1 of them") && Catch::Contains("none refuted"));
+  const auto compared = run_program(
+      {"compare", folder.path / "hit.toml", "--method", "relaxation=direct", "-o", folder.path / "compared"});
+  CHECK(compared.exit_code == 1);
+  CHECK_THAT(compared.err, Catch::Contains("is not compared: contacts act that met on the way"));
+  CHECK(rows_of(folder.path / "compared" / "compare.csv").back()[11] == "skipped");
+}
+
 TEST_CASE("list prints names, as JSON if asked, and --help, --version and completion print to stdout") {
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");

@@ -86,21 +86,21 @@ void check_place(const StepClaim& claim, const Contact& contact, const ClaimedCo
                        beside_surface(claim, contact, c.point, node_of(1 - k)), allowed);
 }
 
-/// What met on the way touched there, as its bodies stood.
+/// What met on the way touched where it is said to, as it stood.
 void check_meeting(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, Findings& findings) {
   constexpr double apart = 3e-4;  // of the round radius: what is documented of the search of contacts
   if (!c.met || !(open.normal * claim.h > open.impulse)) return;
   if (std::max(c.collider[0], c.collider[1]) >= sides.count())
     return findings.leave_out("place of meeting: on surfaces");
-  const PlacedShape a = sides.placed_as_met(c, 0), b = sides.placed_as_met(c, 1);
-  const auto round = [&](std::size_t side, const PlacedShape& own) {
-    return sides.is_node(c.collider[side]) ? infinity : size_of(*own.shape).round;
-  };
-  const double size = c.met->arm[0].norm() + c.met->arm[1].norm();
-  findings.require("place of meeting", name_of(c.collider[0], c.collider[1]) + ", apart, m",
-                   separation(a, b, c.normal),
-                   apart * std::min(round(0, a), round(1, b)) + step_rounding * size);
+  const std::array<PlacedShape, 2> shape{sides.placed_as_met(c, 0), sides.placed_as_met(c, 1)};
+  double round = infinity;
+  for (const std::size_t side : {0, 1})
+    if (!sides.is_node(c.collider[side])) round = std::min(round, size_of(*shape[side].shape).round);
+  const double allowed = apart * round + step_rounding * (c.met->arm[0].norm() + c.met->arm[1].norm());
+  for (const std::size_t side : {0, 1})
+    findings.require("place of meeting", name_of(c.collider[0], c.collider[1]) + ", from a shape, m",
+                     distance(shape[side], Vec3(Vec3::Zero())), allowed);
 }
 
 void check_sliding(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,

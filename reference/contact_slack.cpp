@@ -20,7 +20,7 @@ ContactSlack slack_of(const StepClaim& claim, const ClaimedContact& contact, con
   if (a < sides.count() && b < sides.count())
     slip = sides.velocity(contact, 0, claim.end) - sides.velocity(contact, 1, claim.end);
   const auto across = [&](const Vec3& v) -> Vec3 { return v - contact.normal.dot(v) * contact.normal; };
-  const Vec3 conveyed = across(sides.surface_velocity(a) - sides.surface_velocity(b));
+  const Vec3 conveyed = across(sides.surface_velocity(contact, 0) - sides.surface_velocity(contact, 1));
   slip = across(slip) + conveyed;
   // The squares of a triangle's three weights sum to a third at least.
   constexpr double share = 1.0 / 3;

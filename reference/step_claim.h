@@ -12,8 +12,8 @@
 
 namespace pbd::reference {
 
-/// How the bodies of a contact stood to each other where they met on the way of a step: from a's and b's
-/// centre to where they touched (m), and body to world.
+/// How the bodies and nodes of a contact stood to each other where they met on the way of a step: from their
+/// centres to where they touched (m), and body to world; of surfaces nothing.
 struct ClaimedMeeting {
   std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};
   std::array<Eigen::Matrix3d, 2> rotation{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};

@@ -174,6 +174,11 @@ Parting least_parting(const PlacedShape& a, const PlacedShape& b, const std::vec
   return best;
 }
 
+double distance(const PlacedShape& a, const Vec3& point) {
+  if (is_half_space(*a.shape)) return a.frame.rotation.col(2).dot(point - a.frame.origin);
+  return distance(a, {point, point, point}).proved;
+}
+
 DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle) {
   return distance_of(
       [&](const Vec3& n) -> Vec3 { return farthest_point(a, -n) - farthest_corner(triangle, n); });

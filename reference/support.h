@@ -52,6 +52,9 @@ struct DistanceBounds {
   Vec3 along = Vec3::Zero();
 };
 
+/// m, at least, of a point from a shape.
+double distance(const PlacedShape& a, const Vec3& point);
+
 /// Of a shape with an end and a triangle.
 DistanceBounds distance(const PlacedShape& a, const std::array<Vec3, 3>& triangle);
 

@@ -85,10 +85,7 @@ PlacedShape Sides::placed(int k, const State& state) const {
 }
 
 PlacedShape Sides::placed_as_met(const ClaimedContact& contact, std::size_t side) const {
-  const int k = contact.collider[side];
-  if (!is_node(k)) return placed(k, Frame{-contact.met->arm[side], contact.met->rotation[side]});
-  const double radius = std::get<Sphere>(shapes_[static_cast<std::size_t>(k)]).radius;
-  return placed(k, Frame{(side == 0 ? radius : -radius) * contact.normal});
+  return placed(contact.collider[side], Frame{-contact.met->arm[side], contact.met->rotation[side]});
 }
 
 Vec3 Sides::velocity(const ClaimedContact& contact, std::size_t side, const State& state) const {
@@ -101,10 +98,11 @@ Vec3 Sides::velocity(const ClaimedContact& contact, std::size_t side, const Stat
   return v + (orientation * spin).cross(contact.point - claim_.end.x.col(own.node));
 }
 
-Vec3 Sides::surface_velocity(int k) const {
+Vec3 Sides::surface_velocity(const ClaimedContact& contact, std::size_t side) const {
+  const int k = contact.collider[side];
   if (k >= count() || is_node(k)) return Vec3::Zero();
-  const Collider& own = contact_.collider[static_cast<std::size_t>(k)];
-  return placed(k, claim_.end).frame.rotation * own.surface_velocity;
+  const PlacedShape shape = contact.met ? placed_as_met(contact, side) : placed(k, claim_.end);
+  return shape.frame.rotation * contact_.collider[static_cast<std::size_t>(k)].surface_velocity;
 }
 
 double Sides::lever(const ClaimedContact& contact, std::size_t side) const {

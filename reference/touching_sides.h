@@ -36,9 +36,9 @@ class Sides {
   /// m/s, of what touches of side 0 or 1 of a contact where the step ends, or where it met on the way, by the
   /// velocities of `state`.
   Vec3 velocity(const ClaimedContact& contact, std::size_t side, const State& state) const;
-  /// m/s, of a side's surface along itself where the step ends, beside that of its points: the part of it
-  /// across a normal counts.
-  Vec3 surface_velocity(int k) const;
+  /// m/s, of a side's surface along itself where the step ends, or where it met on the way, beside that of
+  /// its points: the part of it across a normal counts.
+  Vec3 surface_velocity(const ClaimedContact& contact, std::size_t side) const;
   /// Largest change of a point's velocity by an impulse of 1 N s there, 1/kg; of the centre alone with lever
   /// 0.
   double inverse_mass(int k, double lever) const;

@@ -8,11 +8,16 @@
 namespace pbd::reference {
 namespace {
 
-constexpr int places = 64;  // of the way: what turns by less than 200 rad goes by less than pi between two
-
 class Way {
  public:
-  Way(const StepClaim& claim, const Joint& joint) : claim_(claim), joint_(joint) {}
+  Way(const StepClaim& claim, const Joint& joint) : claim_(claim), joint_(joint) {
+    double turn = 0;
+    for (const int body : joint.body)
+      if (body >= 0) turn += claim.h * claim.end.spin.col(body).norm();
+    constexpr double apart = 0.1;  // rad, between two places
+    constexpr double fewest = 64, most = 1e5;
+    places_ = static_cast<int>(std::clamp(turn / apart, fewest, most));
+  }
 
   /// Of the joint at a share of the way, with what it asks for where the step begins.
   Vec3 value(double share) const {
@@ -24,20 +29,21 @@ class Way {
 
   double farthest_open() const {
     double most = 0;
-    for (int k = 1; k < places; ++k) most = larger(most, value(k / double(places)).norm());
+    for (int k = 1; k < places_; ++k) most = larger(most, value(share(k)).norm());
     return most;
   }
 
   /// rad, that b turns about a's axis.
   double twist() const {
     double sum = 0;
-    for (int k = 0; k < places; ++k)
-      sum += std::remainder(value((k + 1) / double(places))[0] - value(k / double(places))[0],
-                            2 * std::numbers::pi);
+    for (int k = 0; k < places_; ++k)
+      sum += std::remainder(value(share(k + 1))[0] - value(share(k))[0], 2 * std::numbers::pi);
     return sum;
   }
 
  private:
+  double share(int k) const { return static_cast<double>(k) / places_; }
+
   JointFrame<double> frame(std::size_t side, double share) const {
     const int node = joint_.node[side], body = joint_.body[side];
     const Vec3 x = claim_.start.x.col(node) + share * (claim_.end.x.col(node) - claim_.start.x.col(node));
@@ -50,6 +56,7 @@ class Way {
 
   const StepClaim& claim_;
   const Joint& joint_;
+  int places_;  // that are looked at
 };
 
 }  // namespace

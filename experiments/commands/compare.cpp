@@ -181,7 +181,7 @@ int compare(const CompareOptions& options) {
       throw_if_interrupted();
       const Trace trace =
           measure([&] { return contender.measure_once(file, way.state, way.workspace, judged.x); });
-      if (trace.met_on_way) {
+      if (trace.report.status == pbd::Status::ok && trace.met_on_way) {
         all_ok = false;
         comparison.skip(contender, not_judged_if_met);
         warn(fmt::format("`{}` is not compared: {}", contender.text, not_judged_if_met));

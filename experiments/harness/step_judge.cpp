@@ -80,6 +80,7 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
     ++missed_;
   } else if (!std::isnan(nearest)) {
     const bool by_itself = judged.reference.status == "ok";
+    ++compared_;
     from_claim_alone_ += !by_itself;
     ambiguous_ += by_itself && judged.start == JudgeStart::claim;
     by_features_ += by_itself && judged.start == JudgeStart::claim_and_features_kept;
@@ -99,11 +100,11 @@ std::string StepJudge::text() const {
   std::string text = fmt::format("judged: {} steps by {}", judged_, reference_);
   if (unsolved_ > 0) text += fmt::format(", which did not solve, or does not know, {} of them", unsolved_);
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
-  if (judged_ > unsolved_ + missed_)
+  if (compared_ > 0)
     text += fmt::format(
         "; {} end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance refers to "
         "(step {})",
-        unsolved_ + missed_ > 0 ? "the others" : "they", worst_error_m_, worst_error_of_scale_, worst_step_);
+        compared_ < judged_ ? "the others" : "they", worst_error_m_, worst_error_of_scale_, worst_step_);
   if (from_claim_alone_ > 0)
     text += fmt::format("; {} of them the reference solved from what is claimed alone", from_claim_alone_);
   if (ambiguous_ > 0) text += fmt::format("; {} at another one than the reference by itself", ambiguous_);

@@ -84,8 +84,8 @@ class StepJudge {
 
  private:
   std::string reference_;
-  std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, ambiguous_ = 0, by_features_ = 0,
-               from_claim_alone_ = 0, worst_step_ = 0;
+  std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, compared_ = 0, ambiguous_ = 0,
+               by_features_ = 0, from_claim_alone_ = 0, worst_step_ = 0;
   double worst_error_m_ = std::nan(""), worst_error_of_scale_ = std::nan("");
   pbd::reference::IntegratorMemory memory_;
   TableTotals totals_;

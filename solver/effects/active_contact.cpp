@@ -14,7 +14,7 @@ Vec3 meeting_place(const ActiveContact& contact, int side, const Configuration& 
     return sum;
   }
   if (side == contact.node_side) return at.x.col(carrier);
-  return at.pose[carrier].x + contact.meeting->of_bodies.arm[side];
+  return at.pose[carrier].x + contact.meeting->on_way.arm[side];
 }
 
 Touching meeting_at(const ActiveContact& contact, const Configuration& at) {
@@ -25,7 +25,7 @@ Touching meeting_at(const ActiveContact& contact, const Configuration& at) {
   for (const int side : {0, 1}) {
     if (side == contact.node_side || side == contact.triangle_side) continue;
     const Vec3 turn = meeting.turn_per_arc[side] * arc_of(contact.carrier[side], at);
-    found.gap += (side == 0 ? 1 : -1) * meeting.normal.dot(turn.cross(meeting.of_bodies.arm[side]));
+    found.gap += (side == 0 ? 1 : -1) * meeting.normal.dot(turn.cross(meeting.on_way.arm[side]));
   }
   return found;
 }
@@ -74,7 +74,7 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
     jacobian.template middleCols<3>(column) = sign * directions;
     if (side == contact.node_side) continue;
     const Pose& pose = at.pose[contact.carrier[side]];
-    const Vec3 arm = contact.meeting ? contact.meeting->of_bodies.arm[side] : Vec3(place - pose.x);
+    const Vec3 arm = contact.meeting ? contact.meeting->on_way.arm[side] : Vec3(place - pose.x);
     jacobian.template middleCols<3>(column + 3) =
         -sign * directions * cross_matrix(arm) *
         (contact.meeting ? contact.meeting->turn_per_arc[side] : pose.turn_per_arc);

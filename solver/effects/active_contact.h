@@ -25,7 +25,8 @@ namespace pbd {
 struct Meeting {
   Vec3 normal;        // unit, from b to a
   double offset = 0;  // m
-  MetOnWay of_bodies;
+  double left = 1;    // share of the way
+  MetOnWay on_way;
   std::array<Eigen::Matrix3d, 2> turn_per_arc;  // 1/m, of a body there
   Vec3 weight;                                  // of a triangle's nodes
 };
@@ -150,7 +151,8 @@ Directions<Block::rows> directions_in(const ActiveContact& contact,
 /// Velocity of a's surface against b's by what moves along itself, in the world, m/s.
 inline Vec3 conveyed(const ActiveContact& contact, const Configuration& at) {
   const auto own = [&](int side) -> Vec3 {
-    return frame_of(contact, side, at).rotation * contact.surface_velocity[side];
+    return (contact.meeting ? contact.meeting->on_way.rotation[side] : frame_of(contact, side, at).rotation) *
+           contact.surface_velocity[side];
   };
   return own(0) - own(1);
 }

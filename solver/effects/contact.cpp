@@ -209,7 +209,7 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       slip -= normal.dot(slip) * normal;
       forces.push_back({collider, place_of(contacts[i], found), normal,
                         acting.transpose() * block.impulse[i] / map.h, slip, found.gap});
-      if (contacts[i].meeting) forces.back().met = contacts[i].meeting->of_bodies;
+      if (contacts[i].meeting) forces.back().met = contacts[i].meeting->on_way;
     }
   });
 }

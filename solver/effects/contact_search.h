@@ -29,10 +29,10 @@
 // joins the step, where it is no farther apart than 3e-4 r, as a `Meeting` (active_contact.h): a row that is
 // linear, and asks of the end that what met goes no nearer than it was. Of what meets on one way that joins
 // which meets first, and what meets less than a round radius later: what comes after may be missed for it.
-// A pair that a meeting pushes, and that comes nowhere near on the way of a solved iterate, is tried without:
-// if the way meets something then, it is held again. What goes farther against each other than it is round
-// has, from there on, no other contacts than what it meets, or touches where the step begins: features that
-// are carried about by what turns tell nothing of a way.
+// A pair that a meeting pushes, and that comes nowhere near on the way of a solved iterate, is tried without,
+// once: if either of it meets something then, it is held again. What goes farther against each other than it
+// is round has, from there on, no other contacts than what it meets, or touches where the step begins:
+// features that are carried about by what turns tell nothing of a way.
 //
 // Where nothing was near at all, boxes many times their motions apart say for how long that holds: until then
 // no step is searched (clearance.h).
@@ -208,9 +208,9 @@ class ContactSearch {
   void add_late(const ActiveContact& found, double target);
   void add_first_met();
   bool let_go();
-  bool hold_again(bool seen);
+  bool is_of_tried(const Pair& pair) const;
+  static double bent(const ActiveContact& contact, const Configuration& end);
   void see_contacts(const Configuration& end, const ContactLists& contacts);
-  double bent(const ActiveContact& contact, const Configuration& end) const;
   bool is_told(const ActiveContact& found, const Configuration& at);
   bool see_overlaps(const Configuration& start, const Configuration& end, const ContactLists& contacts);
 
@@ -253,7 +253,7 @@ class ContactSearch {
   std::vector<ActiveContact> late_;
   std::uint64_t meetings_ = 0;        // so far: each has a name of its own
   double touching_ = 0, inside_ = 0;  // shares of a way at which `meets` found a pair so
-  double least_ = 0;                  // m, gap of a pair on the way that `meets` walked
+  double least_ = 0;                  // m, gap of a pair on the way that `meets` walked, if it is pushed
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
@@ -264,7 +264,7 @@ class ContactSearch {
   std::vector<ActiveContact> overlapping_;
   std::vector<Met> met_;
   std::set<std::array<int, 2>> tried_;  // pairs, without their meetings, in this step
-  std::vector<ActiveContact> held_;     // late contacts before the pair that is tried was let go
+  std::vector<ActiveContact> held_;     // the meetings of the one that is tried
   std::vector<MovingBox> boxes_;
   BroadPhase broad_phase_;
   PairPoints points_;

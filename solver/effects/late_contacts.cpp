@@ -177,7 +177,7 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
   if (far_.empty()) return false;
   see_contacts(end, contacts);
   met_.clear();
-  bool seen = false;
+  bool seen = false, refuted = false;  // the trial without a pair's meetings
   for (Pair& pair : far_) {
     pair.least = 0;
     // What a contact that has just been dropped did is not where the pair will be.
@@ -191,6 +191,7 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
     std::erase_if(overlapping_, [&](const ActiveContact& found) { return is_told(found, end); });
     if (!unexplained && overlapping_.empty()) continue;
     seen = true;
+    refuted |= is_of_tried(pair);
     if (!unexplained && overlapping_.front().meeting && pair.deepest == 0) {
       const double round = round_radius_of(motions_[pair.collider[0]], motions_[pair.collider[1]]);
       met_.push_back({pair.collider, touching_, round / way_between(pair, start, end), overlapping_});
@@ -201,7 +202,11 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
       add_late(found, std::min(pair.deepest, began));
     }
   }
-  if (hold_again(seen)) return true;
+  if (refuted) {
+    late_.insert(late_.end(), held_.begin(), held_.end());
+    held_.clear();
+    return true;
+  }
   add_first_met();
   return seen || let_go();
 }

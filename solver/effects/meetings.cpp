@@ -74,6 +74,7 @@ void ContactSearch::meet(const Configuration& at, const Configuration& start, co
   const auto met = std::make_shared<Meeting>();
   Meeting& meeting = *met;
   meeting.normal = found.normal;
+  meeting.left = 1 - share;
   if (contact.triangle_side >= 0) meeting.weight = weights_at(contact.triangle, at.x, place);
   Vec3 way = Vec3::Zero();  // m, that a goes against b where it touches
   for (const int side : {0, 1}) {
@@ -85,18 +86,19 @@ void ContactSearch::meet(const Configuration& at, const Configuration& start, co
         way += sign * meeting.weight[k] * (end.x.col(node) - start.x.col(node));
       }
     } else if (side == contact.node_side) {
+      meeting.on_way.arm[side] = place - at.x.col(carrier);
       way += sign * (end.x.col(carrier) - start.x.col(carrier));
     } else {
       const Pose& pose = at.pose[carrier];
-      meeting.of_bodies.arm[side] = place - pose.x;
-      meeting.of_bodies.rotation[side] = pose.rotation;
+      meeting.on_way.arm[side] = place - pose.x;
+      meeting.on_way.rotation[side] = pose.rotation;
       meeting.turn_per_arc[side] = pose.turn_per_arc;
       const Vec3 turn = turn_between(carrier, start, end);
-      way += sign * (end.pose[carrier].x - start.pose[carrier].x + turn.cross(meeting.of_bodies.arm[side]));
+      way += sign * (end.pose[carrier].x - start.pose[carrier].x + turn.cross(meeting.on_way.arm[side]));
     }
   }
   contact.meeting = met;
-  meeting.offset = found.gap + (1 - share) * meeting.normal.dot(way) - touching_at(contact, end).gap;
+  meeting.offset = found.gap + meeting.left * meeting.normal.dot(way) - touching_at(contact, end).gap;
 }
 
 /// What of a fast pair touches where the step begins.
@@ -134,15 +136,15 @@ void ContactSearch::keep_meetings(const Pair& pair, const Configuration& start, 
 /// True if what begins apart meets on its way to `end`, or there; sets `overlapping_` to how.
 bool ContactSearch::find_meetings(const Pair& pair, const Configuration& start, const Configuration& end,
                                   double allowed, double slack) {
+  const double behind = std::min(pair.deepest, -slack), way = way_between(pair, start, end);
   if (!meets(pair, start, end, allowed, slack)) {
     if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
     inside_ = 1;
-    touching_ = entering(pair, start, end, -slack, apart_, inside_);
+    touching_ = entering(pair, start, end, behind, apart_, inside_);
   }
-  const double way = way_between(pair, start, end);
   constexpr int rounds = 4;  // of halvings: more than a double has digits
   for (int k = 0; k < rounds && (inside_ - touching_) * way > slack; ++k)
-    touching_ = entering(pair, start, end, -slack, touching_, inside_);
+    touching_ = entering(pair, start, end, behind, touching_, inside_);
   generate_between(pair, start, end, touching_, 3 * slack);
   keep_meetings(pair, start, end, touching_, allowed);
   if (!overlapping_.empty()) return true;
@@ -151,13 +153,16 @@ bool ContactSearch::find_meetings(const Pair& pair, const Configuration& start, 
   return true;
 }
 
-/// m, that the turns of bodies make at most of a meeting's gap, which goes on as if they did not turn.
-double ContactSearch::bent(const ActiveContact& contact, const Configuration& end) const {
+/// m, by which turns take what met off the line on which its gap goes on, at `end`.
+double ContactSearch::bent(const ActiveContact& contact, const Configuration& end) {
+  const Meeting& meeting = *contact.meeting;
   double sum = 0;
   for (const int side : {0, 1}) {
     if (side == contact.node_side || side == contact.triangle_side) continue;
-    const double turn = (contact.meeting->turn_per_arc[side] * arc_of(contact.carrier[side], end)).norm();
-    sum += turn * turn / 2 * contact.meeting->of_bodies.arm[side].norm();
+    const Vec3& arm = meeting.on_way.arm[side];
+    const Vec3 turn = meeting.left * meeting.turn_per_arc[side] * arc_of(contact.carrier[side], end);
+    const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
+    sum += std::abs(meeting.normal.dot(rotation * arm - arm - turn.cross(arm)));
   }
   return sum;
 }
@@ -188,27 +193,33 @@ void ContactSearch::add_first_met() {
   }
 }
 
-/// Tries a pair without its meetings, which push it although it comes nowhere near on its way. True if there
-/// is one that has not been tried.
+/// Tries a pair, or what of a body and triangles is so, without its meetings, which push it although it comes
+/// nowhere near on its way. True if there is one that has not been tried.
 bool ContactSearch::let_go() {
+  held_.clear();
+  std::array<int, 2> first{-1, -1};
+  const auto is_triangle = [&](int collider) { return motions_[collider].kind == Carrier::triangle; };
   for (const Pair& pair : far_) {
+    const auto [one, two] = pair.collider;
+    if (!held_.empty() && !(one == first[0] && is_triangle(two) && is_triangle(first[1]))) continue;
     if (!pair.pushed || !(pair.least > pair.overlooked + pair.bent) || !tried_.insert(pair.collider).second)
       continue;
-    held_ = late_;
-    std::erase_if(late_, [&](const ActiveContact& contact) {
-      return contact.meeting && contact.pair() == pair.collider;
+    first = pair.collider;
+    const auto kept = std::stable_partition(late_.begin(), late_.end(), [&](const ActiveContact& contact) {
+      return !contact.meeting || contact.pair() != pair.collider;
     });
-    return true;
+    held_.insert(held_.end(), kept, late_.end());
+    late_.erase(kept, late_.end());
   }
-  return false;
+  return !held_.empty();
 }
 
-/// True if what was let go last is held again, since the way without it led into something.
-bool ContactSearch::hold_again(bool seen) {
-  const bool again = seen && !held_.empty();
-  if (again) late_ = held_;
-  held_.clear();
-  return again;
+/// True of a pair one of which is of the pair that is tried without its meetings.
+bool ContactSearch::is_of_tried(const Pair& pair) const {
+  if (held_.empty()) return false;
+  const auto tried = held_.front().pair();
+  return std::find_first_of(tried.begin(), tried.end(), pair.collider.begin(), pair.collider.end()) !=
+         tried.end();
 }
 
 }  // namespace pbd

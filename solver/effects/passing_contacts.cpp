@@ -86,6 +86,7 @@ auto ContactSearch::cut_on_way(const Pair& pair, const Configuration& start, con
 bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, const Configuration& end,
                                 double slack, Cut cut) {
   const bool through = cut == Cut::through;
+  touching_ = 0;
   generate_between(pair, start, end, 0, 2 * slack);
   if (!through)
     std::erase_if(points_.found,
@@ -111,7 +112,8 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
     touching_for = gap > slack ? 0 : std::min(std::max(2 * touching_for, slack), round / 2);
     share += std::max({gap, touching_for, clipped_unseen * round}) / travel;
     if (!(share < 1)) {
-      least_ = std::min(least_, gap_between(pair, start, end, 1, gap + slack, slack));
+      if (pair.pushed)
+        least_ = std::min(least_, generate_between(pair, start, end, 1, 2 * pair.overlooked + pair.bent));
       return false;
     }
     gap = gap_between(pair, start, end, share, (1 - share) * travel + slack, slack);
@@ -123,7 +125,7 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
     if (effect_.continuous && !inside) continue;
     if (inside) {
       inside_ = share;
-      share = touching_ = entering(pair, start, end, -slack, apart_, inside_);
+      share = touching_ = entering(pair, start, end, std::min(pair.deepest, -slack), apart_, inside_);
     }
     if (effect_.continuous) return true;
     generate_between(pair, start, end, share, 2 * slack);

@@ -24,7 +24,7 @@ struct FarPair {
   bool gives_way = false;       // by its law's compliance
   double least_end = infinity;  // m, gap that its contacts tell of
   bool pushed = false;          // by something that it met
-  double bent = 0;              // m, that turns make of how what pushes it goes on
+  double bent = 0;              // m, by which turns take what pushes it off how its gap goes on
   double least = 0;             // m, gap on its way
 };
 

@@ -22,10 +22,10 @@ struct EffectCost {
   double contraction = 0;  // bound of the effect's own geometric stiffness over inertia, last step
 };
 
-/// How the bodies of a contact stood to each other where they met on the way of a step, in the world; of a
-/// node or triangle nothing.
+/// How the bodies and nodes of a contact stood to each other where they met on the way of a step, in the
+/// world; of a triangle nothing.
 struct MetOnWay {
-  std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};  // m, from a's and b's centre to where they touched
+  std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};  // m, from a and b to where they touched
   std::array<Eigen::Matrix3d, 2> rotation{Eigen::Matrix3d::Identity(),
                                           Eigen::Matrix3d::Identity()};  // body to world
 };

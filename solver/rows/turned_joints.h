@@ -32,9 +32,7 @@ bool drives_round(const E& effect, double h) {
   using C = Constraint<E>;
   if constexpr (requires { C::period; })
     for (std::size_t i = 0; i < constraint_count(effect); ++i)
-      if (!gives_way(effect, i) && force_bounds(effect, i) == ForceBounds{-infinity, infinity} &&
-          std::abs(effect.rate[i]) * h > C::period / 2)
-        return true;
+      if (!gives_way(effect, i) && std::abs(effect.rate[i]) * h > C::period / 2) return true;
   return false;
 }
 

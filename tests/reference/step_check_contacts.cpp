@@ -1,6 +1,7 @@
 // A true step with contact, made by hand, is not refuted; with one number of it changed it is, by the check
 // of that law.
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "claimed_contacts.h"
 
@@ -61,6 +62,10 @@ TEST_CASE("contacts: what met on the way is pushed as it stood there") {
   Step apart = step;
   apart.contacts[0].met->arm[1] = Vec3(-0.1001, 0, 0);
   CHECK(refuted(apart) == Names{"place of meeting"});
+  // Across the normal, where no force has more of an arm for it.
+  Step across = step;
+  across.contacts[0].met->arm[1] = Vec3(-0.1, 1, 0);
+  CHECK(refuted(across).contains("place of meeting"));
   Step open = step;
   open.contacts[0].gap = 1e-6;
   CHECK(refuted(open) == Names{"open contact"});
@@ -99,6 +104,16 @@ TEST_CASE("contacts: a belt drags by its slip, and brings energy") {
     set_belt(other);
     CHECK(refuted(step) == Names{"energy", "sliding"});
   }
+  set_belt(-1);
+  // Met as the belt's body stood, which ends turned round.
+  for (auto& contact : step.contacts) {
+    reference::ClaimedMeeting met;
+    for (const std::size_t side : {0, 1})
+      met.arm[side] = contact.point - step.end.x.col(contact.collider[side]);
+    contact.met = met;
+  }
+  step.end.orientation[0] = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ());
+  CHECK(!refuted(step).contains("sliding"));
 }
 
 TEST_CASE("contacts: nodes that touch each other, but not those of one link") {

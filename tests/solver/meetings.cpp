@@ -110,17 +110,32 @@ TEST_CASE("what was ahead of a ball before it was turned aside is not pushed") {
 }
 
 // A ball is stopped by a wall at x = 5 on its free way, and so comes to be where a heavy one, from aside,
-// takes it along: by a contact whose normal is y, past the wall's end.
+// takes it along: by a contact whose normal is y, past the wall's end. That it spins changes nothing.
 TEST_CASE("what is turned aside later is not held by what it would have met") {
   constexpr double h = ThrownBall::h, way = 10, stopped = 4.8, when = 0.48;  // m, m, of the step
   ThrownBall balls(way, Vec3::Zero(), Sphere{0.1}, infinity, Vec3::Constant(infinity));
   balls.scene.initial.x.col(1) = Vec3(5, 0, 0);
+  balls.scene.initial.spin.col(0) = Vec3(0, 0, GENERATE(0.0, 3.1) / h);
   const int heavy = add_body(balls.scene, Vec3(stopped * when, -0.2 - way * when, 0), 1e6,
                              Vec3::Constant(1e4), Eigen::Quaterniond::Identity(), Vec3(0, way / h, 0));
   std::get<Contact>(balls.scene.effects[0]).collider.push_back({Sphere{0.1}, heavy});
   const auto [end, contacts] = balls.end();
   CHECK(end.x(1, 0) > 1);  // taken along
   CHECK(end.x(0, 0) == Approx(way).epsilon(1e-3));
+}
+
+// A rough ball meets the axis of a wheel whose side is a belt, as that has turned by a part of its turn.
+TEST_CASE("a belt that turns drags what it meets as it stands there") {
+  constexpr double h = ThrownBall::h, way = 10, gap = 4, turn = std::numbers::pi / 2, met_at = gap / way;
+  ThrownBall ball(way, Vec3(-gap - 0.1 - 0.5, 0, 0), Box{Vec3(1, 4, 4)}, infinity, Vec3::Constant(infinity));
+  ball.scene.initial.spin.col(1) = Vec3(turn / h, 0, 0);
+  auto& contact = std::get<Contact>(ball.scene.effects[0]);
+  contact.law[0].friction = 0.5;
+  contact.collider[1].surface_velocity = Vec3(0, 1, 0);
+  const auto [end, contacts] = ball.end();
+  const double angle = std::atan2(end.v(2, 0), end.v(1, 0));
+  CHECK(end.v.col(0).tail<2>().norm() > 0.1);
+  CHECK(angle == Approx(met_at * turn).epsilon(1e-3));
 }
 
 TEST_CASE("what features far beside each other say is looked at again from nearer") {

@@ -97,7 +97,10 @@ void check_meeting(const StepClaim& claim, const ClaimedContact& c, const Contac
   double round = infinity;
   for (const std::size_t side : {0, 1})
     if (!sides.is_node(c.collider[side])) round = std::min(round, size_of(*shape[side].shape).round);
-  const double allowed = apart * round + step_rounding * (c.met->arm[0].norm() + c.met->arm[1].norm());
+  // What begins in each other is pushed between its two points: no farther from either than it is deep.
+  const double along = separation(shape[0], shape[1], c.normal), depth = std::isfinite(along) ? -along : 0;
+  const double allowed =
+      std::max(depth, 0.0) + apart * round + step_rounding * (c.met->arm[0].norm() + c.met->arm[1].norm());
   for (const std::size_t side : {0, 1})
     findings.require("place of meeting", name_of(c.collider[0], c.collider[1]) + ", from a shape, m",
                      distance(shape[side], Vec3(Vec3::Zero())), allowed);

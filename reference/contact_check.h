@@ -13,7 +13,8 @@
 //            |mu F_n u_t + |u_t| F_t| h <= 2 mu (F_n h + e) s + (1 + mu) |u_t| e
 //   place    what acts on a deformable surface is no farther from one of its triangles than the thickness,
 //            the gap told and the triangle's longest side, by which features may go on as planes and lines
-//   meeting  what met on the way touched no farther from either shape than 3e-4 of the smaller round radius
+//   meeting  what met on the way touched no farther from either shape than 3e-4 of the smaller round radius,
+//            and than both are in each other along the normal
 //   gap      told is at least what the shapes' support functions prove along its normal, less s h
 //   depth    shapes are not deeper in each other than where the step begins or 1e-4 of the smaller round
 //            radius (`round` of support.h), whichever is more, and (1 + mu) s h: with each

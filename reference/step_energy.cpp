@@ -29,6 +29,7 @@ class Energy {
         model_(model.rigid),
         bounds_(model.bounds),
         own_frame_(model.own_frame),
+        damped_(model.damped),
         v0_(velocities(model.rigid, claim.start)),
         v1_(velocities(model.rigid, claim.end)),
         level_(level) {}
@@ -57,7 +58,7 @@ class Energy {
   const StepClaim& claim_;
   const RigidModel& model_;
   const std::vector<std::array<double, 2>>& bounds_;
-  const std::vector<bool>& own_frame_;
+  const std::vector<bool>&own_frame_, &damped_;
   Vector v0_, v1_;
   double level_ = 0, gained_ = 0, terms_ = 0, allowed_ = 0;  // sqrt(J), J
 };
@@ -114,6 +115,10 @@ void Energy::add_block(const Block& block, const RowVector& before, const RowVec
   gain(-stored_before);
   if (bounded) return allow(stored - stored_before + work(moved));
   allow(stored - stored_before - pull.dot(moved));
+  if (!damped_[static_cast<std::size_t>(block.row)]) {
+    const Vector pulled_along = solve(compliance, Vector(moved));
+    allow(level_ * std::sqrt(pulled_along.dot(metric_of(model_, block, claim_.h) * pulled_along)));
+  }
   const double curved = (block.value - before - moved).norm() + (turned_axes ? turned * before.norm() : 0.0);
   allow((turned_axes ? own.norm() + pull.norm() : (own + pull).norm()) * curved);
 }

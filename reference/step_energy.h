@@ -3,7 +3,9 @@
 // energy less the work h f.v1 of given forces at most this may be gained:
 //   hard constraints, limits and bounded motors   the work of their forces, where it is positive
 //   compliant ones, c^T A^-1 c/2 = Psi            Psi1 - Psi0 - A^-1 c1 . h J v1, what their curvature and
-//                                                 their motors bring
+//                                                 their motors bring, and what a solved step may miss of
+//                                                 their forces: level sqrt(y^T N y), N the matrix by which
+//                                                 that is measured, y = A^-1 h J v1; not of damped ones
 //   damping, the rest q of the force told         nothing but for the curvature of c:  |q| |c1 - c0 - h J v1|
 //                                                 of a force that is told in a body's axes what its size
 //                                                 allows

@@ -19,7 +19,15 @@ double squared_miss(const Vector& missed, const RowMatrix& n, double gamma,
   return std::isnan(asked) || std::isnan(gamma) ? std::nan("") : change * change * n(0, 0);
 }
 
-/// J W J^T h^2 + A.
+bool is_singular(const RowMatrix& n) {
+  constexpr double definite = 1e-12;
+  if (n.size() == 1) return !(n(0, 0) > 0);
+  const SymmetricEigen eigen = symmetric_eigen(n);
+  return !(eigen.values(0) > definite * eigen.values(n.rows() - 1));
+}
+
+}  // namespace
+
 RowMatrix metric_of(const RigidModel& model, const Block& block, double h) {
   RowMatrix n = block.compliance;
   each_moving(model, block, [&](int unknown, int offset) {
@@ -29,15 +37,6 @@ RowMatrix metric_of(const RigidModel& model, const Block& block, double h) {
   });
   return n;
 }
-
-bool is_singular(const RowMatrix& n) {
-  constexpr double definite = 1e-12;
-  if (n.size() == 1) return !(n(0, 0) > 0);
-  const SymmetricEigen eigen = symmetric_eigen(n);
-  return !(eigen.values(0) > definite * eigen.values(n.rows() - 1));
-}
-
-}  // namespace
 
 void check_motion(const StepClaim& claim, Findings& findings) {
   const Scene& scene = claim.scene;

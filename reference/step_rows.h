@@ -20,6 +20,9 @@ void each_moving(const RigidModel& model, const Block& block, F&& f) {
   }
 }
 
+/// J W J^T h^2 + A, the matrix of a block in whose inverse what it misses is measured.
+RowMatrix metric_of(const RigidModel& model, const Block& block, double h);
+
 inline Placement placement_of(const State& state) {
   return {state.x, state.orientation, state.time};
 }

@@ -64,21 +64,20 @@ class Way {
 void check_turns(const StepClaim& claim, const StepModel& model, Findings& findings) {
   const double right_angle = 1;                   // |c| of an axis or of two at right angles
   const double right_turn = std::numbers::sqrt2;  // of a rotation
-  constexpr double begins_open = 0.85;            // of these: what a missed step leaves open is no way
   for (const Joint& joint : model.rigid.joints) {
-    if (joint.compliance > 0) continue;
     const auto row = static_cast<std::size_t>(joint.row);
     const Way way(claim, joint);
-    const bool unbounded = model.bounds[row] == std::array<double, 2>{-infinity, infinity};
-    if (joint.kind == JointKind::angle && unbounded) {
+    if (joint.kind == JointKind::angle) {
       findings.require("turns", model.name[row] + ", other than it drives, rad",
                        std::abs(way.twist() - joint.rate * claim.h), std::numbers::pi);
+    } else if (joint.compliance > 0) {
+      continue;
     } else if (joint.kind == JointKind::axis || joint.kind == JointKind::perpendicular ||
                joint.kind == JointKind::rotation) {
       // A little less, as no place need be where it is open most.
       const double out = 0.99 * (joint.kind == JointKind::rotation ? right_turn : right_angle);
-      if (!(way.value(0).norm() < begins_open * out)) continue;
-      findings.require("turns", model.name[row] + ", open on its way", way.farthest_open(), out);
+      findings.require("turns", model.name[row] + ", open on its way", way.farthest_open(),
+                       std::max(out, 1.01 * way.value(0).norm()));
     }
   }
 }

@@ -75,11 +75,15 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) sums += linearise_block(place, std::get<Block>(any));
   }
 
-  bool turns_over(const Configuration& start, const Configuration& between) const override {
-    return pbd::turns_over(scene_, effect_, start, between);
+  bool turns_over(double h, TurnedWay& way) const override {
+    if constexpr (has_period || requires { C::turned_out; }) return pbd::turns_over(scene_, effect_, h, way);
+    return false;
   }
 
-  bool drives_round(double h) const override { return pbd::drives_round(effect_, h); }
+  bool drives_round(double h) const override {
+    if constexpr (has_period) return pbd::drives_round(effect_, h);
+    return false;
+  }
 
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override {

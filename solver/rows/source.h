@@ -14,6 +14,7 @@
 #include "rows/costs.h"
 #include "rows/rows.h"
 #include "rows/step_map.h"
+#include "rows/turned_way.h"
 
 namespace pbd {
 
@@ -184,14 +185,13 @@ class Source {
   /// The impact of the step, as far as it is known.
   virtual Impact impact(ConstBlockSpan) const { return Impact::none; }
 
-  /// True if bodies that a hard constraint holds to each other's directions are turned far out of them at
-  /// `between`, a place on a step's way, though not at `start`: who ends the way as it asks has turned over.
-  virtual bool turns_over(const Configuration& /*start*/, const Configuration& /*between*/) const {
-    return false;
-  }
+  /// True if on the way of a step of h seconds bodies that a hard constraint holds to each other's directions
+  /// turn by more than 60 degrees out of them, and farther than they began, or if bodies turn about an axis
+  /// by more than half a turn otherwise than a constraint's angle drives them, hard, soft or a limit.
+  virtual bool turns_over(double /*h*/, TurnedWay& /*way*/) const { return false; }
 
-  /// True if a hard constraint drives bodies by more than half a turn in h seconds, which it cannot tell from
-  /// the other way round.
+  /// True if a constraint drives bodies by more than half a turn in h seconds, which it cannot tell from the
+  /// other way round.
   virtual bool drives_round(double /*h*/) const { return false; }
 
   // Of contacts alone.

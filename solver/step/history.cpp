@@ -116,16 +116,21 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
   if (!goes_on) pressed_.setZero();
   if (integrator_->keeps == Keeps::accelerations) carry_on(h, goes_on, system);
   set_map(h, goes_on, false, system);
-  bool others = begin_sources(false, system);
-  if (strikes(system)) {
-    set_map(h, goes_on, true, system);
-    others |= begin_sources(true, system);
-  }
-  if (others) ++system.rows.generation;
+  if (begin_sources(false, system)) ++system.rows.generation;
+  struck_ = false;
+  strikes_late(system);
   h_ = 0;  // until the step has ended
   if (integrator_->keeps == Keeps::nothing) return;
   x_ = problem.start_x;
   v_ = problem.start_v;
+}
+
+bool History::strikes_late(StepSystem& system) {
+  if (struck_ || !strikes(system)) return false;
+  struck_ = true;
+  set_map(system.problem.map.h, false, true, system);
+  if (begin_sources(true, system)) ++system.rows.generation;
+  return true;
 }
 
 StepBegin History::step_begin(const Problem& problem, const Configuration& start, const Configuration& ahead,

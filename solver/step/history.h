@@ -15,6 +15,10 @@ class History {
   /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
+  /// True if something strikes in the step begun of which that was not known: it has begun again, by the map
+  /// of implicit Euler.
+  bool strikes_late(StepSystem& system);
+
   /// Lets sources find rows anew that the iterate calls for, which is solved to a tolerance of the scale:
   /// true if one did, perhaps the same rows.
   bool widen(StepSystem& system, double tolerance) const;
@@ -58,6 +62,7 @@ class History {
   int gone_on_ = 0;            // steps before the one begun, from a start on
   bool missed_ = false;        // the last step
   bool continued_ = false;     // from where it ended
+  bool struck_ = false;        // something, in the step begun
   Points x_, v_;               // where the last step began
   Points q_, a_;               // m/s^2, as in integrators.h; a_ has a meaning where a_v > 0
   Points acceleration_;        // m/s^2, by given forces

@@ -58,6 +58,7 @@ struct StepRun {
   bool looks_early();
   bool find_other_rows();
   void begin_rows();
+  void begin_iteration();
   void take_best();
   void measure_here() { measure(w.system, refresh(w.outer, w.system), w.effects, levels, progress); }
 };
@@ -71,12 +72,18 @@ void StepRun::begin(double h, const State& state) {
   w.history.begin_step(h, state, system);
   if (!w.method.warm_start) clear_impulses(system.rows);
   if (!w.history.after_miss() || !w.method.warm_start) w.restraint.forget();
+  begin_iteration();
+  progress.contraction = w.contraction.value();
+}
+
+/// From where the step begins, by its map.
+void StepRun::begin_iteration() {
+  StepSystem& system = w.system;
   system.at.v = system.problem.start_v;
   pbd::begin(w.outer, system);
   const auto& inverse_mass = system.problem.inverse_mass;
   levels.free_change = mass_distance(inverse_mass, system.problem.map.v_free, system.problem.start_v);
   levels.free_speed = mass_norm(inverse_mass, system.problem.map.v_free);
-  progress.contraction = w.contraction.value();
 }
 
 /// True if v has arrived and the residual no longer falls: the impulses may go on where v has arrived.
@@ -145,6 +152,7 @@ void StepRun::solve(const Observer& observer) {
       const bool stayed = first_of_rows <= w.method.tolerance * progress.scale;
       in_place = stayed ? in_place + 1 : 0;
       forget(w.outer);
+      if (w.history.strikes_late(system)) begin_iteration();
       begin_rows();
       if (++solved_anew <= w.method.max_outer && in_place < most_in_place) continue;
       report.status = Status::not_converged;

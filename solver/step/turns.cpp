@@ -21,31 +21,6 @@ std::vector<bool> held_rotations(const StepSystem& system) {
   return held;
 }
 
-/// True if a joint is open far on the way. Two bodies that turn steadily half a turn over each other open it
-/// by more than 60 degrees for a third of the half turn, in which they turn against each other by 60: places
-/// are looked at between which each turns by less than half of that. What turns so far that there would be
-/// too many counts as turned over.
-bool turned_over(const StepSystem& system, double turn) {
-  constexpr double apart = 0.5;  // rad
-  constexpr int fewest = 16, most = 10000;
-  if (!(turn < most * apart)) return true;
-  const int places = std::max(fewest, static_cast<int>(turn / apart) + 1);
-  const Bodies& bodies = system.problem.bodies;
-  std::vector<Pose> start, pose;
-  const Points at_start = 0 * system.at.x;
-  bodies.place(at_start, start);
-  for (int k = 1; k < places; ++k) {
-    const Points x =
-        static_cast<double>(k) / places * system.at.x;  // of rotations, which are zero as a step begins
-    bodies.place(x, pose);
-    const Configuration begin{at_start, start, 0}, between{x, pose, 0};
-    if (std::any_of(system.slots.begin(), system.slots.end(),
-                    [&](const Slot& slot) { return slot.source->turns_over(begin, between); }))
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 bool turned_round(const StepSystem& system) {
@@ -65,7 +40,10 @@ bool turned_round(const StepSystem& system) {
     if (d * bodies.spin(b, system.at.v) > std::numbers::pi && d * bodies.spin(b, changed) > std::numbers::pi)
       return true;
   }
-  return turn > least && turned_over(system, turn);
+  if (!(turn > least)) return false;
+  TurnedWay way(bodies, system.at.x, turn);
+  return way.places() == 0 || std::any_of(system.slots.begin(), system.slots.end(),
+                                          [&](const Slot& slot) { return slot.source->turns_over(h, way); });
 }
 
 }  // namespace pbd

@@ -81,9 +81,11 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
   const double recovered = target_of(begin, shifts, gap, from, block, i);
-  if (!contact.late) contact.target = recovered;
-  // The planes of bodies that began apart may have lain anywhere; a triangle may begin cut beside them.
-  else if (!contact.of_surfaces && (contact.target < 0 || contact.triangle_side >= 0))
+  // Of a late one the planes of what began apart may have lain anywhere; a triangle may begin cut elsewhere.
+  const bool may_begin_deep = contact.target < 0 || contact.triangle_side >= 0;
+  if (!contact.late)
+    contact.target = recovered;
+  else if (!contact.of_surfaces && may_begin_deep)
     contact.target = std::min(contact.target, recovered);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];

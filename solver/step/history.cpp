@@ -118,14 +118,14 @@ void History::begin_step(double h, const State& state, StepSystem& system) {
   set_map(h, goes_on, false, system);
   if (begin_sources(false, system)) ++system.rows.generation;
   struck_ = false;
-  strikes_late(system);
+  begin_again_if_struck(system);
   h_ = 0;  // until the step has ended
   if (integrator_->keeps == Keeps::nothing) return;
   x_ = problem.start_x;
   v_ = problem.start_v;
 }
 
-bool History::strikes_late(StepSystem& system) {
+bool History::begin_again_if_struck(StepSystem& system) {
   if (struck_ || !strikes(system)) return false;
   struck_ = true;
   set_map(system.problem.map.h, false, true, system);

@@ -15,9 +15,9 @@ class History {
   /// damping sets its offsets, contacts are found.
   void begin_step(double h, const State& state, StepSystem& system);
 
-  /// True if something strikes in the step begun of which that was not known: it has begun again, by the map
-  /// of implicit Euler.
-  bool strikes_late(StepSystem& system);
+  /// True if something strikes in the step begun of which that was not known: the step has begun again, by
+  /// the map of implicit Euler.
+  bool begin_again_if_struck(StepSystem& system);
 
   /// Lets sources find rows anew that the iterate calls for, which is solved to a tolerance of the scale:
   /// true if one did, perhaps the same rows.

@@ -152,7 +152,7 @@ void StepRun::solve(const Observer& observer) {
       const bool stayed = first_of_rows <= w.method.tolerance * progress.scale;
       in_place = stayed ? in_place + 1 : 0;
       forget(w.outer);
-      if (w.history.strikes_late(system)) begin_iteration();
+      if (w.history.begin_again_if_struck(system)) begin_iteration();
       begin_rows();
       if (++solved_anew <= w.method.max_outer && in_place < most_in_place) continue;
       report.status = Status::not_converged;

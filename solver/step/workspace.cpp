@@ -103,6 +103,13 @@ void take_begin_values(ConstBlockSpan from, BlockSpan blocks) {
                blocks[i]);
 }
 
+/// What messages call the effect. Throws SetupError where there is none.
+std::string require_effect(const Scene& scene, std::size_t index) {
+  const std::string where = "effects[" + std::to_string(index) + "]";
+  if (index < scene.effects.size()) return where;
+  throw SetupError(where, "no such effect", "an index below " + std::to_string(scene.effects.size()));
+}
+
 }  // namespace
 
 WorkspaceData::WorkspaceData(Scene stated_scene, Method stated_method)
@@ -155,9 +162,7 @@ void Workspace::go_on_from(const Workspace& other) {
 
 void Workspace::change(std::size_t index, const Effect& effect) {
   auto& effects = data_->scene.effects;
-  const std::string where = "effects[" + std::to_string(index) + "]";
-  if (index >= effects.size())
-    throw SetupError(where, "no such effect", "an index below " + std::to_string(effects.size()));
+  const std::string where = require_effect(data_->scene, index);
   const auto name = std::visit([](const auto& own) { return own.name; }, effect);
   if (effects[index].index() != effect.index())
     throw SetupError(where, name, "an effect of the kind that it replaces");
@@ -208,6 +213,7 @@ void each_block_of(const StepSystem& system, std::size_t effect, F&& f) {
 }  // namespace
 
 std::vector<double> Workspace::impulses(std::size_t index) const {
+  require_effect(data_->scene, index);
   std::vector<double> flat;
   each_block_of(data_->system, index, [&](const auto& block) {
     for (const auto& impulse : block.impulse) flat.insert(flat.end(), impulse.begin(), impulse.end());
@@ -216,6 +222,7 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
 }
 
 std::vector<double> Workspace::forces(std::size_t index) const {
+  require_effect(data_->scene, index);
   std::vector<double> flat;
   const double s = data_->system.problem.map.s;  // 0 before the first step
   for (const Slot& slot : data_->system.slots)

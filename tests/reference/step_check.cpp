@@ -191,6 +191,28 @@ TEST_CASE("turns: a hinge does not turn over, and a motor goes no other way roun
   CHECK(hinged(Vec3(0, 0, 3.2 - 2 * pi), 3.2 / Step::h) == 1);
 }
 
+TEST_CASE("turns: no lock, hard or soft, and no stop by a whole turn") {
+  constexpr double pi = std::numbers::pi;
+  const auto turns = [](double turn, double compliance, ForceBounds bounds) {
+    Scene scene;
+    add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+    add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1));
+    scene.effects.emplace_back(AngleJoint{
+        {{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0}, {compliance}, {}, {bounds}});
+    Step step(scene);
+    step.end.spin.col(1).z() = turn / Step::h;
+    step.move();
+    step.forces[0] = {0};
+    return refuted(step).count("turns");
+  };
+  for (const double compliance : {0.0, 1e-12})
+    for (const ForceBounds bounds : {ForceBounds{-infinity, infinity}, ForceBounds{0, infinity}}) {
+      CHECK(turns(3, compliance, bounds) == 0);
+      CHECK(turns(2 * pi, compliance, bounds) == 1);
+      CHECK(turns(-100 * pi, compliance, bounds) == 1);
+    }
+}
+
 TEST_CASE("momentum: what free surfaces and bodies exchange adds up") {
   Scene scene;
   add_body(scene, Vec3(0.1, 0.1, 0.2), 2, Vec3::Constant(0.01));

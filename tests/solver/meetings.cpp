@@ -124,6 +124,23 @@ TEST_CASE("what is turned aside later is not held by what it would have met") {
   CHECK(end.x(0, 0) == Approx(way).epsilon(1e-3));
 }
 
+TEST_CASE("what strikes a wall on its way does not come back, whatever the integrator carries on") {
+  constexpr double way = 3, gap = 10;
+  Method method;
+  method.integrator = GENERATE("implicit_euler", "newmark", "bdf2", "generalised_alpha");
+  const ThrownBall ball(way, Vec3(-gap - 0.1 - 0.5, 0, 0), Box{Vec3(1, 4, 4)}, infinity,
+                        Vec3::Constant(infinity));
+  Workspace workspace(ball.scene, method);
+  State state = ball.scene.initial;
+  INFO(method.integrator);
+  for (int k = 0; k < 7; ++k) {
+    REQUIRE(step(workspace, ThrownBall::h, state).status == Status::ok);
+    CHECK(state.v(0, 0) >= -1e-6 * ball.speed);
+  }
+  CHECK(state.v(0, 0) <= 1e-6 * ball.speed);
+  CHECK(state.x(0, 0) == Approx(-0.6).epsilon(1e-6));
+}
+
 // A rough ball meets the axis of a wheel whose side is a belt, as that has turned by a part of its turn.
 TEST_CASE("a belt that turns drags what it meets as it stands there") {
   constexpr double h = ThrownBall::h, way = 10, gap = 4, turn = std::numbers::pi / 2, met_at = gap / way;

@@ -106,6 +106,44 @@ TEST_CASE("a motor by more than half a turn a step is no step that says ok") {
   CHECK((report.reason.find("half a turn") != std::string::npos) == (turn > std::numbers::pi));
 }
 
+// A wheel is locked, hard or softly, or has a stop at either side: none may bring it energy, nor let it by.
+TEST_CASE("a lock or a stop throws no fast wheel round with ok") {
+  constexpr double h = 0.01;
+  const double turn = GENERATE(1.0, 3.0, 3.2, 2 * std::numbers::pi, 50.0) * GENERATE(1, -1);  // rad a step
+  const int kind = GENERATE(0, 1, 2, 3);
+  Scene scene = driven(0);
+  auto& angle = std::get<AngleJoint>(scene.effects[1]);
+  if (kind == 1) angle.compliance = {1e-12};
+  if (kind > 1) angle.bounds = {kind == 2 ? ForceBounds{0, infinity} : ForceBounds{-infinity, 0}};
+  scene.initial.spin.col(1).z() = turn / h;
+  Workspace workspace(scene, Method{});
+  State state = scene.initial;
+  const Report report = step(workspace, h, state);
+  INFO(turn << " rad, kind " << kind << ": " << report.reason);
+  if (report.status == Status::ok) {
+    CHECK(state.spin.norm() * h <= std::abs(turn) * (1 + 1e-9));
+    CHECK(state.spin.norm() * h <= std::numbers::pi);
+  }
+  if (std::abs(turn) < std::numbers::pi) CHECK(report.status == Status::ok);
+}
+
+TEST_CASE("a weld that begins open by a right angle is not turned over with ok") {
+  const double open = GENERATE(0.3, 1.1, 1.25, 1.5);  // rad
+  const double spin = GENERATE(-2.5, 0.0, 2.5);       // rad a step
+  Scene scene;
+  const int world = add_world(scene);
+  const int body = add_body(scene, Vec3::Zero(), 1, Vec3(1, 2, 3),
+                            Eigen::Quaterniond(Eigen::AngleAxisd(open, Vec3::UnitX())));
+  scene.effects.emplace_back(RotationJoint{{{world, body}}, {Eigen::Quaterniond::Identity()}, {0}});
+  scene.initial.spin.col(body) = Vec3(spin, 0, 0);
+  Workspace workspace(scene, Method{});
+  State state = scene.initial;
+  const bool ok = step(workspace, 1, state).status == Status::ok;
+  INFO(open << " rad open, " << spin << " rad");
+  if (ok) CHECK(state.spin(0, body) == Approx(-open).epsilon(1e-6));
+  if (open < 1 && spin == 0) CHECK(ok);
+}
+
 TEST_CASE("a motor goes on for a thousand turns: its angle is known to its own rounding") {
   constexpr double h = 0.01, rate = 10;
   Scene scene = driven(rate);

@@ -135,6 +135,8 @@ TEST_CASE("an effect is replaced by one of the same constraints only, and nothin
   CHECK_THROWS_AS(workspace.change(index, other), SetupError);
   CHECK_THROWS_AS(workspace.change(index, Gravity{}), SetupError);
   CHECK_THROWS_AS(workspace.change(99, links), SetupError);
+  CHECK_THROWS_AS(workspace.forces(99), SetupError);
+  CHECK_THROWS_AS(workspace.impulses(99), SetupError);
   const auto& kept = std::get<Distance>(workspace.scene().effects[index]);
   CHECK(kept.node == links.node);
   CHECK(kept.rest_length == links.rest_length);

@@ -114,19 +114,25 @@ class LedgerRun {
     };
     const auto record = parsed(directory_ / "run.json");
     if (!record.is_object() || !from_this_build(record)) return;
+    const char* const allowed = "results as `verify` writes them; without them all rows are run again";
     std::map<std::string, LedgerResult> before;
+    const auto results = parsed(ledger_file());
+    if (!results.is_array()) throw pbd::SetupError(ledger_file().string(), "no JSON list", allowed);
     try {
-      for (const auto& object : parsed(ledger_file()))
+      for (const auto& object : results)
         before.emplace(object.at("id").get<std::string>(), ledger_result(object));
     } catch (const std::exception& error) {  // of JSON, or a verdict that there is not
-      throw pbd::SetupError(ledger_file().string(), error.what(),
-                            "results as `verify` writes them; without them all rows are run again");
+      throw pbd::SetupError(ledger_file().string(), error.what(), allowed);
     }
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto found = before.find(rows_[k].id);
       if (found != before.end() && found->second.verdict != LedgerVerdict::skipped &&
-          family_of(rows_[k]) != "baseline")
+          family_of(rows_[k]) != "baseline") {
+        if (verdict_of(rows_[k], found->second) != found->second.verdict)
+          throw pbd::SetupError(ledger_file().string(),
+                                rows_[k].id + " with a verdict that its numbers do not give", allowed);
         results_[k] = found->second;
+      }
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -24,27 +25,33 @@ void judge_row(const LedgerRow& row, LedgerResult& result) {
     return;
   }
   result.measured = row.run(row.method);
+  result.verdict = verdict_of(row, result);
   if (!row.deviation) {
-    if (within(result.measured, result.expected, result.bound))
-      result.verdict = LedgerVerdict::holds;
-    else
+    if (result.verdict == LedgerVerdict::fails)
       result.reason = fmt::format("{:.10g} is not within {:.3g} of {:.10g}", result.measured, result.bound,
                                   result.expected);
     return;
   }
   const double deviated = row.deviation->value();
   const auto text = fmt::format("{:.10g} by {}", deviated, row.deviation->formula);
-  if (within(deviated, result.expected, result.bound)) {
-    result.reason = "the deviation " + text + " is within the bound: the row expects no failure";
-  } else if (within(result.measured, deviated, result.bound)) {
-    result.verdict = LedgerVerdict::expected_failure;
+  if (result.verdict == LedgerVerdict::expected_failure) {
     result.reason = text;
+  } else if (within(deviated, result.expected, result.bound)) {
+    result.reason = "the deviation " + text + " is within the bound: the row expects no failure";
   } else {
     result.reason = fmt::format("{:.10g} is not within {:.3g} of {}", result.measured, result.bound, text);
   }
 }
 
 }  // namespace
+
+LedgerVerdict verdict_of(const LedgerRow& row, const LedgerResult& result) {
+  const auto& [expected, measured, bound] = std::tie(result.expected, result.measured, result.bound);
+  if (!row.deviation) return within(measured, expected, bound) ? LedgerVerdict::holds : LedgerVerdict::fails;
+  const double deviated = row.deviation->value();
+  const bool fails_so = !within(deviated, expected, bound) && within(measured, deviated, bound);
+  return fails_so ? LedgerVerdict::expected_failure : LedgerVerdict::fails;
+}
 
 LedgerResult evaluate(const LedgerRow& row) {
   const double nan = std::nan("");

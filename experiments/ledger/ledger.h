@@ -60,6 +60,9 @@ struct LedgerResult {
 /// NaN is within no bound. What a row throws is the reason of its failure; Interrupted goes on to the caller.
 LedgerResult evaluate(const LedgerRow& row);
 
+/// The verdict that a result's numbers give, of what is not skipped.
+LedgerVerdict verdict_of(const LedgerRow& row, const LedgerResult& result);
+
 /// All rows, by families.
 const std::vector<LedgerRow>& ledger_rows();
 

@@ -219,6 +219,8 @@ std::string mesh_name(Keys& keys) {
 Eigen::Matrix3d read_rotation(Keys& keys) {
   const pbd::Vec3 rotation = keys.vector_or("rotation_rad", pbd::Vec3::Zero());
   if (rotation.isZero(0)) return Eigen::Matrix3d::Identity();
+  constexpr double known = 1e8;  // rad: a double tells no more than 1e-8 of the angle then
+  if (!(rotation.stableNorm() <= known)) keys.refuse("rotation_rad", "at most 1e8 rad in all");
   return Eigen::AngleAxisd(rotation.stableNorm(), rotation.stableNormalized()).matrix();
 }
 

@@ -66,11 +66,12 @@ TEST_CASE("contacts: what met on the way is pushed as it stood there") {
   Step across = step;
   across.contacts[0].met->arm[1] = Vec3(-0.1, 1, 0);
   CHECK(refuted(across).contains("place of meeting"));
-  // What is in each other is pushed between its points, but not beside.
+  // What is in each other, 0.25 m along the normal, is pushed between its points, off one of them too, but
+  // not far beside.
   Step deep = step;
-  deep.contacts[0].met->arm = {Vec3(0.09, 0, 0), Vec3(-0.09, 0, 0)};
+  deep.contacts[0].met->arm = {Vec3(-0.15, 0, 0), Vec3(-0.1, 0, 0)};
   CHECK(refuted(deep).empty());
-  deep.contacts[0].met->arm = {Vec3(0.09, 0.1, 0), Vec3(-0.09, 0.1, 0)};
+  deep.contacts[0].met->arm = {Vec3(-0.15, 0.5, 0), Vec3(-0.1, 0.5, 0)};
   CHECK(refuted(deep).contains("place of meeting"));
   Step open = step;
   open.contacts[0].gap = 1e-6;

@@ -138,7 +138,11 @@ TEST_CASE("results that are none are refused by --resume") {
   const std::string row = R"({"id": "a.first", "verdict": "perhaps", "expected": 1, "measured": 1, "bound": 1,
     "reason": "", "wall_s": 0})";
   options.resume = true;
-  for (const std::string& wrong : {std::string("[{\"id\": 3}]"), "[" + row + "]"}) {
+  const std::string altered =
+      R"({"id": "a.first", "verdict": "holds", "expected": 1, "measured": 1e9, "bound": 1,
+    "reason": "", "wall_s": 0})";
+  for (const std::string& wrong :
+       {std::string("[{\"id\": 3}]"), std::string("[{"), "[" + row + "]", "[" + altered + "]"}) {
     const auto file = folder.write("verify/ledger.json", wrong);
     CHECK_THROWS_WITH(verify(options, counted.rows), Catch::StartsWith(file.string() + ": got "));
   }

@@ -46,6 +46,8 @@ const std::vector<Mistake> body_mistakes{
      {"scene.toml:18: rigid_body.2.inertia_kg_m2", "[ 1, 1, 3 ]", "none larger than the sum"}},
     {body("name = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 0]\n"),
      {"scene.toml:18: rigid_body.2.inertia_kg_m2", "got 0", "> 0"}},
+    {body("name = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nrotation_rad = [0, 1e9, 0]\n"),
+     {"scene.toml:19: rigid_body.2.rotation_rad", "at most 1e8 rad"}},
     {body("name = \"a\"\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nrotation_rad = [0, nan, 0]\n"),
      {"scene.toml:19: rigid_body.2.rotation_rad", "got nan"}},
     {body("name = \"a\"\nshape = \"mesh\"\nfile = \"open.obj\"\nmass_kg = 1\n"),

@@ -14,7 +14,6 @@ class Way {
     double turn = 0;
     for (const int body : joint.body)
       if (body >= 0) turn += claim.h * claim.end.spin.col(body).norm();
-    constexpr double apart = 0.1;  // rad, between two places
     constexpr double fewest = 64, most = 1e5;
     places_ = static_cast<int>(std::clamp(turn / apart, fewest, most));
   }
@@ -36,13 +35,20 @@ class Way {
   /// rad, that b turns about a's axis.
   double twist() const {
     double sum = 0;
-    for (int k = 0; k < places_; ++k)
-      sum += std::remainder(value(share(k + 1))[0] - value(share(k))[0], 2 * std::numbers::pi);
+    for (int k = 0; k < places_; ++k) sum += twist_between(share(k), share(k + 1), 20);
     return sum;
   }
 
  private:
   double share(int k) const { return static_cast<double>(k) / places_; }
+
+  /// In halves where it is more than the bodies turn there: near its axis a reference goes about it fast.
+  double twist_between(double from, double to, int halvings) const {
+    const double twist = std::remainder(value(to)[0] - value(from)[0], 2 * std::numbers::pi);
+    if (!(std::abs(twist) > apart) || halvings == 0) return twist;
+    const double middle = from + (to - from) / 2;
+    return twist_between(from, middle, halvings - 1) + twist_between(middle, to, halvings - 1);
+  }
 
   JointFrame<double> frame(std::size_t side, double share) const {
     const int node = joint_.node[side], body = joint_.body[side];
@@ -53,6 +59,8 @@ class Way {
                     share * claim_.h * claim_.end.spin.col(body));
     return {{x.x(), x.y(), x.z()}, constant<double>(q)};
   }
+
+  static constexpr double apart = 0.1;  // rad, between two places
 
   const StepClaim& claim_;
   const Joint& joint_;
@@ -68,8 +76,13 @@ void check_turns(const StepClaim& claim, const StepModel& model, Findings& findi
     const auto row = static_cast<std::size_t>(joint.row);
     const Way way(claim, joint);
     if (joint.kind == JointKind::angle) {
-      findings.require("turns", model.name[row] + ", other than it drives, rad",
-                       std::abs(way.twist() - joint.rate * claim.h), std::numbers::pi);
+      const double turned = way.twist() - joint.rate * claim.h;
+      findings.require("turns", model.name[row] + ", other than it drives, rad", std::abs(turned),
+                       std::numbers::pi);
+      const auto& [lower, upper] = model.bounds[row];
+      if ((lower == 0) != (upper == 0))  // at half a turn from it, it is on the other side at once
+        findings.require("turns", model.name[row] + ", from its stop, rad",
+                         std::abs(way.value(0)[0] + turned), std::numbers::pi * (1 + step_rounding));
     } else if (joint.compliance > 0) {
       continue;
     } else if (joint.kind == JointKind::axis || joint.kind == JointKind::perpendicular ||

@@ -29,7 +29,7 @@ void SimulationTotals::add(const pbd::Report& report, int parts,
   sweeps += report.sweeps;
   row_updates += report.row_updates;
   const auto take = [&](WorstStep& own) {
-    if (own.is_less_than(report))
+    if (own.step == 0 || own.is_less_than(report))
       own = {report.residual(), steps, report.worst ? name(*report.worst) : "", std::string(report.reason)};
   };
   take(worst);

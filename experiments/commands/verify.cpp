@@ -112,9 +112,13 @@ class LedgerRun {
       std::ifstream in(file);
       return nlohmann::ordered_json::parse(in, nullptr, false);
     };
-    const auto record = parsed(directory_ / "run.json");
-    if (!record.is_object() || !from_this_build(record)) return;
     const char* const allowed = "results as `verify` writes them; without them all rows are run again";
+    const auto record = parsed(directory_ / "run.json");
+    try {
+      if (!record.is_object() || !from_this_build(record)) return;
+    } catch (const nlohmann::ordered_json::type_error& error) {
+      throw pbd::SetupError((directory_ / "run.json").string(), error.what(), allowed);
+    }
     std::map<std::string, LedgerResult> before;
     const auto results = parsed(ledger_file());
     if (!results.is_array()) throw pbd::SetupError(ledger_file().string(), "no JSON list", allowed);
@@ -128,10 +132,15 @@ class LedgerRun {
       const auto found = before.find(rows_[k].id);
       if (found != before.end() && found->second.verdict != LedgerVerdict::skipped &&
           family_of(rows_[k]) != "baseline") {
-        if (verdict_of(rows_[k], found->second) != found->second.verdict)
-          throw pbd::SetupError(ledger_file().string(),
-                                rows_[k].id + " with a verdict that its numbers do not give", allowed);
-        results_[k] = found->second;
+        const LedgerResult& result = found->second;
+        const auto refuse = [&](const char* what) {
+          throw pbd::SetupError(ledger_file().string(), rows_[k].id + what, allowed);
+        };
+        if (result.expected == result.expected && bound_of(rows_[k], result.expected) != result.bound)
+          refuse(" with a bound that is not the row's");
+        if (verdict_of(rows_[k], result) != result.verdict)
+          refuse(" with a verdict that its numbers do not give");
+        results_[k] = result;
       }
     }
   }

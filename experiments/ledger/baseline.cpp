@@ -162,11 +162,10 @@ nlohmann::ordered_json blessed_record(const fs::path& results) {
   if (!fs::is_regular_file(file))
     throw pbd::SetupError(results.string(), "no run.json", "results of `pbdcheck run` at tier quick");
   auto record = read_json(file);
-  if (record.value("status", "") != outcome_names[0] || record.value("tier", "") != "quick")
-    throw pbd::SetupError(
-        file.string(),
-        "status `" + record.value("status", "") + "` and tier `" + record.value("tier", "") + "`",
-        "a complete run at tier quick");
+  const nlohmann::ordered_json none, status = record.value("status", none), tier = record.value("tier", none);
+  if (status != outcome_names[0] || tier != "quick")
+    throw pbd::SetupError(file.string(), fmt::format("status {} and tier {}", status.dump(), tier.dump()),
+                          "a complete run at tier quick");
   return record;
 }
 
@@ -207,12 +206,16 @@ void bless_results(const fs::path& results, const fs::path& baseline, const std:
   constexpr std::uintmax_t largest = 64 << 10;  // bytes: the repository is to stay small
   const auto record = blessed_record(results);
   nlohmann::ordered_json head{{"reason", reason}};
-  for (const char* key : {"commit", "dirty"}) head[key] = record.at(key);
-  for (const char* key : same_keys) head[key] = record.at(key);
-  head["tables"] = head["left_out"] = nlohmann::ordered_json::array();
   std::vector<std::string> names;
-  for (const auto& [name, rows] : record.at("rows").items())
-    if (name != "verdicts" && rows.get<int>() > 0) names.push_back(name);
+  try {
+    for (const char* key : {"commit", "dirty"}) head[key] = record.at(key);
+    for (const char* key : same_keys) head[key] = record.at(key);
+    for (const auto& [name, rows] : record.at("rows").items())
+      if (name != "verdicts" && rows.get<int>() > 0) names.push_back(name);
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw pbd::SetupError((results / "run.json").string(), error.what(), "a record as `run` writes it");
+  }
+  head["tables"] = head["left_out"] = nlohmann::ordered_json::array();
   for (const std::string& name : names)
     head[fs::file_size(results / (name + ".csv")) <= largest ? "tables" : "left_out"].push_back(name);
   require_writable(baseline);

@@ -18,7 +18,7 @@ bool within(double value, double target, double bound) {
 
 void judge_row(const LedgerRow& row, LedgerResult& result) {
   result.expected = row.expected();
-  result.bound = row.bound.absolute + row.bound.relative * std::abs(result.expected);
+  result.bound = bound_of(row, result.expected);
   if (!row.cannot.empty()) {
     result.verdict = LedgerVerdict::skipped;
     result.reason = row.cannot;
@@ -44,6 +44,10 @@ void judge_row(const LedgerRow& row, LedgerResult& result) {
 }
 
 }  // namespace
+
+double bound_of(const LedgerRow& row, double expected) {
+  return row.bound.absolute + row.bound.relative * std::abs(expected);
+}
 
 LedgerVerdict verdict_of(const LedgerRow& row, const LedgerResult& result) {
   const auto& [expected, measured, bound] = std::tie(result.expected, result.measured, result.bound);

@@ -60,6 +60,9 @@ struct LedgerResult {
 /// NaN is within no bound. What a row throws is the reason of its failure; Interrupted goes on to the caller.
 LedgerResult evaluate(const LedgerRow& row);
 
+/// How far a row may be from what it expects, in its unit.
+double bound_of(const LedgerRow& row, double expected);
+
 /// The verdict that a result's numbers give, of what is not skipped.
 LedgerVerdict verdict_of(const LedgerRow& row, const LedgerResult& result);
 

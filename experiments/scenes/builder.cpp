@@ -188,6 +188,11 @@ std::optional<Course> read_course(Keys& keys) {
     if (!course.time.empty() && !(time > course.time.back()))
       keys.refuse("over_time", fmt::format("the time {} after {}", time, course.time.back()),
                   "times that grow");
+    if (!course.time.empty() && !std::isfinite((value - course.value.back()) / (time - course.time.back())))
+      keys.refuse(
+          "over_time",
+          fmt::format("{} after {} within {} s", value, course.value.back(), time - course.time.back()),
+          "values that change at a finite rate");
     course.time.push_back(time);
     course.value.push_back(value);
   }

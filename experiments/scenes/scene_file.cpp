@@ -20,6 +20,7 @@ void read_step(Keys& root, SceneFile& found) {
   if (!table) root.refuse("step", "nothing", "a table [step] with step_s, and duration_s or steps");
   Keys& keys = *table;
   found.step_s = keys.number("step_s", Range::positive);
+  if (found.step_s < pbd::least_step) keys.refuse("step_s", fmt::format("a number >= {:g}", pbd::least_step));
   const bool by_count = found.counts_steps = keys.has("steps");
   if (by_count == keys.has("duration_s"))
     keys.refuse("duration_s", by_count ? "steps and duration_s" : "nothing", "one of duration_s and steps");

@@ -81,12 +81,14 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
   const double recovered = target_of(begin, shifts, gap, from, block, i);
-  // Of a late one the planes of what began apart may have lain anywhere; a triangle may begin cut elsewhere.
-  const bool may_begin_deep = contact.target < 0 || contact.triangle_side >= 0;
+  // A late one's target is how deep its pair began, whose features may have lain anywhere; a triangle may
+  // begin cut elsewhere.
   if (!contact.late)
     contact.target = recovered;
-  else if (!contact.of_surfaces && may_begin_deep)
+  else if (contact.triangle_side >= 0 && !contact.of_surfaces)
     contact.target = std::min(contact.target, recovered);
+  else if (!contact.of_surfaces)
+    contact.target = target_of(begin, shifts, contact.target, contact.target + from - gap, block, i);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   const bool springs = contact.law.compliance > 0 && contact.law.damping == 0;

@@ -94,7 +94,8 @@ void validate(const Scene& scene) {
 }
 
 void validate(const Scene& scene, double h, const State& state) {
-  REQUIRE(h > 0 && std::isfinite(h), "h", text(h), "a finite step above 0 s");
+  REQUIRE(h >= least_step && std::isfinite(h), "h", text(h),
+          "a finite step above 0 s, from " + text(least_step) + " on");
   const auto require_count = [](const char* what, std::ptrdiff_t found, std::ptrdiff_t wanted) {
     REQUIRE(found == wanted, what, text(found) + " entries", "as many as the scene has, " + text(wanted));
   };

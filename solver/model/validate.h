@@ -20,6 +20,9 @@ inline constexpr double most_speed = 1e15;
 /// ones.
 inline constexpr double most_mass_ratio = 1e15;
 
+/// Least step (s): one over its fourth power is a number.
+inline constexpr double least_step = 1e-75;
+
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices
 /// out of range or repeated, masses <= 0 or NaN, masses and speeds beyond the bounds above, compliances and
 /// damping times < 0, non-finite numbers, degenerate or inverted rest elements, elastic constants out of
@@ -28,9 +31,9 @@ inline constexpr double most_mass_ratio = 1e15;
 /// these).
 void validate(const Scene& scene);
 
-/// Throws SetupError for a step of `scene` that is not finite and above 0 s, for a state of another size, and
-/// for quaternions whose norm is not 1. Other numbers that are not finite pass: a step from them ends as
-/// diverged.
+/// Throws SetupError for a step of `scene` that is not finite or below `least_step`, for a state of another
+/// size, and for quaternions whose norm is not 1. Other numbers that are not finite pass: a step from them
+/// ends as diverged.
 void validate(const Scene& scene, double h, const State& state);
 
 /// Throws SetupError, beginning with `what` and the index, unless a rest tetrahedron has a positive volume

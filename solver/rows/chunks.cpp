@@ -1,10 +1,17 @@
 #include "rows/chunks.h"
 
+#include <algorithm>
 #include <bit>
 #include <numeric>
 #include <utility>
 
 namespace pbd {
+
+std::size_t chunk_length(std::size_t constraints, std::size_t bytes, bool friction) {
+  constexpr std::size_t least_bytes = 65536, least_with_friction = 8192;
+  return std::max((friction ? least_with_friction : least_bytes) / bytes,
+                  (constraints + most_chunks - 1) / most_chunks);
+}
 
 void divide(std::span<const int> columns, int columns_of_each, std::size_t length,
             const std::vector<double>& inverse_mass, bool fixed_are_shared, Chunks& chunks) {

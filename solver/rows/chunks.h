@@ -32,15 +32,13 @@ struct Chunks {
   std::vector<int> colour_of;        // scratch: of each chunk
 };
 
+inline constexpr std::size_t most_chunks = 128;
+
 /// Constraints of a chunk, of so many of so many bytes: 64 kB of rows, which take longer than to begin a
-/// task, or 16 kB of contacts with friction, each of which takes longer than other rows. Of many constraints
+/// task, or 8 kB of contacts with friction, each of which takes longer than other rows. Of many constraints
 /// so many that there are 128 chunks: memory is read the faster the longer it goes on, and longer chunks have
 /// fewer neighbours.
-inline std::size_t chunk_length(std::size_t constraints, std::size_t bytes, bool friction) {
-  constexpr std::size_t least_bytes = 65536, least_with_friction = 16384, most_chunks = 128;
-  return std::max((friction ? least_with_friction : least_bytes) / bytes,
-                  (constraints + most_chunks - 1) / most_chunks);
-}
+std::size_t chunk_length(std::size_t constraints, std::size_t bytes, bool friction);
 
 /// Divides constraints, `length` of them a chunk, each with so many of the columns. Each chunk takes the
 /// first colour that none of its columns has, those that cannot move left out if they are shared; beyond 63
@@ -60,16 +58,12 @@ void add_scattered(Block& block, Sum& total, F&& f) {
   };
   if (chunks.order.empty()) return range(0, block.size(), total);
   const std::size_t length = block.chunk_length();
-  for (std::size_t c = 0; c + 1 < chunks.colour.size(); ++c) {
-    const int* const order = chunks.order.data() + chunks.colour[c];
-    add_parts(chunks.threads, static_cast<std::size_t>(chunks.colour[c + 1] - chunks.colour[c]), total,
-              [&](std::size_t first, std::size_t last, Sum& sum) {
-                for (std::size_t k = first; k < last; ++k) {
-                  const std::size_t begin = static_cast<std::size_t>(order[k]) * length;
-                  range(begin, std::min(begin + length, block.size()), sum);
-                }
-              });
-  }
+  std::array<Sum, most_chunks> part{};
+  each_of_groups(chunks.threads, chunks.colour, [&](std::size_t k) {
+    const std::size_t first = static_cast<std::size_t>(chunks.order[k]) * length;
+    range(first, std::min(first + length, block.size()), part[k]);
+  });
+  for (std::size_t k = 0; k < chunks.order.size(); ++k) total += part[k];
 }
 
 /// f(i, sum) for every constraint: f changes nothing but what is the constraint's own.

@@ -56,7 +56,7 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) {
       if (kind().damped)
         begin_damping(begin, std::get<Block>(any));
-      else if (has_period)
+      else if (is_angle)
         keep_values(begin, std::get<Block>(any));
       if constexpr (requires { effect_.bounds; })
         if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
@@ -75,13 +75,16 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) sums += linearise_block(place, std::get<Block>(any));
   }
 
+  bool has_period() const override { return is_angle; }
+
   bool turns_over(double h, TurnedWay& way) const override {
-    if constexpr (has_period || requires { C::turned_out; }) return pbd::turns_over(scene_, effect_, h, way);
+    if constexpr (is_angle) return pbd::twists_over(scene_, effect_, h, way);
+    if constexpr (requires { C::turned_out; }) return pbd::opens_over(scene_, effect_, way);
     return false;
   }
 
   bool drives_round(double h) const override {
-    if constexpr (has_period) return pbd::drives_round(effect_, h);
+    if constexpr (is_angle) return pbd::drives_round(effect_, h);
     return false;
   }
 
@@ -209,11 +212,11 @@ class EffectRows final : public Source {
   }
 
  private:
-  static constexpr bool has_period = requires { C::period; };
+  static constexpr bool is_angle = requires { C::period; };
 
   /// The value nearest to `to` of those that a periodic constraint has: within a step it does not jump.
   static void unwrap(const Value& to, Value& value) {
-    if constexpr (has_period) value[0] += C::period * std::round((to[0] - value[0]) / C::period);
+    if constexpr (is_angle) value[0] += C::period * std::round((to[0] - value[0]) / C::period);
   }
 
   static Kind kind_of(const E& effect) {

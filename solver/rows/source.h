@@ -187,8 +187,12 @@ class Source {
 
   /// True if on the way of a step of h seconds bodies that a hard constraint holds to each other's directions
   /// turn by more than 60 degrees out of them, and farther than they began, or if bodies turn about an axis
-  /// by more than half a turn otherwise than a constraint's angle drives them, hard, soft or a limit.
+  /// by more than half a turn otherwise than a constraint's angle drives them, hard, soft or a limit, or past
+  /// half a turn from a limit, beyond which they would be on its other side.
   virtual bool turns_over(double /*h*/, TurnedWay& /*way*/) const { return false; }
+
+  /// True of angles, which jump by a period: `turns_over` is to look at them however slowly bodies turn.
+  virtual bool has_period() const { return false; }
 
   /// True if a constraint drives bodies by more than half a turn in h seconds, which it cannot tell from the
   /// other way round.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 namespace pbd {
@@ -19,6 +20,18 @@ template <class F>
 void each_task(int threads, std::size_t count, F&& f) {
   run_tasks(
       threads, count,
+      [](void* context, std::size_t k) { (*static_cast<std::remove_reference_t<F>*>(context))(k); }, &f);
+}
+
+/// The same for all k of groups, one group after the other. `first` states where each begins, and the total.
+void run_groups(int threads, std::span<const int> first, void (*task)(void* context, std::size_t k),
+                void* context);
+
+/// f(k) for all k of the groups.
+template <class F>
+void each_of_groups(int threads, std::span<const int> first, F&& f) {
+  run_groups(
+      threads, first,
       [](void* context, std::size_t k) { (*static_cast<std::remove_reference_t<F>*>(context))(k); }, &f);
 }
 

@@ -40,7 +40,7 @@ struct Report {
   /// Largest residual relative to `scale`; 0 if that vanishes and what is left is rounding.
   double residual() const {
     const double largest = larger(primal, dual);
-    return scale == 0 && status == Status::ok ? 0.0 : largest / scale;
+    return scale == 0 && (status == Status::ok || largest == 0) ? 0.0 : largest / scale;
   }
 };
 

@@ -29,21 +29,25 @@ bool turned_round(const StepSystem& system) {
   for (const Slot& slot : system.slots)
     if (slot.source->drives_round(h)) return true;
   constexpr double least = 1;  // rad: two that turn over each other turn by more than twice this
-  if (!(std::max(d * bodies.largest_spin(system.at.v), bodies.largest_spin(system.at.x)) > least))
-    return false;
-  const Points changed = system.at.v - system.problem.map.v_free;
-  const std::vector<bool> held = held_rotations(system);
+  const bool fast = std::max(d * bodies.largest_spin(system.at.v), bodies.largest_spin(system.at.x)) > least;
+  const auto has_period = [](const Slot& slot) { return slot.source->has_period(); };
+  if (!fast && std::none_of(system.slots.begin(), system.slots.end(), has_period)) return false;
   double turn = 0;  // rad, of a body that something holds
-  for (int b = 0; b < bodies.count(); ++b) {
-    if (!held[static_cast<std::size_t>(b)]) continue;
-    turn = std::max(turn, bodies.spin(b, system.at.x));
-    if (d * bodies.spin(b, system.at.v) > std::numbers::pi && d * bodies.spin(b, changed) > std::numbers::pi)
-      return true;
+  if (fast) {
+    const Points changed = system.at.v - system.problem.map.v_free;
+    const std::vector<bool> held = held_rotations(system);
+    for (int b = 0; b < bodies.count(); ++b) {
+      if (!held[static_cast<std::size_t>(b)]) continue;
+      turn = std::max(turn, bodies.spin(b, system.at.x));
+      if (d * bodies.spin(b, system.at.v) > std::numbers::pi &&
+          d * bodies.spin(b, changed) > std::numbers::pi)
+        return true;
+    }
   }
-  if (!(turn > least)) return false;
-  TurnedWay way(bodies, system.at.x, turn);
-  return way.places() == 0 || std::any_of(system.slots.begin(), system.slots.end(),
-                                          [&](const Slot& slot) { return slot.source->turns_over(h, way); });
+  TurnedWay way(bodies, system.at.x, turn, system.problem.start_time);
+  return way.places() == 0 || std::any_of(system.slots.begin(), system.slots.end(), [&](const Slot& slot) {
+           return (turn > least || has_period(slot)) && slot.source->turns_over(h, way);
+         });
 }
 
 }  // namespace pbd

@@ -191,6 +191,42 @@ TEST_CASE("turns: a hinge does not turn over, and a motor goes no other way roun
   CHECK(hinged(Vec3(0, 0, 3.2 - 2 * pi), 3.2 / Step::h) == 1);
 }
 
+TEST_CASE("turns: past half a turn from a stop at one side alone") {
+  const auto turns = [](double from, double turn, ForceBounds bounds) {
+    Scene scene;
+    add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+    add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1),
+             Eigen::Quaterniond(Eigen::AngleAxisd(from, Vec3::UnitZ())));
+    scene.effects.emplace_back(
+        AngleJoint{{{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0}, {0}, {}, {bounds}});
+    Step step(scene);
+    step.end.spin.col(1).z() = turn / Step::h;
+    step.move();
+    step.forces[0] = {0};
+    return refuted(step).count("turns");
+  };
+  CHECK(turns(3, 0.1, {0, infinity}) == 0);
+  CHECK(turns(3, 0.2, {0, infinity}) == 1);
+  CHECK(turns(-3, -0.1, {-infinity, 0}) == 0);
+  CHECK(turns(-3, -0.2, {-infinity, 0}) == 1);
+  CHECK(turns(3, 0.2, {-infinity, infinity}) == 0);
+}
+
+TEST_CASE("turns: about an axis that a reference passes near") {
+  const double beside = GENERATE(0.01, -0.01);  // rad
+  const double turn = GENERATE(0.9, -0.9) * 2 * std::numbers::pi;
+  Scene scene;
+  add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
+  add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1));
+  scene.effects.emplace_back(
+      AngleJoint{{{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0}, {1e9}});
+  Step step(scene);
+  step.end.spin.col(1) = turn / Step::h * Vec3(0, std::cos(beside), std::sin(beside));
+  step.move();
+  step.forces[0] = {0};
+  CHECK(refuted(step).count("turns") == 1);
+}
+
 TEST_CASE("turns: no lock, hard or soft, and no stop by a whole turn") {
   constexpr double pi = std::numbers::pi;
   const auto turns = [](double turn, double compliance, ForceBounds bounds) {

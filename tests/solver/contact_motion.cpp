@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "body_scenes.h"
 #include "collision/bounds.h"
 #include "collision/generate.h"
 #include "contact_shapes.h"
@@ -102,23 +103,11 @@ struct Pair {
   }
 };
 
-/// Kinetic energy, J.
-double energy(const Scene& scene, const State& state) {
-  double sum = 0;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto body = static_cast<Eigen::Index>(b);
-    if (!std::isfinite(scene.mass[b])) continue;
-    sum += scene.mass[b] * state.v.col(body).squaredNorm() / 2 +
-           scene.bodies[b].inertia.dot(state.spin.col(body).cwiseAbs2()) / 2;
-  }
-  return sum;
-}
-
 /// The share of its energy that a step without restitution gains, over what it may. Along straight gaps
 /// impulses take energy. Where a gap bends by the radius R, a body that goes M in h leaves at M^2/(2 R h),
 /// pushed by at most 2 m M/h: a gain of 2 M/R of its energy m (M/h)^2/2 at most. 0 where M is not small.
 double gained(const Scene& scene, const State& end, double h, double round) {
-  const double before = energy(scene, scene.initial), after = energy(scene, end);
+  const double before = kinetic_energy(scene, scene.initial), after = kinetic_energy(scene, end);
   constexpr double gyration = 0.4;  // m, no radius of gyration here is larger
   double moved = 0;
   for (const State* state : {&scene.initial, &end})

@@ -189,7 +189,7 @@ TEST_CASE("a step that makes no sense is refused, and the state kept") {
   Scene scene = chain(2);
   add_body(scene, Vec3::Zero(), 1, Vec3::Ones());
   Workspace workspace(scene, Method{});
-  for (const double h : {0.0, -1e-9, infinity, std::nan("")}) {
+  for (const double h : {0.0, -1e-9, 5e-324, infinity, std::nan("")}) {
     State state = scene.initial;
     CHECK_THROWS_WITH(step(workspace, h, state), Catch::Contains("h") && Catch::Contains("above 0 s"));
   }

@@ -22,6 +22,24 @@ TEST_CASE("tasks are done once each, whatever the threads") {
   }
 }
 
+TEST_CASE("tasks of a group begin when those of the one before are done, whatever the threads") {
+  constexpr int groups = 200;
+  std::vector<int> first;
+  for (int g = 0; g <= groups; ++g) first.push_back(g * (g + 1) / 2);  // group g of g + 1 tasks
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<int> done = 0, early = 0;
+    std::vector<int> count(static_cast<std::size_t>(first.back()));
+    each_of_groups(threads, first, [&](std::size_t k) {
+      const int begin = *std::prev(std::upper_bound(first.begin(), first.end(), static_cast<int>(k)));
+      early += done < begin;
+      ++count[k];
+      ++done;
+    });
+    CHECK(early == 0);
+    CHECK(std::all_of(count.begin(), count.end(), [](int times) { return times == 1; }));
+  }
+}
+
 TEST_CASE("sums are those of their parts in order, whatever the threads") {
   std::vector<double> term(100'000);
   for (std::size_t k = 0; k < term.size(); ++k) term[k] = 1.0 / static_cast<double>(k + 1);

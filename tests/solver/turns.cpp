@@ -127,6 +127,39 @@ TEST_CASE("a lock or a stop throws no fast wheel round with ok") {
   if (std::abs(turn) < std::numbers::pi) CHECK(report.status == Status::ok);
 }
 
+// Its reference passes the axis at 0.01 rad, and goes half a turn about it there.
+TEST_CASE("what turns about an angle's axis by nearly all of a turn near it is no step that says ok") {
+  const double beside = GENERATE(0.01, -0.01);  // rad
+  const double turn = GENERATE(0.9, -0.9) * 2 * std::numbers::pi;
+  Scene scene;
+  const int world = add_world(scene), body = add_body(scene, Vec3::Zero(), 1, Vec3::Ones());
+  scene.effects.emplace_back(
+      AngleJoint{{{world, body}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0}, {1e9}});
+  scene.initial.spin.col(body) = turn * Vec3(0, std::cos(beside), std::sin(beside));
+  Workspace workspace(scene, Method{});
+  State state = scene.initial;
+  CHECK(step(workspace, 1, state).reason.find("half a turn") != std::string::npos);
+}
+
+// It has the stop on its other side there: no step that says ok leads to where the next would throw it back.
+TEST_CASE(
+    "a wheel that turns away from its only stop goes past half a turn from it in no step that says ok") {
+  constexpr double h = 0.01;
+  const double turn = GENERATE(0.1, 0.9, 2.5) * GENERATE(1, -1);  // rad a step
+  const double compliance = GENERATE(0.0, 0.1);
+  Scene scene = driven(0);
+  auto& angle = std::get<AngleJoint>(scene.effects[1]);
+  angle.compliance = {compliance};
+  angle.bounds = {turn > 0 ? ForceBounds{0, infinity} : ForceBounds{-infinity, 0}};
+  scene.initial.spin.col(1).z() = turn / h;
+  Workspace workspace(scene, Method{});
+  State state = scene.initial;
+  const int last = static_cast<int>(std::numbers::pi / std::abs(turn));
+  for (int k = 0; k < last; ++k) CHECK(step(workspace, h, state).status == Status::ok);
+  CHECK(state.spin(2, 1) * h == Approx(turn));
+  CHECK(step(workspace, h, state).reason.find("half a turn") != std::string::npos);
+}
+
 TEST_CASE("a weld that begins open by a right angle is not turned over with ok") {
   const double open = GENERATE(0.3, 1.1, 1.25, 1.5);  // rad
   const double spin = GENERATE(-2.5, 0.0, 2.5);       // rad a step

@@ -85,4 +85,16 @@ inline Scene body_with_rope_and_solid() {
   return scene;
 }
 
+/// Kinetic energy of bodies that are the scene's first nodes, J.
+inline double kinetic_energy(const Scene& scene, const State& state) {
+  double sum = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto body = static_cast<Eigen::Index>(b);
+    if (!std::isfinite(scene.mass[b])) continue;
+    sum += scene.mass[b] * state.v.col(body).squaredNorm() / 2 +
+           scene.bodies[b].inertia.dot(state.spin.col(body).cwiseAbs2()) / 2;
+  }
+  return sum;
+}
+
 }  // namespace pbd::test

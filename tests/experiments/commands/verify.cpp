@@ -141,11 +141,24 @@ TEST_CASE("results that are none are refused by --resume") {
   const std::string altered =
       R"({"id": "a.first", "verdict": "holds", "expected": 1, "measured": 1e9, "bound": 1,
     "reason": "", "wall_s": 0})";
-  for (const std::string& wrong :
-       {std::string("[{\"id\": 3}]"), std::string("[{"), "[" + row + "]", "[" + altered + "]"}) {
+  const std::string widened =
+      R"({"id": "a.first", "verdict": "holds", "expected": 1, "measured": 77, "bound": 1e300,
+    "reason": "", "wall_s": 0})";
+  for (const std::string& wrong : {std::string("[{\"id\": 3}]"), std::string("[{"), "[" + row + "]",
+                                   "[" + altered + "]", "[" + widened + "]"}) {
     const auto file = folder.write("verify/ledger.json", wrong);
     CHECK_THROWS_WITH(verify(options, counted.rows), Catch::StartsWith(file.string() + ": got "));
   }
+}
+
+TEST_CASE("a record whose commit is no text is refused by --resume") {
+  const TemporaryFolder folder;
+  CountedRows counted;
+  VerifyOptions options{.directory = folder.path};
+  verify(options, counted.rows);
+  options.resume = true;
+  const auto file = folder.write("verify/run.json", R"({"commit": 3, "changes": null})");
+  CHECK_THROWS_WITH(verify(options, counted.rows), Catch::StartsWith(file.string() + ": got "));
 }
 
 TEST_CASE("a row that fails makes verify's exit code 1") {

@@ -107,6 +107,10 @@ TEST_CASE("only a whole run at tier quick becomes a baseline") {
     kept.record(status, tier);
     CHECK_THROWS_AS(bless_results(kept.results, kept.baseline, "why not"), pbd::SetupError);
   }
+  std::ofstream(kept.results / "run.json") << R"({"status": 3, "tier": null})";
+  CHECK_THROWS_WITH(bless_results(kept.results, kept.baseline, "why not"), Catch::Contains("status 3"));
+  std::ofstream(kept.results / "run.json") << R"({"status": "complete", "tier": "quick", "rows": 3})";
+  CHECK_THROWS_AS(bless_results(kept.results, kept.baseline, "why not"), pbd::SetupError);
   std::filesystem::remove(kept.results / "run.json");
   CHECK_THROWS_AS(bless_results(kept.results, kept.baseline, "why not"), pbd::SetupError);
   CHECK_FALSE(is_baseline(kept.baseline));

@@ -140,6 +140,8 @@ const std::vector<Mistake> mistakes{
      {"bad.msh:2", "binary", "ASCII"}},
     {"[step]\nstep_s = 0\nsteps = 1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
      {"scene.toml:2: step.step_s", "got 0", "a finite number > 0"}},
+    {"[step]\nstep_s = 5e-324\nsteps = 1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
+     {"scene.toml:2: step.step_s", "a number >= 1e-75"}},
     {"[step]\nstep_s = 0.1\n[[chain]]\nlength_m = 1\nmass_kg = 1\n",
      {"scene.toml:1: step.duration_s", "got nothing"}},
     {"[step]\nstep_s = 0.1\nsteps = 1\n", {"scene.toml", "a scene without nodes"}},

@@ -232,7 +232,7 @@ class ContactSearch {
   void keep_parted(const Configuration& start, const Configuration& end,
                    std::vector<ActiveContact>& contacts);
   void add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
-                    const Configuration& end, const Configuration& free, const ContactLists& contacts);
+                    const Configuration& end, const Configuration& free);
   bool is_left(const SurfaceContact& contact) const { return left_surfaces_.contains(contact.features()); }
   bool leaves(const ActiveContact& contact, const Points& x) const;
   bool drop_left_surfaces(const Points& x, const ContactLists& contacts);

@@ -152,11 +152,10 @@ void ContactSearch::keep_parted(const Configuration& start, const Configuration&
   });
 }
 
-/// Adds what touches of a pair at `end` to the late contacts, but for what has left its features and what
-/// other contacts say, in the place of those of its contacts that have.
+/// Adds what touches of a pair at `end` to the late contacts, but for what has left its features, in the
+/// place of those of its contacts that have.
 void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const Configuration& start,
-                                 const Configuration& end, const Configuration& free,
-                                 const ContactLists& contacts) {
+                                 const Configuration& end, const Configuration& free) {
   const Pair pair = begun(left.front().pair(), start);
   if (left.front().law.restitution > 0) {
     overlapping_.clear();
@@ -167,18 +166,10 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
     const double least = goes_round_apart(pair, pair.overlooked) ? -infinity : pair.deepest - pair.overlooked;
     keep_overlapping(pair, start, end, reach, least);
   }
-  const auto says = [&](const ActiveContact& own, const ActiveContact& found) {
-    return own.features.key == found.features.key && own.pair() == pair.collider &&
-           agree(own, found, end, beside(pair.collider));
-  };
   const auto place = [&](const ActiveContact& own) { return touching_at(own, end).point_a; };
   for (ActiveContact& found : overlapping_) {
     const PairFeatures features{pair.collider, found.features.key};
     if (is_left(features) || late_contact(features) != late_.end()) continue;
-    if (std::any_of(contacts.begin(), contacts.end(), [&](const auto& list) {
-          return std::any_of(list.begin(), list.end(), [&](const auto& own) { return says(own, found); });
-        }))
-      continue;
     const Vec3 here = place(found);
     const auto nearest = std::min_element(left.begin(), left.end(), [&](const auto& one, const auto& other) {
       return (place(one) - here).norm() < (place(other) - here).norm();
@@ -243,7 +234,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       dropped_.push_back(features.collider);
       if (const auto late = late_contact(features); late != late_.end()) late_.erase(late);
     }
-    if (!of_pair.empty()) add_touching(of_pair, start, end, free, contacts);
+    if (!of_pair.empty()) add_touching(of_pair, start, end, free);
   }
   std::sort(dropped_.begin(), dropped_.end());
   return drop_left_surfaces(end.x, contacts) || !dropped_.empty();

@@ -212,16 +212,22 @@ TEST_CASE("turns: past half a turn from a stop at one side alone") {
   CHECK(turns(3, 0.2, {-infinity, infinity}) == 0);
 }
 
+// Turned by 0.09 rad, from place to place of the judge, about an axis w at 45 degrees to its reference, which
+// passes the angle's axis outside the chord between the places.
 TEST_CASE("turns: about an axis that a reference passes near") {
-  const double beside = GENERATE(0.01, -0.01);  // rad
-  const double turn = GENERATE(0.9, -0.9) * 2 * std::numbers::pi;
+  constexpr double turn = 4.5, slope = std::numbers::pi / 4, apart = 4.5 / 64;  // rad
+  const double height = std::sin(slope) * std::cos(slope) * apart * apart / 8;
+  const Vec3 w(std::sin(slope - height / 2), 0, std::cos(slope - height / 2));
+  const Vec3 middle(-std::sin(height / 2), 0, std::cos(height / 2));
+  const auto begin =
+      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), Eigen::AngleAxisd(-apart / 2, w) * middle);
   Scene scene;
   add_body(scene, Vec3::Zero(), infinity, Vec3::Constant(infinity));
-  add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1));
+  add_body(scene, Vec3::Zero(), 1, Vec3::Constant(0.1), begin);
   scene.effects.emplace_back(
       AngleJoint{{{0, 1}}, {Vec3::UnitZ()}, {{Vec3::UnitX(), Vec3::UnitX()}}, {0}, {0}, {1e9}});
   Step step(scene);
-  step.end.spin.col(1) = turn / Step::h * Vec3(0, std::cos(beside), std::sin(beside));
+  step.end.spin.col(1) = turn / Step::h * (begin.conjugate() * w);
   step.move();
   step.forces[0] = {0};
   CHECK(refuted(step).count("turns") == 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -210,8 +211,8 @@ void bless_results(const fs::path& results, const fs::path& baseline, const std:
   try {
     for (const char* key : {"commit", "dirty"}) head[key] = record.at(key);
     for (const char* key : same_keys) head[key] = record.at(key);
-    for (const auto& [name, rows] : record.at("rows").items())
-      if (name != "verdicts" && rows.get<int>() > 0) names.push_back(name);
+    for (const auto& [name, rows] : record.at("rows").get<std::map<std::string, int>>())
+      if (name != "verdicts" && rows > 0) names.push_back(name);
   } catch (const nlohmann::ordered_json::exception& error) {
     throw pbd::SetupError((results / "run.json").string(), error.what(), "a record as `run` writes it");
   }

@@ -105,7 +105,7 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
           : contact.target;
   const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
   contact.compliance = elastic * contact.law.compliance;
-  // The damper is met with the shape; what is seen late was apart.
+  // The damper is met with the shape; what is seen late counts as apart before.
   contact.offset = contact.late ? 0 : (1 - elastic) * (std::min(from, 0.0) - contact.target);
 }
 

@@ -219,7 +219,8 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       if (const auto edges = as_edges(contact, start, end)) {
         left_.insert(features);
         dropped_.push_back(features.collider);
-        add_late(*edges, contact.late ? contact.target : std::min(touching_at(contact, start).gap, 0.0));
+        add_late(*edges, contact.late ? begun(contact.pair(), start).deepest
+                                      : std::min(touching_at(contact, start).gap, 0.0));
         continue;
       }
       if (contact.restitution > 0 || (on_shapes(contact, end) && is_nearest(contact, start, end))) continue;

@@ -94,8 +94,7 @@ void validate(const Scene& scene) {
 }
 
 void validate(const Scene& scene, double h, const State& state) {
-  REQUIRE(h >= least_step && std::isfinite(h), "h", text(h),
-          "a finite step above 0 s, from " + text(least_step) + " on");
+  REQUIRE(h >= least_step && std::isfinite(h), "h", text(h), "a finite step above 0 s, of 1e-75 s or more");
   const auto require_count = [](const char* what, std::ptrdiff_t found, std::ptrdiff_t wanted) {
     REQUIRE(found == wanted, what, text(found) + " entries", "as many as the scene has, " + text(wanted));
   };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,7 @@ void add_scattered(Block& block, Sum& total, F&& f) {
   };
   if (chunks.order.empty()) return range(0, block.size(), total);
   const std::size_t length = block.chunk_length();
+  assert(chunks.order.size() <= most_chunks);
   std::array<Sum, most_chunks> part{};
   each_of_groups(chunks.threads, chunks.colour, [&](std::size_t k) {
     const std::size_t first = static_cast<std::size_t>(chunks.order[k]) * length;

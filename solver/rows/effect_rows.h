@@ -75,7 +75,11 @@ class EffectRows final : public Source {
     for (AnyBlock& any : blocks) sums += linearise_block(place, std::get<Block>(any));
   }
 
-  bool has_period() const override { return is_angle; }
+  bool twists_far(double h, const Configuration& start, const Configuration& reached,
+                  double extension) const override {
+    if constexpr (is_angle) return pbd::twists_far(scene_, effect_, h, start, reached, extension);
+    return false;
+  }
 
   bool turns_over(double h, TurnedWay& way) const override {
     if constexpr (is_angle) return pbd::twists_over(scene_, effect_, h, way);

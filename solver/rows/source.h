@@ -191,8 +191,13 @@ class Source {
   /// half a turn from a limit, beyond which they would be on its other side.
   virtual bool turns_over(double /*h*/, TurnedWay& /*way*/) const { return false; }
 
-  /// True of angles, which jump by a period: `turns_over` is to look at them however slowly bodies turn.
-  virtual bool has_period() const { return false; }
+  /// True if a constraint's angle goes by more than a radian on the way of a step of h seconds, or past half
+  /// a turn from a limit: `turns_over` is to look at it, however slowly bodies turn. The way is `extension`
+  /// times as far as from `start` to `reached`, both at the time of the start.
+  virtual bool twists_far(double /*h*/, const Configuration& /*start*/, const Configuration& /*reached*/,
+                          double /*extension*/) const {
+    return false;
+  }
 
   /// True if a constraint drives bodies by more than half a turn in h seconds, which it cannot tell from the
   /// other way round.

@@ -23,7 +23,8 @@ void each_task(int threads, std::size_t count, F&& f) {
       [](void* context, std::size_t k) { (*static_cast<std::remove_reference_t<F>*>(context))(k); }, &f);
 }
 
-/// The same for all k of groups, one group after the other. `first` states where each begins, and the total.
+/// The same for all k of groups, one group after the other. `first` states where each begins, and then the
+/// total.
 void run_groups(int threads, std::span<const int> first, void (*task)(void* context, std::size_t k),
                 void* context);
 

@@ -11,16 +11,23 @@
 
 namespace pbd {
 
+/// The value c of constraint i.
+template <class E>
+typename Constraint<E>::Value value_at(const Scene& scene, const E& effect, std::size_t i,
+                                       const Configuration& at) {
+  typename Constraint<E>::Value value;
+  typename Constraint<E>::Jacobian unused;
+  Constraint<E>::evaluate(effect, i, local_at(effect, i, columns_of(scene, effect, i), at), value, unused);
+  return value;
+}
+
 /// The values c of an effect at a share of the way.
 template <class E>
 std::vector<typename Constraint<E>::Value> values_on(const Scene& scene, const E& effect, TurnedWay& way,
                                                      double share) {
-  using C = Constraint<E>;
   const Configuration at = way.at(share);
-  std::vector<typename C::Value> values(constraint_count(effect));
-  typename C::Jacobian unused;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    C::evaluate(effect, i, local_at(effect, i, columns_of(scene, effect, i), at), values[i], unused);
+  std::vector<typename Constraint<E>::Value> values(constraint_count(effect));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_at(scene, effect, i, at);
   return values;
 }
 
@@ -62,23 +69,41 @@ void add_twists(const Scene& scene, const E& effect, TurnedWay& way, double from
   for (std::size_t i = 0; i < step.size(); ++i) twist[i] += step[i];
 }
 
-/// True if a constraint's angle turns by more than half a turn otherwise than it is driven, or a limit's goes
-/// past the back of it: where it jumps by 2 pi and has the limit on its other side.
+/// True if constraint i's angle, `begin` where a step of h seconds begins, goes on by `twist` (rad), which is
+/// more than half a turn otherwise than it is driven, or takes it past the back of a limit: there it jumps by
+/// 2 pi, and has the limit on its other side. One that begins there may be on either.
+template <class E>
+bool is_over(const E& effect, std::size_t i, double begin, double twist, double h) {
+  constexpr double half = Constraint<E>::period / 2, rounded = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double more = half * (1 + rounded), less = half * (1 - rounded);
+  const double turned = twist - effect.rate[i] * h;
+  const auto [lower, upper] = force_bounds(effect, i);
+  const bool stops = (lower == 0) != (upper == 0) && std::abs(begin) < less;
+  return std::abs(turned) > more || (stops && std::abs(begin + turned) > more);
+}
+
+/// As Source::twists_far.
+template <class E>
+bool twists_far(const Scene& scene, const E& effect, double h, const Configuration& start,
+                const Configuration& reached, double extension) {
+  for (std::size_t i = 0; i < constraint_count(effect); ++i) {
+    const double begin = value_at(scene, effect, i, start)[0], end = value_at(scene, effect, i, reached)[0];
+    const double twist = extension * std::remainder(end - begin, Constraint<E>::period);
+    if (std::abs(twist) > 2 * TurnedWay::most_apart || is_over(effect, i, begin, twist, h)) return true;
+  }
+  return false;
+}
+
+/// As Source::turns_over, of angles.
 template <class E>
 bool twists_over(const Scene& scene, const E& effect, double h, TurnedWay& way) {
   constexpr int halvings = 16;  // what passes an axis by less than 1e-5 rad turns about it either way
-  constexpr double half = Constraint<E>::period / 2, rounded = 64 * std::numeric_limits<double>::epsilon();
   const auto begin = values_on(scene, effect, way, 0);
   std::vector<double> twist(begin.size(), 0.0);
   for (int k = 0; k < way.places(); ++k)
     add_twists(scene, effect, way, way.share(k), way.share(k + 1), halvings, twist);
-  for (std::size_t i = 0; i < twist.size(); ++i) {
-    const double turned = twist[i] - effect.rate[i] * h;
-    const auto [lower, upper] = force_bounds(effect, i);
-    const bool stops = (lower == 0) != (upper == 0);
-    if (std::abs(turned) > half || (stops && std::abs(begin[i][0] + turned) > half * (1 + rounded)))
-      return true;
-  }
+  for (std::size_t i = 0; i < twist.size(); ++i)
+    if (is_over(effect, i, begin[i][0], twist[i], h)) return true;
   return false;
 }
 

@@ -1,4 +1,5 @@
-// The turns of a step's way, in places between which no body turns by more than half a radian, each steadily.
+// The turns of a step's whole way, in places between which no body turns by more than half a radian, or a
+// single way where none turns by more than one. Each turns steadily.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,12 @@ namespace pbd {
 class TurnedWay {
  public:
   static constexpr double most_apart = 0.5;  // rad, that a body turns from place to place
+  static constexpr double slow = 1;          // rad: what turns by no more is looked at where it ends alone
 
-  /// The way to positions x of all columns from where a step begins at `time` (s). No body turns by more than
-  /// `turn` (rad) on it, or by more than a radian.
-  TurnedWay(const Bodies& bodies, const Points& x, double turn, double time)
-      : bodies_(bodies), end_(x), places_(count(turn)), time_(time) {}
+  /// From where a step begins at `time` (s), `extension` times as far as to the positions x of all columns.
+  /// No body turns by more than the larger of `turn` and `slow` (rad) on it.
+  TurnedWay(const Bodies& bodies, const Points& x, double extension, double turn, double time)
+      : bodies_(bodies), x_reached_(x), extension_(extension), places_(count(turn)), time_(time) {}
 
   /// 0 where there would be too many to look at.
   int places() const { return places_; }
@@ -29,7 +31,8 @@ class TurnedWay {
   static int count(double turn);
 
   const Bodies& bodies_;
-  const Points& end_;
+  const Points& x_reached_;
+  double extension_;
   int places_;
   double time_;
   Points x_;

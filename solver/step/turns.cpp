@@ -28,25 +28,28 @@ bool turned_round(const StepSystem& system) {
   const double d = system.problem.map.d, h = system.problem.map.h;
   for (const Slot& slot : system.slots)
     if (slot.source->drives_round(h)) return true;
-  constexpr double least = 1;  // rad: two that turn over each other turn by more than twice this
-  const bool fast = std::max(d * bodies.largest_spin(system.at.v), bodies.largest_spin(system.at.x)) > least;
-  const auto has_period = [](const Slot& slot) { return slot.source->has_period(); };
-  if (!fast && std::none_of(system.slots.begin(), system.slots.end(), has_period)) return false;
+  const double extension = system.problem.coefficients.extension;
+  constexpr double least = TurnedWay::slow;  // two that turn over each other turn by more than twice this
+  const double reached = extension * bodies.largest_spin(system.at.x);
+  const bool fast = std::max(d * bodies.largest_spin(system.at.v), reached) > least;
+  const Configuration start = system.problem.start(), end{system.at.x, system.at.poses, start.time};
+  const auto twists_far = [&](const Slot& slot) { return slot.source->twists_far(h, start, end, extension); };
+  if (!fast && std::none_of(system.slots.begin(), system.slots.end(), twists_far)) return false;
   double turn = 0;  // rad, of a body that something holds
   if (fast) {
     const Points changed = system.at.v - system.problem.map.v_free;
     const std::vector<bool> held = held_rotations(system);
     for (int b = 0; b < bodies.count(); ++b) {
       if (!held[static_cast<std::size_t>(b)]) continue;
-      turn = std::max(turn, bodies.spin(b, system.at.x));
+      turn = std::max(turn, extension * bodies.spin(b, system.at.x));
       if (d * bodies.spin(b, system.at.v) > std::numbers::pi &&
           d * bodies.spin(b, changed) > std::numbers::pi)
         return true;
     }
   }
-  TurnedWay way(bodies, system.at.x, turn, system.problem.start_time);
+  TurnedWay way(bodies, system.at.x, extension, turn, start.time);
   return way.places() == 0 || std::any_of(system.slots.begin(), system.slots.end(), [&](const Slot& slot) {
-           return (turn > least || has_period(slot)) && slot.source->turns_over(h, way);
+           return (turn > least || twists_far(slot)) && slot.source->turns_over(h, way);
          });
 }
 

@@ -158,7 +158,9 @@ TEST_CASE(
   angle.compliance = {compliance};
   angle.bounds = {turn > 0 ? ForceBounds{0, infinity} : ForceBounds{-infinity, 0}};
   scene.initial.spin.col(1).z() = turn / h;
-  Workspace workspace(scene, Method{});
+  Method method;
+  method.integrator = GENERATE("implicit_euler", "midpoint");
+  Workspace workspace(scene, method);
   State state = scene.initial;
   const int last = static_cast<int>(std::numbers::pi / std::abs(turn));
   for (int k = 0; k < last; ++k) CHECK(step(workspace, h, state).status == Status::ok);

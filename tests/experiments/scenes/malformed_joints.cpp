@@ -103,6 +103,8 @@ const std::vector<Mistake> joint_mistakes{
      {"scene.toml:18: joint.0.points_m", "one place and two", "points_m with close_s"}},
     {joint("distance", "points_m = [[0, 0, 0], [1, 0, 0]]\nclose_s = 1\nmin_length_m = 1\n"),
      {"scene.toml:19: joint.0.close_s", "close_s and limits"}},
+    {"[[torque]]\nbody = \"arm\"\ntorque_n_m = [1, 0, 0]\nover_time = [[0, 1e100], [1e-300, -1e100]]\n",
+     {"scene.toml:18: torque.0.over_time", "-1e+100 after 1e+100 within 1e-300 s", "a finite rate"}},
     {"[[torque]]\nbody = \"arm\"\ntorque_n_m = [1, 0, 0]\nover_time = []\n",
      {"scene.toml:18: torque.0.over_time", "an empty list", "at least one"}},
     {"[[torque]]\nbody = \"arm\"\ntorque_n_m = [1, 0, 0]\nover_time = [[0, 1], [0, 2]]\n",

@@ -151,7 +151,7 @@ TEST_CASE("what goes round an angle's axis near it by more than half a turn is n
 TEST_CASE(
     "a wheel that turns away from its only stop goes past half a turn from it in no step that says ok") {
   constexpr double h = 0.01;
-  const double turn = GENERATE(0.1, 0.9, 2.5) * GENERATE(1, -1);  // rad a step
+  const double turn = GENERATE(0.102, 0.8, 2.5) * GENERATE(1, -1);  // rad a step, half of which ends short
   const double compliance = GENERATE(0.0, 0.1);
   Scene scene = driven(0);
   auto& angle = std::get<AngleJoint>(scene.effects[1]);

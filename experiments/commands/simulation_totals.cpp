@@ -8,7 +8,7 @@
 namespace pbdcheck {
 
 bool WorstStep::is_less_than(const pbd::Report& report) const {
-  return !std::isnan(residual) && !(report.residual() <= residual);
+  return step == 0 || (!std::isnan(residual) && !(report.residual() <= residual));
 }
 
 std::string WorstStep::text() const {
@@ -29,7 +29,7 @@ void SimulationTotals::add(const pbd::Report& report, int parts,
   sweeps += report.sweeps;
   row_updates += report.row_updates;
   const auto take = [&](WorstStep& own) {
-    if (own.step == 0 || own.is_less_than(report))
+    if (own.is_less_than(report))
       own = {report.residual(), steps, report.worst ? name(*report.worst) : "", std::string(report.reason)};
   };
   take(worst);

@@ -14,11 +14,11 @@ namespace pbdcheck {
 /// One step's residual: NaN if it diverged, infinite where nothing moves, as there is no scale.
 struct WorstStep {
   double residual = 0;
-  std::int64_t step = 0;
+  std::int64_t step = 0;     // 0: none yet
   std::string constraint{};  // most of it; empty where none is told
   std::string reason{};      // why it is not ok; empty if it is
 
-  /// True if the report's residual is larger, or NaN where this one is not.
+  /// True if there is none yet, or if the report's residual is larger, or NaN where this one is not.
   bool is_less_than(const pbd::Report& report) const;
   /// For people.
   std::string text() const;

@@ -136,7 +136,7 @@ class LedgerRun {
         const auto refuse = [&](const char* what) {
           throw pbd::SetupError(ledger_file().string(), rows_[k].id + what, allowed);
         };
-        if (result.expected == result.expected && bound_of(rows_[k], result.expected) != result.bound)
+        if (!std::isnan(result.expected) && bound_of(rows_[k], result.expected) != result.bound)
           refuse(" with a bound that is not the row's");
         if (verdict_of(rows_[k], result) != result.verdict)
           refuse(" with a verdict that its numbers do not give");

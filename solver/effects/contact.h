@@ -83,7 +83,7 @@ class ContactRows final : public Source {
   bool fill(const StepBegin& begin, std::span<const Configuration> places, const Configuration& last,
             BlockSpan blocks);
   template <class Block>
-  double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from, const Block& block,
+  double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double shift, const Block& block,
                    std::size_t i) const;
   template <class Block>
   void take_seed(const Configuration& at, const ActiveContact& contact, Block& block, std::size_t i) const;

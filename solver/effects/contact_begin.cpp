@@ -31,13 +31,13 @@ void ContactRows::keep_impulses(ConstBlockSpan blocks) {
   seeds_.sort();
 }
 
-/// The gap that a contact aims at, `gap` where the step begins and `from` at x0 (m).
+/// The gap that a contact aims at, `gap` where the step begins and farther by `shift` at x0 (m).
 template <class Block>
-double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double from,
+double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double shift,
                               const Block& block, std::size_t i) const {
   constexpr double recovered =
       0.1;  // a step, of what missed steps left: at once it would take a hundred times the energy
-  const double target = std::min(0.0, std::max(gap, from + effect_.recovery * begin.map.d));
+  const double target = std::min(0.0, std::max(gap, gap + shift + effect_.recovery * begin.map.d));
   if (!recovering_ || gap >= target) return target;
   const double forced = std::abs((block.jacobian[i] * block.gather(shifts.forced, i))[0]);
   return std::min(target, (1 - recovered) * gap + forced);
@@ -79,16 +79,15 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   auto& jacobian = block.jacobian[i];
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
-  const double from = gap + (jacobian * block.gather(shifts.own, i))[0];
-  const double recovered = target_of(begin, shifts, gap, from, block, i);
-  // A late one's target is how deep its pair began, whose features may have lain anywhere; a triangle may
-  // begin cut elsewhere.
+  const double shift = (jacobian * block.gather(shifts.own, i))[0], from = gap + shift;
+  const auto recovered = [&](double deep) { return target_of(begin, shifts, deep, shift, block, i); };
+  // A late one is told how deep its pair began, as its features may have lain anywhere then; a triangle may
+  // have begun cut by others. Of what surfaces pass the planes may have lain anywhere: its target stays.
   if (!contact.late)
-    contact.target = recovered;
-  else if (contact.triangle_side >= 0 && !contact.of_surfaces)
-    contact.target = std::min(contact.target, recovered);
+    contact.target = recovered(gap);
   else if (!contact.of_surfaces)
-    contact.target = target_of(begin, shifts, contact.target, contact.target + from - gap, block, i);
+    contact.target =
+        contact.triangle_side >= 0 ? std::min(contact.target, recovered(gap)) : recovered(contact.target);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   const bool springs = contact.law.compliance > 0 && contact.law.damping == 0;

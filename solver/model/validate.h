@@ -20,7 +20,7 @@ inline constexpr double most_speed = 1e15;
 /// ones.
 inline constexpr double most_mass_ratio = 1e15;
 
-/// Least step (s): one over its fourth power is a number. Written out where steps are refused.
+/// Least step (s): one over its fourth power is a number. What refuses a step spells it out.
 inline constexpr double least_step = 1e-75;
 
 /// Throws SetupError naming effect, entry, value and what is allowed: sizes that do not match, node indices

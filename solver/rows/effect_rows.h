@@ -1,28 +1,16 @@
 // The source of an effect that states Constraint<E>: loops over its constraints, instantiated in the file of
-// that effect alone. Damping is a change of value and compliance. A constraint's value follows the
-// integrator's rule for positions (integrators.h), so that its rate belongs to the velocity v:
-//   dc/dt = (c - c0)/d,   c0 = c_l + J_l (x_v v_l + x_a a_l) + before (c_l - c_l-1) + k v_l^T c'' v_l
-// with k = x_a, and less d^2/2 where x is no position of the motion but the middle of a chord (midpoint).
-// Implicit Euler has c0 = c_l. Then c + T dc/dt + A gamma = 0 is
-//   c - offset + (1 + T/d)^-1 A gamma = 0,   offset = (1 - (1 + T/d)^-1) c0.
-// For solids (1 + T/d)^-1 A is the inverse of V (C + C_d/d). It is the gradient of a potential: elastic
-// energy and d/2 (dc/dt)^T A^-1 T (dc/dt) (servin2006interactive).
+// that effect alone.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "rows/effect_constraint.h"
+#include "rows/begin_values.h"
 #include "rows/limit_stops.h"
 #include "rows/turned_joints.h"
 
 namespace pbd {
-
-/// k of c0.
-inline double bend_of_rate(const StepCoefficients& c) {
-  return c.x_a - (c.extension == 1 ? 0.0 : c.d * c.d / 2);
-}
 
 template <class E>
 class EffectRows final : public Source {
@@ -55,9 +43,9 @@ class EffectRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
     for (AnyBlock& any : blocks) {
       if (kind().damped)
-        begin_damping(begin, std::get<Block>(any));
+        begin_damping(effect_, begin, std::get<Block>(any));
       else if (is_angle)
-        keep_values(begin, std::get<Block>(any));
+        keep_values(effect_, begin, std::get<Block>(any));
       if constexpr (requires { effect_.bounds; })
         if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
     }
@@ -111,7 +99,7 @@ class EffectRows final : public Source {
       each_scattered(block, [&](std::size_t i) {
         Value value;
         Jacobian jacobian;
-        evaluate(block, i, error.turned, value, jacobian);
+        evaluate_on(effect_, block, i, error.turned, value, jacobian);
         if (error.directions != nullptr) take_directions(block, i, *error.directions, jacobian);
         if (!block.offset.empty()) value -= block.offset[i];
         Operations::perturb(error, value, jacobian, block, i, push);
@@ -216,12 +204,7 @@ class EffectRows final : public Source {
   }
 
  private:
-  static constexpr bool is_angle = requires { C::period; };
-
-  /// The value nearest to `to` of those that a periodic constraint has: within a step it does not jump.
-  static void unwrap(const Value& to, Value& value) {
-    if constexpr (is_angle) value[0] += C::period * std::round((to[0] - value[0]) / C::period);
-  }
+  static constexpr bool is_angle = pbd::is_angle<E>;
 
   static Kind kind_of(const E& effect) {
     Kind kind{constraint_count(effect), C::rows};
@@ -233,33 +216,13 @@ class EffectRows final : public Source {
     return kind;
   }
 
-  void evaluate(const Block& block, std::size_t i, const Configuration& at, Value& value,
-                Jacobian& jacobian) const {
-    evaluate_anew(block, i, at, value, jacobian);
-    if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
-  }
-
-  /// Wherever the step began.
-  void evaluate_anew(const Block& block, std::size_t i, const Configuration& at, Value& value,
-                     Jacobian& jacobian) const {
-    const std::size_t entry = block.entry(i);
-    C::evaluate(effect_, entry, local_at(effect_, entry, block.node[i], at), value, jacobian);
-  }
-
   /// c at a constraint's own places, and J as the block keeps it.
   void linearise_at(Block& block, std::size_t i, const typename C::Positions& own, Value& value) const {
     if constexpr (Block::keeps_matrices)
       C::evaluate(effect_, block.entry(i), own, value, block.jacobian[i]);
     else
       C::linearise(effect_, block.entry(i), own, value, block.jacobian, i);
-    if (!block.begin_value.empty()) unwrap(block.begin_value[i], value);
-  }
-
-  void keep_values(const StepBegin& begin, Block& block) const {
-    block.begin_value.resize(block.size());
-    Jacobian unused;
-    for (std::size_t i = 0; i < block.size(); ++i)
-      evaluate_anew(block, i, begin.at, block.begin_value[i], unused);
+    if (!block.begin_value.empty()) unwrap<E>(block.begin_value[i], value);
   }
 
   void find_stops(const StepBegin& begin, Block& block) {
@@ -287,7 +250,7 @@ class EffectRows final : public Source {
   /// J of constraint i at other positions than its value's.
   void take_directions(const Block& block, std::size_t i, const Configuration& at, Jacobian& jacobian) const {
     Value unused;
-    evaluate(block, i, at, unused, jacobian);
+    evaluate_on(effect_, block, i, at, unused, jacobian);
   }
 
   RowResidual linearise_block(const RowPlace& place, Block& block) const {
@@ -310,40 +273,6 @@ class EffectRows final : public Source {
       Operations::linearise(place, value, largest, block, i, own_sums);
     });
     return sums;
-  }
-
-  void begin_damping(const StepBegin& begin, Block& block) const {
-    const StepCoefficients& c = begin.coefficients;
-    const auto share_of = [&](std::size_t entry) {  // (1 + T/d)^-1
-      return inverse_of(Square(Square::Identity() + C::retardation(effect_, entry) / c.d));
-    };
-    const Square common = C::one_material && block.size() > 0 ? share_of(block.entry(0)) : Square::Identity();
-    block.compliance.set_unit(common * C::unit_compliance(effect_));
-    block.offset.resize(block.size());
-    block.begin_value.resize(block.size());
-    each_own(block, [&](std::size_t i) {
-      const std::size_t entry = block.entry(i);
-      Value value, ahead, behind;
-      Jacobian jacobian, unused;
-      evaluate_anew(block, i, begin.at, value, jacobian);
-      Value from = value;  // c0
-      if (c.x_v != 0) from += jacobian * (c.x_v * block.gather(begin.v, i));
-      if (c.x_a != 0) from += jacobian * (c.x_a * block.gather(begin.a, i));
-      if (c.before != 0) {
-        unwrap(value, block.begin_value[i]);
-        from += c.before * (value - block.begin_value[i]);
-      }
-      block.begin_value[i] = value;
-      if (bend_of_rate(c) != 0) {
-        evaluate(block, i, begin.ahead, ahead, unused);
-        evaluate(block, i, begin.behind, behind, unused);
-        from += bend_of_rate(c) * ((ahead - 2 * value + behind) / (c.d * c.d));
-      }
-      const Square share = C::one_material ? common : share_of(entry);
-      block.offset[i] = from - share * from;
-      const double own_share = C::one_material ? 1 : share(0, 0);  // T is one number then
-      block.compliance.set(i, own_share * C::compliance_scale(effect_, entry) / (c.s * c.d));
-    });
   }
 
   const Scene& scene_;

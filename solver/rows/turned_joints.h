@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "rows/effect_constraint.h"
 #include "rows/turned_way.h"
@@ -47,27 +49,63 @@ bool opens_over(const Scene& scene, const E& effect, TurnedWay& way) {
   return false;
 }
 
-/// Adds to `twist` by how much each value goes on between two shares of the way, rad. Where one goes farther
-/// than both bodies turn from place to place, as where a reference passes near the axis, it is looked at
-/// between them.
+/// By how much the values of an effect's angles go on along a way, rad.
 template <class E>
-void add_twists(const Scene& scene, const E& effect, TurnedWay& way, double from, double to, int halvings,
-                std::vector<double>& twist) {
-  using C = Constraint<E>;
-  const auto before = values_on(scene, effect, way, from), after = values_on(scene, effect, way, to);
-  std::vector<double> step(twist.size());
-  for (std::size_t i = 0; i < step.size(); ++i)
-    step[i] = std::remainder(after[i][0] - before[i][0], C::period);
-  const bool jumps = std::any_of(step.begin(), step.end(),
-                                 [](double angle) { return std::abs(angle) > 2 * TurnedWay::most_apart; });
-  if (jumps && halvings > 0) {
-    const double middle = (from + to) / 2;
-    add_twists(scene, effect, way, from, middle, halvings - 1, twist);
-    add_twists(scene, effect, way, middle, to, halvings - 1, twist);
-    return;
+class Twists {
+  using Values = std::vector<typename Constraint<E>::Value>;
+
+ public:
+  Twists(const Scene& scene, const E& effect, TurnedWay& way)
+      : scene_(scene),
+        effect_(effect),
+        way_(way),
+        begin_(values_on(scene, effect, way, 0)),
+        sum_(begin_.size()) {
+    Values last = begin_;
+    for (int k = 1; k <= way.places(); ++k) {
+      Values next = values_on(scene, effect, way, way.share(k));
+      add(way.share(k - 1), last, way.share(k), next);
+      last = std::move(next);
+    }
   }
-  for (std::size_t i = 0; i < step.size(); ++i) twist[i] += step[i];
-}
+
+  std::size_t size() const { return sum_.size(); }
+  double begin(std::size_t i) const { return begin_[i][0]; }
+  double operator[](std::size_t i) const { return sum_[i]; }
+
+ private:
+  static double between(const Values& before, const Values& after, std::size_t i) {
+    return std::remainder(after[i][0] - before[i][0], Constraint<E>::period);
+  }
+
+  /// Where one goes farther than both bodies turn from place to place, as where a reference passes near the
+  /// axis, the way is halved there.
+  void add(double from, const Values& before, double to, const Values& after) {
+    bool jumps = false;
+    for (std::size_t i = 0; i < size(); ++i)
+      jumps |= std::abs(between(before, after, i)) > 2 * TurnedWay::most_apart;
+    const double middle = (from + to) / 2;
+    if (jumps && from < middle && middle < to && halvings_ < most_halvings) {
+      ++halvings_;
+      const Values halfway = values_on(scene_, effect_, way_, middle);
+      add(from, before, middle, halfway);
+      add(middle, halfway, to, after);
+      return;
+    }
+    for (std::size_t i = 0; i < size(); ++i) sum_[i] += between(before, after, i);
+  }
+
+  /// Of a way: twenty take a reference that passes the axis by 1e-6 rad. Of one that stays on it no number
+  /// would tell anything.
+  static constexpr int most_halvings = 1000;
+
+  const Scene& scene_;
+  const E& effect_;
+  TurnedWay& way_;
+  Values begin_;
+  std::vector<double> sum_;
+  int halvings_ = 0;
+};
 
 /// True if constraint i's angle, `begin` where a step of h seconds begins, goes on by `twist` (rad), which is
 /// more than half a turn otherwise than it is driven, or takes it past the back of a limit: there it jumps by
@@ -97,13 +135,9 @@ bool twists_far(const Scene& scene, const E& effect, double h, const Configurati
 /// As Source::turns_over, of angles.
 template <class E>
 bool twists_over(const Scene& scene, const E& effect, double h, TurnedWay& way) {
-  constexpr int halvings = 16;  // what passes an axis by less than 1e-5 rad turns about it either way
-  const auto begin = values_on(scene, effect, way, 0);
-  std::vector<double> twist(begin.size(), 0.0);
-  for (int k = 0; k < way.places(); ++k)
-    add_twists(scene, effect, way, way.share(k), way.share(k + 1), halvings, twist);
-  for (std::size_t i = 0; i < twist.size(); ++i)
-    if (is_over(effect, i, begin[i][0], twist[i], h)) return true;
+  const Twists twists(scene, effect, way);
+  for (std::size_t i = 0; i < twists.size(); ++i)
+    if (is_over(effect, i, twists.begin(i), twists[i], h)) return true;
   return false;
 }
 

@@ -37,7 +37,7 @@ struct Report {
   std::string_view linear_part;  // the linear solver, of `direct` the part, that worked last; empty if
                                  // nothing was relaxed
 
-  /// Largest residual relative to `scale`; 0 if that vanishes and what is left is rounding.
+  /// Largest residual relative to `scale`; 0 if that vanishes and what is left is rounding, or nothing.
   double residual() const {
     const double largest = larger(primal, dual);
     return scale == 0 && (status == Status::ok || largest == 0) ? 0.0 : largest / scale;

@@ -30,10 +30,12 @@ bool turned_round(const StepSystem& system) {
     if (slot.source->drives_round(h)) return true;
   const double extension = system.problem.coefficients.extension;
   constexpr double least = TurnedWay::slow;  // two that turn over each other turn by more than twice this
-  const double reached = extension * bodies.largest_spin(system.at.x);
-  const bool fast = std::max(d * bodies.largest_spin(system.at.v), reached) > least;
-  const Configuration start = system.problem.start(), end{system.at.x, system.at.poses, start.time};
-  const auto twists_far = [&](const Slot& slot) { return slot.source->twists_far(h, start, end, extension); };
+  const double turned = extension * bodies.largest_spin(system.at.x);
+  const bool fast = std::max(d * bodies.largest_spin(system.at.v), turned) > least;
+  const Configuration start = system.problem.start(), reached{system.at.x, system.at.poses, start.time};
+  const auto twists_far = [&](const Slot& slot) {
+    return slot.source->twists_far(h, start, reached, extension);
+  };
   if (!fast && std::none_of(system.slots.begin(), system.slots.end(), twists_far)) return false;
   double turn = 0;  // rad, of a body that something holds
   if (fast) {

@@ -127,9 +127,8 @@ TEST_CASE("a lock or a stop throws no fast wheel round with ok") {
   if (std::abs(turn) < std::numbers::pi) CHECK(report.status == Status::ok);
 }
 
-// A body that turns by 0.9 rad about an axis w at 45 degrees to its reference, which passes the angle's axis
-// on the outside, by half the height of its arc: pi + 2 * 0.07 rad about that, from a chord on its other
-// side.
+// A body turns by 0.9 rad about w, 45 degrees from its reference, which draws an arc. The angle's axis lies
+// half way between the arc and the great circle through its ends: from there the arc spans more than pi.
 TEST_CASE("what goes round an angle's axis near it by more than half a turn is no step that says ok") {
   constexpr double turn = 0.9, slope = std::numbers::pi / 4, beside = 0.025;  // rad
   const Vec3 w(std::sin(slope - beside), 0, std::cos(slope - beside));

@@ -33,7 +33,10 @@ std::string Verdict::reason() const {
     default:
       if (!std::isfinite(measured.value)) return "no number was measured";
       if (measured.low < 0) return "a size is not negative";
-      return fmt::format("{:.6g} > {:.6g}", measured.low, bound);
+      return fmt::format("{:.6g} > {:.6g}", measured.value, bound) +
+             (measured.low == measured.high
+                  ? ""
+                  : fmt::format(", spread from {:.6g} to {:.6g}", measured.low, measured.high));
   }
 }
 

@@ -55,6 +55,7 @@ TEST_CASE("what does not hold says why") {
   };
   CHECK(reason(1).empty());
   CHECK(reason(2) == "2 > 1");
+  CHECK(reason(Measured({1.5, 2, 4})) == "2 > 1, spread from 1.5 to 4");
   CHECK(reason(-2) == "a size is not negative");
   CHECK(reason(not_a_number) == "no number was measured");
   CHECK(reason(Measured({0.5, 2})) == "spread: repeats from 0.5 to 2, bound 1");

@@ -96,9 +96,10 @@ def large(frame):
             slowest = good(solves, "wall_s").groupby("contacts")["wall_s"].max()
             ax.plot(slowest.index, slowest, label=name, markerfacecolor="white", **style(name))
         missed = failed(rows, "wall_s")["relaxation"].value_counts()
-        ax.text(0.02, 0.98, "\n".join(["missed:"] + [f"{name} {count}" for name, count in missed.items()]) if len(missed) else
-                "all solved", transform=ax.transAxes, va="top", fontsize=5.5)
-        ax.set(xscale="log", yscale="log", title=f"law {law}, {family}: {share(len(rows) - missed.sum(), len(rows))} solved")
+        ax.text(0.98, 0.98, "\n".join(["missed:"] + [f"{name} {count}" for name, count in missed.items()]) if len(missed) else
+                "all solved", transform=ax.transAxes, ha="right", va="top", fontsize=5.5)
+        ax.set(xscale="log", yscale="log", xlim=(None, 4 * frame["contacts"].max()))  # with room for the list
+        ax.set(title=f"law {law}, {family}: {share(len(rows) - missed.sum(), len(rows))} solved")
         ax.set_xticks(sorted(set(frame["contacts"])), [f"{n:.0f}" for n in sorted(set(frame["contacts"]))])
         ax.minorticks_off()
     fig.supxlabel("contacts", fontsize=8)

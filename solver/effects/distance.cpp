@@ -40,11 +40,11 @@ auto Constraint<Distance>::geometric_bound(const Distance&, std::size_t, const P
   return NodeBounds::Constant(length > 0 ? std::max(0.0, -impulse[0]) * 2 / length : 0.0);
 }
 
-auto Constraint<Distance>::stiffening(const Distance&, std::size_t, const Positions& x, const Value& impulse)
-    -> Stiffness {
+auto Constraint<Distance>::geometric_stiffness(const Distance&, std::size_t, const Positions& x,
+                                               const Value& impulse, bool convex) -> Stiffness {
   const Vec3 link = x.col(1) - x.col(0);
   const double length = link.norm(), tension = -impulse[0];
-  if (!(length > 0 && tension > 0)) return Stiffness::Zero();
+  if (!(length > 0) || (convex && tension < 0)) return Stiffness::Zero();
   const Vec3 along = link / length;
   const Eigen::Matrix3d across = tension / length * (Eigen::Matrix3d::Identity() - along * along.transpose());
   Stiffness stiffness;

@@ -25,8 +25,8 @@ struct Constraint<Distance> : ConstraintShape<1, 2> {
   static NodeBounds geometric_bound(const Distance& effect, std::size_t i, const Positions& x,
                                     const Value& impulse);
 
-  static Stiffness stiffening(const Distance& effect, std::size_t i, const Positions& x,
-                              const Value& impulse);
+  static Stiffness geometric_stiffness(const Distance& effect, std::size_t i, const Positions& x,
+                                       const Value& impulse, bool convex);
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const Distance& effect);

@@ -79,10 +79,13 @@ auto Constraint<TriangleStrain>::geometric_bound(const TriangleStrain& effect, s
   return stress_bound(triangle_gradients(rest_edges(effect.rest[i]).inverse()), tension_of(impulse));
 }
 
-auto Constraint<TriangleStrain>::stiffening(const TriangleStrain& effect, std::size_t i, const Positions&,
-                                            const Value& impulse) -> Stiffness {
+auto Constraint<TriangleStrain>::geometric_stiffness(const TriangleStrain& effect, std::size_t i,
+                                                     const Positions&, const Value& impulse, bool convex)
+    -> Stiffness {
+  const Eigen::Matrix<double, 3, 2> y = triangle_gradients(rest_edges(effect.rest[i]).inverse());
+  const Eigen::Matrix2d tension = tension_of(impulse);
   const Eigen::Matrix3d pairs =
-      stress_stiffness(triangle_gradients(rest_edges(effect.rest[i]).inverse()), tension_of(impulse));
+      convex ? stress_stiffness(y, tension) : Eigen::Matrix3d(y * tension * y.transpose());
   Stiffness stiffness;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)

@@ -26,8 +26,8 @@ struct Constraint<TriangleStrain> : ConstraintShape<3, 3> {
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const TriangleStrain& effect, std::size_t i, const Positions& x,
                                     const Value& impulse);
-  static Stiffness stiffening(const TriangleStrain& effect, std::size_t i, const Positions& x,
-                              const Value& impulse);
+  static Stiffness geometric_stiffness(const TriangleStrain& effect, std::size_t i, const Positions& x,
+                                       const Value& impulse, bool convex);
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const TriangleStrain& effect);

@@ -15,17 +15,24 @@ Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& deformation) {
 
 }  // namespace
 
-void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
+bool Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
                     const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
                     MetricShape shape, double most_products) {
   constexpr double single_precision = 1e-5;  // pivots that differ less lose nothing that a metric needs
   if (!pattern_.is_of(inverse_mass, entries)) pattern_ = analyse(inverse_mass, entries);
+  const bool definite = shape == MetricShape::tangent;
   if (pattern_.products() > most_products) {
-    factor_ = MetricFactor<1, double>{factorised<1>(pattern_, inverse_mass, entries, {})};
+    if (definite) return false;
+    MetricFactor<1, double> factor;
+    factorise<1>(pattern_, inverse_mass, entries, definite, factor.number);
+    factor_ = std::move(factor);
   } else {
     auto* last = std::get_if<MetricFactor<3, double>>(&factor_);
-    PanelNumbers<double> number = factorised<3>(pattern_, inverse_mass, entries,
-                                                last ? std::move(last->number) : PanelNumbers<double>());
+    PanelNumbers<double> number = last ? std::move(last->number) : PanelNumbers<double>();
+    if (!factorise<3>(pattern_, inverse_mass, entries, definite, number)) {
+      if (last) last->number = std::move(number);
+      return false;
+    }
     if (shape == MetricShape::rest && pivot_ratio(pattern_, number) >= single_precision)
       factor_ = MetricFactor<3, float>{{number.begin(), number.end()}};
     else
@@ -43,6 +50,7 @@ void Metric::factor(const StepMap& map, const std::vector<double>& inverse_mass,
   d_ = map.d;
   s_ = map.s;
   ++factored_times_;
+  return true;
 }
 
 void Metric::turn(const std::vector<Eigen::Matrix3d>& deformation) {

@@ -19,8 +19,9 @@ class Metric {
   /// Full blocks if the factor takes at most so many products of 3 x 3 blocks (1e10: half a minute), else
   /// one number a pair of nodes; of the rest shape in single precision where that loses nothing, of the
   /// current one, by which Newton's method goes, in double. `deformation` as in `turn`, of the shape that the
-  /// entries are of; zero where that is the rest shape.
-  void factor(const StepMap& map, const std::vector<double>& inverse_mass,
+  /// entries are of; zero where that is the rest shape. False, and no factor, where the tangent is not
+  /// positive definite or would have one number a pair of nodes.
+  bool factor(const StepMap& map, const std::vector<double>& inverse_mass,
               const std::vector<MetricEntry>& entries, const std::vector<Eigen::Matrix3d>& deformation,
               MetricShape shape, double most_products = 1e10);
 

@@ -28,11 +28,12 @@ struct MetricFactor {
   FactorReach reach(const FactorPattern& pattern, int column) const;
 };
 
-/// The factor of M + the entries (B = 1: one number a block, their mean diagonal), in the memory of `number`.
-/// A pivot lost to rounding counts as stiff.
+/// Sets `number` to the factor of M + the entries (B = 1: one number a block, their mean diagonal). A pivot
+/// that is not positive by more than rounding counts as stiff; where the matrix shall be `definite`, it ends
+/// there and returns false.
 template <int B>
-PanelNumbers<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
-                                const std::vector<MetricEntry>& entries, PanelNumbers<double> number);
+bool factorise(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
+               const std::vector<MetricEntry>& entries, bool definite, PanelNumbers<double>& number);
 
 /// Smallest over largest pivot of a factor of 3 x 3 blocks, squared: of the order of the matrix's smallest
 /// over largest eigenvalue.

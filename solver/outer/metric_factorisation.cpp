@@ -36,15 +36,17 @@ void assemble(const FactorPattern& pattern, const std::vector<double>& inverse_m
 template <int B>
 class Factorisation {
  public:
-  Factorisation(const FactorPattern& pattern, PanelNumbers<double>& number)
+  Factorisation(const FactorPattern& pattern, bool definite, PanelNumbers<double>& number)
       : pattern_(pattern),
+        definite_(definite),
         number_(number),
         waiting_(pattern.panels(), -1),
         next_(waiting_),
         at_(waiting_),
         slot_(pattern.columns()) {}
 
-  void run() {
+  /// False if it ended at a pivot that the matrix shall not have.
+  bool run() {
     for (int s = 0; s < pattern_.panels(); ++s) {
       auto panel = panel_of<B>(pattern_, number_, s);
       stiffness_ = panel.topRows(panel.cols()).diagonal();
@@ -54,9 +56,10 @@ class Factorisation {
         reduce(panel, s, earlier);
         earlier = following;
       }
-      eliminate(panel);
+      if (!eliminate(panel)) return false;
       wait(s, pattern_.width(s));
     }
+    return true;
   }
 
  private:
@@ -97,13 +100,18 @@ class Factorisation {
 
   /// The panel's own columns, strip by strip: those of a strip one node after the other, what is right of it
   /// by one product.
-  void eliminate(PanelMap& panel) {
+  bool eliminate(PanelMap& panel) {
     constexpr Eigen::Index strip = 48;  // columns: as narrow as products are still dense ones
     const Eigen::Index width = panel.cols(), height = panel.rows();
     for (Eigen::Index left = 0; left < width; left += strip) {
       const Eigen::Index end = std::min(left + strip, width);
       for (Eigen::Index j = left; j < end; j += B) {
-        const Block inverse = inverse_pivot(panel.template block<B, B>(j, j), stiffness_.segment<B>(j).sum());
+        const double stiffness = stiffness_.segment<B>(j).sum();
+        const Eigen::LLT<Block> pivot(panel.template block<B, B>(j, j));
+        const bool positive = is_positive(pivot, stiffness);
+        if (definite_ && !positive) return false;
+        const Block inverse = positive ? Block(pivot.matrixL().solve(Block::Identity()))
+                                       : Block(Block::Identity() / std::sqrt(stiffness));
         panel.template block<B, B>(j, j) = inverse;
         const Eigen::Index below = height - j - B, right = end - j - B;
         auto column = panel.template block<Eigen::Dynamic, B>(j + B, j, below, B);
@@ -115,18 +123,17 @@ class Factorisation {
       const auto done = panel.block(end, left, height - end, end - left);
       panel.block(end, end, height - end, right).noalias() -= done * done.topRows(right).transpose();
     }
+    return true;
   }
 
-  static Block inverse_pivot(const Block& block, double stiffness) {
-    constexpr double lost = 1e-14;  // of its node's stiffness: a pivot below is rounding, and counts as stiff
-    const Eigen::LLT<Block> pivot(block);
-    const bool definite = pivot.info() == Eigen::Success &&
-                          pivot.matrixLLT().diagonal().cwiseAbs2().minCoeff() > lost * stiffness;
-    return definite ? Block(pivot.matrixL().solve(Block::Identity()))
-                    : Block(Block::Identity() / std::sqrt(stiffness));
+  static bool is_positive(const Eigen::LLT<Block>& pivot, double stiffness) {
+    constexpr double lost = 1e-14;  // of its node's stiffness: what is below is rounding
+    return pivot.info() == Eigen::Success &&
+           pivot.matrixLLT().diagonal().cwiseAbs2().minCoeff() > lost * stiffness;
   }
 
   const FactorPattern& pattern_;
+  bool definite_;
   PanelNumbers<double>& number_;
   std::vector<int> waiting_, next_, at_;  // by panels
   std::vector<int> slot_;                 // in the panel, of each row that it has
@@ -137,16 +144,15 @@ class Factorisation {
 }  // namespace
 
 template <int B>
-PanelNumbers<double> factorised(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
-                                const std::vector<MetricEntry>& entries, PanelNumbers<double> number) {
+bool factorise(const FactorPattern& pattern, const std::vector<double>& inverse_mass,
+               const std::vector<MetricEntry>& entries, bool definite, PanelNumbers<double>& number) {
   assemble<B>(pattern, inverse_mass, entries, number);
-  Factorisation<B>(pattern, number).run();
-  return number;
+  return Factorisation<B>(pattern, definite, number).run();
 }
-template PanelNumbers<double> factorised<1>(const FactorPattern&, const std::vector<double>&,
-                                            const std::vector<MetricEntry>&, PanelNumbers<double>);
-template PanelNumbers<double> factorised<3>(const FactorPattern&, const std::vector<double>&,
-                                            const std::vector<MetricEntry>&, PanelNumbers<double>);
+template bool factorise<1>(const FactorPattern&, const std::vector<double>&, const std::vector<MetricEntry>&,
+                           bool, PanelNumbers<double>&);
+template bool factorise<3>(const FactorPattern&, const std::vector<double>&, const std::vector<MetricEntry>&,
+                           bool, PanelNumbers<double>&);
 
 double pivot_ratio(const FactorPattern& pattern, const PanelNumbers<double>& number) {
   double least = infinity, largest = 0;

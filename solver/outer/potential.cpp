@@ -67,10 +67,11 @@ void Potential::factor_metric(StepSystem& system, MetricShape shape) {
   for (Slot& slot : system.slots)
     if (slot.eliminated) slot.source->add_metric(problem.map, x, shape, slot.blocks(system.rows), entries);
   deformation_.assign(problem.inverse_mass.size(), Eigen::Matrix3d::Zero());
-  if (shape == MetricShape::current)
+  if (shape != MetricShape::rest)
     for (const Slot& slot : system.slots)
       slot.source->add_deformation(system.at.x, slot.view(system.rows), deformation_);
-  metric.factor(problem.map, problem.inverse_mass, entries, deformation_, shape);
+  if (!metric.factor(problem.map, problem.inverse_mass, entries, deformation_, shape))
+    return factor_metric(system, MetricShape::convex);
   metric.threads = system.rows.threads;
   since_factor = 0;
 }

@@ -75,7 +75,7 @@ void QuasiNewton::begin(StepSystem& system) {
   evaluated_ = false;
   potential_.since_factor = 0;
   fall_ = {};
-  last_residual_ = 0;
+  last_residual_ = infinity;  // the metric of the last step serves until it proves outlived
   potential_.begin_metric(system);
 }
 
@@ -118,7 +118,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   }
   acceleration_.note(system);
   constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
-  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::current);
+  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::tangent);
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;
@@ -197,7 +197,7 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   }
   constexpr double well = 0.7;  // L-BFGS learns what the metric leaves out, and a factor would forget it
   if (outlived(progress, well)) {
-    potential_.factor_metric(system, MetricShape::current);
+    potential_.factor_metric(system, MetricShape::tangent);
     lbfgs_.forget();
     find_direction();
   }

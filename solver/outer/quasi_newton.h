@@ -7,9 +7,10 @@
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,
-// which allocates. Of sheets, whose stiffness across themselves is their tension, it is that of the current
-// shape with the tension's part: Newton's method without what is not convex (`Constraint::stiffening`). It is
-// factored anew wherever a descent leaves more than 0.7 of the residual, under rows more than a tenth. Above
+// which allocates. Of sheets, whose stiffness across themselves is their tension, it is Newton's tangent at
+// the current shape (`Constraint::geometric_stiffness`), without what is not convex where that tangent is not
+// positive definite. It is factored anew wherever a descent leaves more than 0.7 of the residual, under rows
+// more than a tenth; a step begins with the last one's. Above
 // 1e10 block products (about 70000 nodes of a beam four times as long as high) it falls back to one number a
 // pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once

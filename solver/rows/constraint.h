@@ -5,7 +5,8 @@
 //     -sum_r p_r e^T (d2c_r/dx2) e <= sum_a B_a |e_a|^2  for every displacement e of its nodes.
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
 // depends on a rest shape states its positions, rest(effect, i). One whose rows leave directions free may
-// state that part itself, stiffening(effect, i, x, p): -sum_r p_r d2c_r/dx2 where that is positive (N s/m).
+// state that stiffness itself, geometric_stiffness(effect, i, x, p, convex): -sum_r p_r d2c_r/dx2 (N s/m),
+// all of it, or what of it is positive semidefinite.
 #pragma once
 
 #include <Eigen/Core>

@@ -143,12 +143,13 @@ class EffectRows final : public Source {
           if constexpr (requires { C::rest(effect_, i); })
             if (shape == MetricShape::rest) at = C::rest(effect_, i);
           C::evaluate(effect_, i, at, value, jacobian);
-          typename Operations::Stiffness stiffening = Operations::Stiffness::Zero();
-          if constexpr (requires { C::stiffening(effect_, i, at, value); })
-            if (shape == MetricShape::current)
-              stiffening = map.d * C::stiffening(effect_, i, at, block.impulse[i]);
+          typename Operations::Stiffness geometric = Operations::Stiffness::Zero();
+          if constexpr (requires { C::geometric_stiffness(effect_, i, at, value, true); })
+            if (shape != MetricShape::rest)
+              geometric = map.d * C::geometric_stiffness(effect_, i, at, block.impulse[i],
+                                                         shape == MetricShape::convex);
           const bool one_number = !C::fills_space && shape == MetricShape::rest;
-          Operations::append_metric(block, i, jacobian, stiffening, one_number, entries);
+          Operations::append_metric(block, i, jacobian, geometric, one_number, entries);
         }
       }
   }

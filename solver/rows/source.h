@@ -96,8 +96,9 @@ struct MetricEntry {
   Eigen::Matrix3d block;
 };
 
-/// Of the effects, for the quasi-Newton metric: at rest, or as it is.
-enum class MetricShape { rest, current };
+/// Of the effects, for the quasi-Newton metric: at rest; as it is, with all geometric stiffness that effects
+/// state; or without what of it is not convex.
+enum class MetricShape { rest, tangent, convex };
 
 /// Of the speed that forces bring in a step: what rests approaches by no more.
 inline constexpr double pressed_speed = 1e-3;

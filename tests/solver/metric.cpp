@@ -113,6 +113,24 @@ TEST_CASE("the metric's factor solves by full blocks and by one number a pair of
           Approx(node == 3 ? 0 : 3 / coupled.dense.block<3, 3>(3 * node, 3 * node).trace()));
 }
 
+TEST_CASE("a tangent that is not positive definite has no factor, and another one that of full blocks") {
+  Coupled coupled(lattice(), false);
+  StepMap map;
+  map.d = map.s = 0.01;
+  Metric metric;
+  const auto factors = [&](double most_products) {
+    return metric.factor(map, coupled.inverse_mass, coupled.entries, {}, MetricShape::tangent, most_products);
+  };
+  CHECK(factors(1e9));
+  Points found;
+  metric.solve(forces(coupled.nodes), found);
+  const Points wanted = exact(coupled, forces(coupled.nodes));
+  CHECK((found - wanted).norm() <= 1e-9 * wanted.norm());
+  CHECK_FALSE(factors(0));
+  coupled.entries.push_back({0, 0, -2 * coupled.dense.topLeftCorner<3, 3>()});
+  CHECK_FALSE(factors(1e9));
+}
+
 TEST_CASE("the metric turns with the material") {
   const Coupled coupled(ring(), false);
   Metric metric = factored(coupled, 1e9);

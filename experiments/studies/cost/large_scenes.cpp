@@ -60,14 +60,15 @@ struct Costs {
   std::string failure;
 };
 
-/// The second of two equal steps, by a method that is made anew.
+/// The scene's second step, which begins at `start`; the first one is the method's own, so that what it keeps
+/// from step to step is as in a running simulation.
 Costs costs_of(const Contestant& contestant, const Scene& scene, const State& start, const Points& exact) {
   Costs costs;
   const PeakMemory memory;
   try {
     const double begun = now_s();
     const WatchedStep step = contestant.ready(scene, ended);
-    const double first = now_s() - begun + watched(step, start, exact).points.back().wall_s;
+    const double first = now_s() - begun + watched(step, scene.initial, start.x).points.back().wall_s;
     costs.trace = watched(step, start, exact);
     costs.setup_s = std::max(0.0, first - costs.trace.points.back().wall_s);
   } catch (const std::bad_alloc&) {

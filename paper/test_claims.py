@@ -283,6 +283,13 @@ class Answers(unittest.TestCase):
         self.assertEqual(cases_told(marked(("ok", 0.0), ("ok", 1.0))), 0)
         self.assertEqual(cases_told(marked(("skipped", 0.0), ("ok", 1.0))), every)
 
+    def test_cases_that_miss_steps_are_counted(self):
+        def missed(steps_ok):
+            told = self.told({"gates": lambda frame: frame.assign(steps=10, steps_ok=steps_ok, relaxation="direct")})[1]
+            return int(re.search(r"(\d+) of \d+ of those with contact miss", told)[1])
+        self.assertEqual(missed(10), 0)
+        self.assertGreater(missed(9), 0)
+
     def test_accuracy_costs_the_time_of_the_tightest_over_the_loosest(self):
         def points(frame):
             rows = frame[~frame["outer"].isin(["judge", "rival"])].iloc[[0, 0]]

@@ -19,6 +19,15 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactS
                    (1 + mu) * slack);
 }
 
+/// What yields without a damper is a spring from where the shapes touch. `slack` is what a gap may be off, m.
+void check_spring(const ClaimedContact& c, const ContactSlack& open, double h, double slack,
+                  Findings& findings) {
+  if (!(open.normal * h > open.impulse)) return;
+  findings.require("spring of contact", name_of(c.collider[0], c.collider[1]) + ", m",
+                   std::abs(c.gap + open.law.compliance * open.normal),
+                   slack + open.law.compliance * open.impulse / h);
+}
+
 /// `slack` is what a gap may be off, m.
 void check_rebound(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, double slack, Findings& findings) {
@@ -53,6 +62,8 @@ void check_gap(const StepClaim& claim, const ClaimedContact& c, const ContactSla
   if (claim.friction == Friction::cone && (surface || explicit_forces(claim)))
     return findings.leave_out("open contact: where the convex law opens it by a slip that is not known");
   if (open.law.restitution > 0) return check_rebound(claim, c, open, sides, slack, findings);
+  if (open.law.compliance > 0 && open.law.damping == 0 && is_euler_step(claim) && !c.met)
+    return check_spring(c, open, claim.h, slack, findings);
   if (open.normal * claim.h > open.impulse)
     findings.require("open contact", name, larger(c.gap, proved), slack);
 }

@@ -123,9 +123,9 @@ ContactRow ContactStep::row_of(const JudgedContact& own, const ContactPose& pose
   row.seen.tail<2>() += directions.bottomRows<2>() * conveyed(contact, own.pair, at);
   row.seen[0] = (found.gap - (own.collides ? own.rebound : own.target)) / step.d();
   if (own.collides)
-    row.seen[0] = std::min(
-        row.seen[0], row.normal_velocity +
-                         own.law.restitution * found.normal.dot(against(own.pair, found, at, step.start)));
+    row.seen[0] =
+        std::min(row.seen[0], row.normal_velocity +
+                                  own.bounce * found.normal.dot(against(own.pair, found, at, step.start)));
   return row;
 }
 

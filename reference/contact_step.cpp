@@ -98,13 +98,14 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   };
   const double h = step.h, d = step.d();
   const double from = step.map ? found.gap + h * along(shifted_) : found.gap;
-  made.target = std::min(0.0, std::max(found.gap, from + contact.recovery * d));
+  const bool yields = made.law.compliance > 0, loaded = yields && found.gap < 0;
+  made.target = yields ? 0.0 : std::min(0.0, std::max(found.gap, from + contact.recovery * d));
+  made.bounce = loaded ? 0.0 : made.law.restitution;
   made.closing = -along(step.start);
   const double ahead = found.gap + h * along(free_);
-  made.collides =
-      made.law.restitution > 0 && made.closing > 0 && ahead < 0 && meets_freely(pair, found.gap, ahead);
+  made.collides = made.bounce > 0 && made.closing > 0 && ahead < 0 && meets_freely(pair, found.gap, ahead);
   made.rebound =
-      made.closing > 0 ? std::min(made.target, from + d * made.law.restitution * made.closing) : made.target;
+      made.closing > 0 ? std::min(made.target, from + d * made.bounce * made.closing) : made.target;
   const double elastic = 1 / (1 + made.law.damping / d);  // the spring's share
   const double offset = (1 - elastic) * (std::min(from, 0.0) - made.target);
   made.target += offset;
@@ -172,11 +173,11 @@ bool ContactStep::collide(const Vector& velocity) {
   const ContactPose pose = pose_at(velocity);
   bool any = false;
   for (JudgedContact& own : contacts) {
-    if (own.collides || !(own.law.restitution > 0) || !(own.closing > 0)) continue;
+    if (own.collides || !(own.bounce > 0) || !(own.closing > 0)) continue;
     const ContactRow row = row_of(own, pose);
     const double slack = touching * own.closing;
     if (row.seen[0] + compliance_of(own) * own.force[0] / step.d() > slack) continue;
-    if (row.normal_velocity < own.law.restitution * own.closing - slack) own.collides = any = true;
+    if (row.normal_velocity < own.bounce * own.closing - slack) own.collides = any = true;
   }
   return any;
 }

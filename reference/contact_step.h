@@ -33,6 +33,7 @@ struct JudgedContact {
   ContactLaw law;
   Vec3 reference = Vec3::UnitX();  // tangents are seen from it
   double target = 0, rebound = 0;  // m, gaps aimed at, the second where it collides
+  double bounce = 0;               // restitution, if it may collide in this step
   double closing = 0;              // m/s, where the step begins
   bool collides = false;
   double compliance = 0;      // m/N

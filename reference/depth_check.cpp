@@ -127,10 +127,6 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
   const double side =
       std::max((claim_.end.x.col(nodes[1]) - first).norm(), (claim_.end.x.col(nodes[2]) - first).norm());
   if ((shape.frame.origin - first).norm() > outer + side + radius) return;
-  const bool attached = !std::all_of(nodes.begin(), nodes.end(), [&](int node) {
-    return may_touch(claim_.scene, contact_, sides_.side(i), Side{-1, node});
-  });
-  if (attached) return;
   const DistanceBounds end = over_triangle(i, nodes, claim_.end);
   if (end.found >= radius) return findings_.require("depth", "of a triangle, m", radius - end.found, 0);
   const DistanceBounds start = over_triangle(i, nodes, claim_.start);
@@ -144,9 +140,9 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
       (1 + sides_.law(i, sides_.count()).friction) * level_ * std::sqrt(inverse) * claim_.h +
       step_rounding * size;
   findings_.require("depth",
-                    "collider " + std::to_string(i) + " in the triangle of nodes " +
-                        std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
-                        std::to_string(nodes[2]) + ", m",
+                    (sides_.is_node(i) ? "sphere " : "collider ") + std::to_string(i) +
+                        " in the triangle of nodes " + std::to_string(nodes[0]) + ", " +
+                        std::to_string(nodes[1]) + " and " + std::to_string(nodes[2]) + ", m",
                     radius - end.found, most);
 }
 
@@ -180,14 +176,15 @@ void Depths::check_surfaces() {
 void Depths::check_triangles() {
   if (contact_.triangle.empty()) return;
   check_surfaces();
-  for (int i = 0; i < static_cast<int>(contact_.collider.size()); ++i) {
+  for (int i = 0; i < sides_.count(); ++i) {
     const ContactLaw& law = sides_.law(i, sides_.count());
     if (law.compliance > 0) {
       findings_.leave_out("depth: where shapes give way");
     } else if (law.restitution > 0 && !is_euler_step(claim_)) {
       findings_.leave_out("depth: where shapes bounce, by this integrator");
     } else {
-      for (const auto& nodes : contact_.triangle) check_triangle(i, nodes);
+      for (const auto& nodes : free_triangles(claim_.scene, contact_, sides_.side(i)))
+        check_triangle(i, nodes);
     }
   }
 }

@@ -30,18 +30,13 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
         continue;
       }
       const bool nodes = a.corner.front().body < 0 && b.corner.front().body < 0;
-      const bool apart = nodes && (!contact.nodes_touch || b.deformable);
+      const bool apart = nodes && !b.deformable && !contact.nodes_touch;
       if (i == k || apart || (a.plane && b.plane)) continue;
       if (!b.deformable) {
         if (may_touch(scene, contact, side_of(a), side_of(b))) pairs_.push_back({i, k});
         continue;
       }
-      std::vector<std::array<int, 3>> free;  // triangles with no node attached to the body
-      for (const auto& triangle : contact.triangle)
-        if (std::all_of(triangle.begin(), triangle.end(), [&](int node) {
-              return may_touch(scene, contact, side_of(a), Side{-1, node});
-            }))
-          free.push_back(triangle);
+      const std::vector<std::array<int, 3>> free = free_triangles(scene, contact, side_of(a));
       if (free.size() == contact.triangle.size()) {
         pairs_.push_back({i, k});
       } else if (!free.empty()) {

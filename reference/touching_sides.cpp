@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace pbd::reference {
 
 namespace {
 
+bool has(const auto& nodes, int node) {
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
 /// True if some element has both nodes.
 bool share_element(const Scene& scene, int a, int b) {
   const auto has_both = [&]<class E>(const E& own) {
     if constexpr (requires { own.node[0][1]; })
-      return std::any_of(own.node.begin(), own.node.end(), [&](const auto& nodes) {
-        return std::count(nodes.begin(), nodes.end(), a) > 0 && std::count(nodes.begin(), nodes.end(), b) > 0;
-      });
+      return std::any_of(own.node.begin(), own.node.end(),
+                         [&](const auto& nodes) { return has(nodes, a) && has(nodes, b); });
     return false;
   };
   return std::any_of(scene.effects.begin(), scene.effects.end(),
@@ -46,6 +50,27 @@ bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const 
     if (connects) return false;
   }
   return true;
+}
+
+std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact& contact, const Side& side) {
+  std::set<int> kept;
+  const auto keep = [&]<class E>(const E& own) {
+    if constexpr (std::is_same_v<E, Attachment>) {
+      for (std::size_t i = 0; i < own.node.size(); ++i)
+        if (own.body[i] == side.body) kept.insert(own.node[i]);
+    } else if constexpr (requires { own.node[0][1]; }) {
+      for (const auto& nodes : own.node)
+        if (side.body < 0 && has(nodes, side.node)) kept.insert(nodes.begin(), nodes.end());
+    }
+  };
+  for (const Effect& effect : scene.effects) std::visit(keep, effect);
+  std::vector<std::array<int, 3>> free;
+  for (const auto& triangle : contact.triangle) {
+    if (side.body < 0 && has(triangle, side.node)) return {};
+    if (std::none_of(triangle.begin(), triangle.end(), [&](int node) { return kept.contains(node); }))
+      free.push_back(triangle);
+  }
+  return free;
 }
 
 Sides::Sides(const StepClaim& claim, const Contact& contact) : claim_(claim), contact_(contact) {

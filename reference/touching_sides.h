@@ -16,6 +16,10 @@ struct Side {
 /// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge. Nodes of one element do not.
 bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b);
 
+/// The contact's triangles that a body or a node may touch: those without a node that is attached to the
+/// body; of a node, which is of no triangle, those without a node of its elements.
+std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact& contact, const Side& side);
+
 /// What a finding calls a pair.
 inline std::string name_of(int a, int b) {
   return "contact of " + std::to_string(a) + " and " + std::to_string(b);

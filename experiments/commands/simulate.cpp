@@ -114,7 +114,7 @@ int simulate(const SimulateOptions& options) {
     tables.rows.insert(judge->totals().rows.begin(), judge->totals().rows.end());
   }
 
-  auto json = run_record(1, outcome, reason);
+  auto json = run_record(file.method.threads, outcome, reason);
   json["settings"] = settings_json(options, file);
   json["wall_s"] = wall.count();
   json["rows"] = tables.rows;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <sstream>
@@ -105,6 +106,16 @@ toml::node& descend(toml::node& node, const std::string& part, const std::string
   return *table->get(part);
 }
 
+/// Takes out the keys of a table that say the same in other words: a setting stands for them.
+void drop_alternatives(toml::table& table, const std::string& key) {
+  constexpr std::array<std::array<std::string_view, 2>, 2> alternatives{
+      {{"steps", "duration_s"}, {"compliance_m_per_n", "stiffness_n_per_m"}}};
+  for (const auto& [one, other] : alternatives) {
+    if (key == one) table.erase(other);
+    if (key == other) table.erase(one);
+  }
+}
+
 }  // namespace
 
 void apply_setting(toml::table& root, const std::string& setting, const std::string& option) {
@@ -125,6 +136,7 @@ void apply_setting(toml::table& root, const std::string& setting, const std::str
       entry(*array, parts.back(), where);
       array->replace(array->cbegin() + std::stol(parts.back()), typed);
     } else if (auto* table = node->as_table()) {
+      drop_alternatives(*table, parts.back());
       table->insert_or_assign(parts.back(), typed);
     } else {
       throw pbd::SetupError(where, "`" + parts.back() + "` below a value", "a path to a table's key");

@@ -81,7 +81,7 @@ void add(SurfaceContact contact, const Points& x, const std::vector<double>& rea
   SurfaceTouching found = touching(contact, x);
   if (found.gap + contact.thickness < 0) contact.side = -1;
   found = touching(contact, x);
-  if (found.gap < 2 * most && on_features(found, contact.kind)) out.push_back(contact);
+  if (found.gap < 2 * most && on_features(found, contact.kind, between_features)) out.push_back(contact);
 }
 
 }  // namespace
@@ -103,7 +103,9 @@ bool on_features(const SurfaceTouching& touching, SurfaceContact::Kind kind, dou
   return first && w[2] <= beside && w[3] <= beside;
 }
 
-SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
+SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, double thickness, bool touch,
+                             const std::vector<NodeSphere>& spheres)
+    : triangles_(triangles), half_(thickness / 2), touch_(touch) {
   for (const auto& [a, b, c] : triangles) {
     nodes_.insert(nodes_.end(), {a, b, c});
     for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
@@ -111,6 +113,12 @@ SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles) :
   }
   keep_each_once(nodes_);
   keep_each_once(edges_);
+  if (touch)
+    for (const int node : nodes_) points_.push_back({node, half_, 0});
+  for (const auto& [node, radius] : spheres) {
+    points_.push_back({node, radius, radius});
+    nodes_.push_back(node);
+  }
   std::vector<std::array<int, 2>> across, neighbours;
   for (const auto& nodes : triangles)
     for (std::size_t k = 0; k < 3; ++k)
@@ -135,20 +143,22 @@ int SurfaceSearch::edge(int from, int to) const {
   return static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), ends) - edges_.begin());
 }
 
-void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach, double thickness,
+void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach,
                                std::vector<SurfaceContact>& out) {
-  each_node_and_triangle(
-      [&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
-      [&](const auto& nodes) { add({.node = nodes, .thickness = thickness}, x, reach, out); });
+  each_node_and_triangle([&](const auto& nodes, double margin) { return box_of(nodes, x, reach, margin); },
+                         [&](const Point& point, const auto& nodes) {
+                           add({.node = nodes, .thickness = half_ + point.margin, .radius = point.radius}, x,
+                               reach, out);
+                         });
 }
 
-void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach, double thickness,
+void SurfaceSearch::find_edges(const Points& x, const std::vector<double>& reach,
                                std::vector<SurfaceContact>& out) {
-  each_pair_of_edges([&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
+  each_pair_of_edges([&](const auto& nodes, double margin) { return box_of(nodes, x, reach, margin); },
                      [&](const auto& nodes) {
                        const auto& [a, b, c, d] = nodes;
                        if (!crossed(x.col(b) - x.col(a), x.col(d) - x.col(c))) return;
-                       add({.node = nodes, .kind = SurfaceContact::Kind::edge_edge, .thickness = thickness},
+                       add({.node = nodes, .kind = SurfaceContact::Kind::edge_edge, .thickness = 2 * half_},
                            x, reach, out);
                      });
 }
@@ -182,14 +192,17 @@ int SurfaceSearch::end_of(const SurfaceContact& contact, const SurfaceTouching& 
 
 /// A node that is nearest to an edge, within the thickness and what they move by (m). Two nodes touch once,
 /// whichever edges end there.
-std::optional<SurfaceContact> SurfaceSearch::beside(int node, int edge, const Points& x, double thickness,
+std::optional<SurfaceContact> SurfaceSearch::beside(const Point& point, int edge, const Points& x,
                                                     double moved) {
+  const int node = point.node;
   const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
   const auto others = across(edge);
   if (node == c || node == d || std::find(others.begin(), others.end(), node) != others.end())
     return std::nullopt;
-  SurfaceContact contact{
-      .node = {node, node, c, d}, .kind = SurfaceContact::Kind::node_edge, .thickness = thickness};
+  SurfaceContact contact{.node = {node, node, c, d},
+                         .kind = SurfaceContact::Kind::node_edge,
+                         .thickness = half_ + point.margin,
+                         .radius = point.radius};
   const SurfaceTouching found = touching(contact, x);
   if (found.gap >= moved || !away_from(contact, edge, found, x, moved)) return std::nullopt;
   if (const int end = end_of(contact, found); end >= 0) {
@@ -201,22 +214,22 @@ std::optional<SurfaceContact> SurfaceSearch::beside(int node, int edge, const Po
   return contact;
 }
 
-void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
+void SurfaceSearch::find_nodes_beside(const Points& x, const std::vector<double>& reach,
                                       std::vector<SurfaceContact>& out) {
-  each_node_and_edge([&](const auto& nodes) { return box_of(nodes, x, reach, thickness / 2); },
-                     [&](int node, int edge) {
+  each_node_and_edge([&](const auto& nodes, double margin) { return box_of(nodes, x, reach, margin); },
+                     [&](const Point& point, int edge) {
                        const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
-                       const double moved = 2 * std::max({reach[node], reach[c], reach[d]});
-                       if (const auto found = beside(node, edge, x, thickness, moved)) out.push_back(*found);
+                       const double moved = 2 * std::max({reach[point.node], reach[c], reach[d]});
+                       if (const auto found = beside(point, edge, x, moved)) out.push_back(*found);
                      });
 }
 
-void SurfaceSearch::find(const Points& x, const std::vector<double>& reach, double thickness,
+void SurfaceSearch::find(const Points& x, const std::vector<double>& reach,
                          std::vector<SurfaceContact>& out) {
-  if (triangles_.empty()) return;
-  find_nodes(x, reach, thickness, out);
-  find_edges(x, reach, thickness, out);
-  find_nodes_beside(x, reach, thickness, out);
+  if (!searches()) return;
+  find_nodes(x, reach, out);
+  find_edges(x, reach, out);
+  find_nodes_beside(x, reach, out);
 }
 
 }  // namespace pbd

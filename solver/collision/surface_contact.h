@@ -1,4 +1,5 @@
-// Contact of deformable surfaces: a node against a triangle or an edge, or an edge against an edge. With
+// Contact of deformable surfaces with each other and with spheres about nodes: a node against a triangle or
+// an edge, or an edge against an edge. With
 // weights w that sum to zero, one a node, gap = n . sum_k w_k x_k - thickness, and its derivative by x_k is
 // w_k n^T:
 //   node 0 against triangle 1 2 3   n = +- (x2 - x1) x (x3 - x1) normalised, w = (1, -b1, -b2, -b3), b the
@@ -33,7 +34,8 @@ struct SurfaceContact {
   Kind kind = Kind::node_triangle;
   double side = 1;
   Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
-  double thickness = 0;        // m, at which surfaces touch
+  double thickness = 0;        // m, at which they touch
+  double radius = 0;           // m, of a sphere about node 0
 
   std::pair<Kind, std::array<int, 4>> features() const { return {kind, node}; }
   bool same_features(const SurfaceContact& other) const { return features() == other.features(); }
@@ -49,11 +51,20 @@ struct SurfaceTouching {
 
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x);
 
+/// Of a feature: what lies between two that meet is on both.
+inline constexpr double between_features = 1e-9;
+
 /// True of directions that span a plane: their product is more than rounding.
 bool crossed(const Vec3& e, const Vec3& f);
 
 /// True if the nearest points lie on the features, or no farther `beside` them than that share of them.
 bool on_features(const SurfaceTouching& touching, SurfaceContact::Kind kind, double beside = 0);
+
+/// A node that is a sphere, of no triangle.
+struct NodeSphere {
+  int node = 0;
+  double radius = 0;  // m
+};
 
 /// What came to overlap on a way, with the gap that is asked for, m.
 struct PassedContact {
@@ -61,12 +72,17 @@ struct PassedContact {
   double target = 0;
 };
 
-/// Finds what may touch; keeps triangles' edges and scratch from step to step.
+/// Finds what may touch: surfaces each other and themselves at a distance of `thickness`, if they `touch` at
+/// all, and spheres at half of it. Keeps triangles' edges and scratch from step to step.
 class SurfaceSearch {
  public:
-  explicit SurfaceSearch(const std::vector<std::array<int, 3>>& triangles);
+  SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, double thickness, bool touch = true,
+                const std::vector<NodeSphere>& spheres = {});
 
+  /// Of triangles and spheres.
   const std::vector<int>& nodes() const { return nodes_; }
+  /// False where nothing is looked for.
+  bool searches() const { return !points_.empty(); }
 
   /// The number of the triangles' edge between two nodes.
   int edge(int from, int to) const;
@@ -79,33 +95,35 @@ class SurfaceSearch {
   /// Appends pairs without a common node whose gap at x is below what their nodes move by together (`reach`,
   /// m, one a node of the scene), and whose nearest points lie on them. Edges that are parallel are left to
   /// their nodes.
-  void find(const Points& x, const std::vector<double>& reach, double thickness,
-            std::vector<SurfaceContact>& out);
+  void find(const Points& x, const std::vector<double>& reach, std::vector<SurfaceContact>& out);
 
   /// Appends nodes and triangles, and edges, that pass each other on the straight ways between two places of
   /// the nodes, or overlap where these end, by more than where they begin and `slack` (m): each on the side
   /// from which they came, with the gap at which they began if that was below zero.
-  void find_passed(const Points& from, const Points& to, double thickness, double slack,
-                   std::vector<PassedContact>& out);
+  void find_passed(const Points& from, const Points& to, double slack, std::vector<PassedContact>& out);
 
  private:
-  /// visit(nodes) for each node and triangle, or each two edges, without a common node, whose boxes meet;
-  /// box(nodes) gives a feature's.
+  /// A node that triangles and edges are looked for about: of a surface, `margin` is half the thickness and
+  /// the radius 0; of a sphere both are its radius (m).
+  struct Point {
+    int node;
+    double margin, radius;
+  };
+
+  /// visit(point, nodes) for each point and triangle, visit(nodes) for each two edges, without a common node,
+  /// whose boxes meet; box(nodes, margin) gives a feature's.
   template <class Box, class Visit>
   void each_node_and_triangle(Box&& box, Visit&& visit);
   template <class Box, class Visit>
   void each_pair_of_edges(Box&& box, Visit&& visit);
-  /// visit(node, edge), by the edges' boxes of the last `each_pair_of_edges`.
+  /// visit(point, edge), by the edges' boxes of the last `each_pair_of_edges`.
   template <class Box, class Visit>
   void each_node_and_edge(Box&& box, Visit&& visit);
 
-  void find_nodes(const Points& x, const std::vector<double>& reach, double thickness,
-                  std::vector<SurfaceContact>& out);
-  void find_edges(const Points& x, const std::vector<double>& reach, double thickness,
-                  std::vector<SurfaceContact>& out);
-  void find_nodes_beside(const Points& x, const std::vector<double>& reach, double thickness,
-                         std::vector<SurfaceContact>& out);
-  std::optional<SurfaceContact> beside(int node, int edge, const Points& x, double thickness, double moved);
+  void find_nodes(const Points& x, const std::vector<double>& reach, std::vector<SurfaceContact>& out);
+  void find_edges(const Points& x, const std::vector<double>& reach, std::vector<SurfaceContact>& out);
+  void find_nodes_beside(const Points& x, const std::vector<double>& reach, std::vector<SurfaceContact>& out);
+  std::optional<SurfaceContact> beside(const Point& point, int edge, const Points& x, double moved);
   bool away_from(const SurfaceContact& contact, int edge, const SurfaceTouching& touching, const Points& x,
                  double moved) const;
   static int end_of(const SurfaceContact& contact, const SurfaceTouching& touching);
@@ -116,6 +134,7 @@ class SurfaceSearch {
 
     explicit Lists(std::vector<std::array<int, 2>> pairs);  // list and entry, each once
     std::span<const int> of(int list) const {
+      if (list + 1 >= std::ssize(first)) return {};
       return std::span(all).subspan(static_cast<std::size_t>(first[list]),
                                     static_cast<std::size_t>(first[list + 1] - first[list]));
     }
@@ -125,6 +144,9 @@ class SurfaceSearch {
   std::vector<std::array<int, 2>> edges_;
   Lists across_{{}}, neighbours_{{}};
   std::vector<int> nodes_;
+  std::vector<Point> points_;
+  double half_;  // of the thickness, m
+  bool touch_;   // surfaces each other
   std::vector<AxisBox> boxes_;
   BoxTree tree_;
   std::vector<std::array<int, 2>> ends_;  // nodes that touch each other, of `beside`
@@ -133,20 +155,22 @@ class SurfaceSearch {
 template <class Box, class Visit>
 void SurfaceSearch::each_node_and_triangle(Box&& box, Visit&& visit) {
   boxes_.clear();
-  for (const auto& triangle : triangles_) boxes_.push_back(box(triangle));
+  for (const auto& triangle : triangles_) boxes_.push_back(box(triangle, half_));
   tree_.build(boxes_);
-  for (const int node : nodes_)
-    tree_.find(box(std::array{node}), [&](int k) {
+  for (const Point& point : points_)
+    tree_.find(box(std::array{point.node}, point.margin), [&](int k) {
       const auto& [a, b, c] = triangles_[k];
-      if (node != a && node != b && node != c) visit(std::array{node, a, b, c});
+      if (point.node != a && point.node != b && point.node != c)
+        visit(point, std::array{point.node, a, b, c});
     });
 }
 
 template <class Box, class Visit>
 void SurfaceSearch::each_pair_of_edges(Box&& box, Visit&& visit) {
   boxes_.clear();
-  for (const auto& edge : edges_) boxes_.push_back(box(edge));
+  for (const auto& edge : edges_) boxes_.push_back(box(edge, half_));
   tree_.build(boxes_);
+  if (!touch_) return;
   for (std::size_t i = 0; i < edges_.size(); ++i)
     tree_.find(boxes_[i], [&](int j) {
       const auto& [a, b] = edges_[i];
@@ -159,7 +183,8 @@ void SurfaceSearch::each_pair_of_edges(Box&& box, Visit&& visit) {
 template <class Box, class Visit>
 void SurfaceSearch::each_node_and_edge(Box&& box, Visit&& visit) {
   ends_.clear();
-  for (const int node : nodes_) tree_.find(box(std::array{node}), [&](int edge) { visit(node, edge); });
+  for (const Point& point : points_)
+    tree_.find(box(std::array{point.node}, point.margin), [&](int edge) { visit(point, edge); });
 }
 
 }  // namespace pbd

@@ -86,63 +86,66 @@ double distance(const SurfaceContact& contact, const Points& x) {
 }
 
 /// True if a contact's features have a normal at x, and their nearest points lie on them.
-bool meets(const SurfaceContact& contact, const Points& x, double beside) {
+bool meets(const SurfaceContact& contact, const Points& x) {
   const bool triangle = contact.kind == Kind::node_triangle;
   const Vec3 e = triangle ? x.col(2) - x.col(1) : x.col(1) - x.col(0);
   const Vec3 f = triangle ? x.col(3) - x.col(1) : x.col(3) - x.col(2);
-  return crossed(e, f) && on_features(touching(contact, x), contact.kind, beside);
+  return crossed(e, f) && on_features(touching(contact, x), contact.kind, between_features);
 }
 
 /// Sets the side and target of a contact of four nodes on the ways between these columns, if its features
 /// pass each other, or overlap where the ways end, by more than where they begin and `slack`.
 bool passes(SurfaceContact& contact, const Points& from, const Points& to, double slack, double& target) {
-  constexpr double beside = 1e-9;  // of a feature: what passes between two of them is not lost
   const Volume volume(contact.kind, from, to);
   int passed = 0;
   Points x(3, 4);
   volume.each_change([&](double t, int before) {
     x = from + t * (to - from);
-    if (meets(contact, x, beside)) passed += before;
+    if (meets(contact, x)) passed += before;
   });
   const double ends = passed != 0 ? passed : volume.at(1);
   contact.side = ends < 0 ? -1 : 1;
   const SurfaceTouching end = touching(contact, to);
-  if (passed == 0 && !(end.gap < -slack && meets(contact, to, 0))) return false;
+  if (passed == 0 && !(end.gap < -slack && meets(contact, to))) return false;
   target = std::min(0.0, distance(contact, from) - contact.thickness);
   return end.gap < target - slack;
 }
 
 }  // namespace
 
-void SurfaceSearch::find_passed(const Points& from, const Points& to, double thickness, double slack,
+void SurfaceSearch::find_passed(const Points& from, const Points& to, double slack,
                                 std::vector<PassedContact>& out) {
   Vec3 course = Vec3::Zero();
   for (const int node : nodes_)
     course += (to.col(node) - from.col(node)) / static_cast<double>(nodes_.size());
-  const auto around = [&](const auto& nodes) {
+  const auto around = [&](const auto& nodes, double margin) {
     AxisBox box;
     for (const int node : nodes) box.extend(Vec3(from.col(node))).extend(Vec3(to.col(node) - course));
-    const Vec3 slack_of_box = Vec3::Constant(thickness / 2);
-    return AxisBox(box.min() - slack_of_box, box.max() + slack_of_box);
+    const Vec3 around_box = Vec3::Constant(margin);
+    return AxisBox(box.min() - around_box, box.max() + around_box);
   };
   Points begin(3, 4), end(3, 4);
-  const auto look = [&](const std::array<int, 4>& nodes, Kind kind) {
+  const auto look = [&](const std::array<int, 4>& nodes, SurfaceContact contact) {
     for (int k = 0; k < 4; ++k) {
       begin.col(k) = from.col(nodes[static_cast<std::size_t>(k)]);
       end.col(k) = to.col(nodes[static_cast<std::size_t>(k)]);
     }
-    PassedContact found{{.node = {0, 1, 2, 3}, .kind = kind, .thickness = thickness}};
+    contact.node = {0, 1, 2, 3};
+    PassedContact found{contact};
     if (!passes(found.contact, begin, end, slack, found.target)) return;
     found.contact.node = nodes;
     out.push_back(found);
   };
-  each_node_and_triangle(around, [&](const auto& nodes) { look(nodes, Kind::node_triangle); });
-  each_pair_of_edges(around, [&](const auto& nodes) { look(nodes, Kind::edge_edge); });
-  each_node_and_edge(around, [&](int node, int edge) {
-    const auto found = beside(node, edge, to, thickness, 0);
+  each_node_and_triangle(around, [&](const Point& point, const auto& nodes) {
+    look(nodes, {.thickness = half_ + point.margin, .radius = point.radius});
+  });
+  each_pair_of_edges(
+      around, [&](const auto& nodes) { look(nodes, {.kind = Kind::edge_edge, .thickness = 2 * half_}); });
+  each_node_and_edge(around, [&](const Point& point, int edge) {
+    const auto found = beside(point, edge, to, 0);
     if (!found) return;
     const auto [c, d] = ends(edge);
-    const double target = std::min(0.0, between(from, node, node, c, d) - thickness);
+    const double target = std::min(0.0, between(from, point.node, point.node, c, d) - found->thickness);
     if (touching(*found, to).gap < target - slack) out.push_back({*found, target});
   });
 }

@@ -56,7 +56,8 @@ Touching evaluate(const ActiveContact& contact, const Configuration& at, typenam
       const SurfaceTouching found = touching(contact.surface, at.x);
       const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);
       for (int k = 0; k < 4; ++k) jacobian.template middleCols<3>(3 * k) = found.weight[k] * directions;
-      return {found.gap, found.normal, found.point, found.point - found.gap * found.normal};
+      const Vec3 point = found.point - contact.surface.radius * found.normal;
+      return {found.gap, found.normal, point, point - found.gap * found.normal};
     }
   Touching found = touching_at(contact, at);
   const Directions<Block::rows> directions = directions_of<Block::rows>(found.normal, contact.reference);

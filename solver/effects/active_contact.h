@@ -50,7 +50,8 @@ struct ActiveContact {
   double apart = infinity;                 // m, the gap from which it may wait (waiting_contacts.h)
   double target = 0;                       // m, the gap aimed at
   double rebound = 0;                      // m, the same where the shapes collide
-  double restitution = 0;                  // e where the shapes collide in this step, else 0
+  double bounce = 0;                       // e, if the shapes may collide in this step
+  double restitution = 0;                  // e where they do, else 0
   double closing = 0;         // m/s, at which they approach each other where it begins; negative: part
   bool late = false;          // seen where a solved iterate ended; `target` is set there
   std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with

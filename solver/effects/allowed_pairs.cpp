@@ -5,6 +5,7 @@
 namespace pbd {
 
 AllowedPairs::AllowedPairs(const Scene& scene, const Contact& effect) : apart_(effect.apart) {
+  const bool nodes = effect.nodes_touch || (!effect.node.empty() && !effect.triangle.empty());
   const auto link = [&](const auto& elements) {
     for (const auto& nodes : elements)
       for (const int a : nodes)
@@ -16,7 +17,7 @@ AllowedPairs::AllowedPairs(const Scene& scene, const Contact& effect) : apart_(e
           if constexpr (requires { joint.body[0][1]; })
             apart_.insert(apart_.end(), joint.body.begin(), joint.body.end());
           if constexpr (requires { joint.node[0][1]; })
-            if (effect.nodes_touch) link(joint.node);
+            if (nodes) link(joint.node);
           if constexpr (std::same_as<E, Attachment>)
             for (std::size_t i = 0; i < joint.node.size(); ++i)
               attached_.push_back({joint.node[i], joint.body[i]});

@@ -1,5 +1,6 @@
 // Which colliders may touch at all: not those of bodies that a joint connects or the effect names, nor a node
-// the body that carries it or that it is attached to, nor nodes of one element.
+// the body that carries it or that it is attached to, nor nodes of one element, nor one of these a triangle
+// of the other.
 #pragma once
 
 #include <array>
@@ -15,13 +16,13 @@ class AllowedPairs {
 
   bool bodies(int first, int second) const;
   bool node_and_body(int node, int body) const;
-  /// Where nodes touch each other.
+  /// Where nodes touch each other or triangles.
   bool nodes(int first, int second) const;
 
  private:
   std::vector<std::array<int, 2>> apart_;     // bodies, the lower one first
   std::vector<std::array<int, 2>> attached_;  // nodes and bodies
-  std::vector<std::array<int, 2>> linked_;    // nodes of one element, both ways, where nodes touch each other
+  std::vector<std::array<int, 2>> linked_;    // nodes of one element, both ways, where nodes touch any
 };
 
 }  // namespace pbd

@@ -138,13 +138,13 @@ bool ContactRows::collide(ConstBlockSpan blocks, const Points& v, double accurac
   with_contacts(blocks, contacts_, [&](const auto& block, auto& contacts) {
     for (std::size_t i = 0; i < block.size(); ++i) {
       ActiveContact& contact = contacts[i];
-      if (contact.restitution > 0 || !(contact.law.restitution > 0) || !(contact.closing > 0)) continue;
+      if (contact.restitution > 0 || !(contact.bounce > 0) || !(contact.closing > 0)) continue;
       const double unsolved = accuracy / std::sqrt(block.inverse_diagonal[i](0, 0));
       const double slack = std::max(touching * std::abs(contact.closing), unsolved);
       if (!(block.residual(v, i, block.impulse[i])[0] <= slack)) continue;
       const double parting = (block.jacobian[i] * block.gather(v, i))[0];
-      if (!(parting < contact.law.restitution * contact.closing - slack)) continue;
-      contact.restitution = contact.law.restitution;
+      if (!(parting < contact.bounce * contact.closing - slack)) continue;
+      contact.restitution = contact.bounce;
       collided_.emplace(contact.pair(), contact.features.key);
       impact_ = std::max(impact_, Impact::rebound);
       any = true;
@@ -200,7 +200,8 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       std::array<int, 2> collider = contacts[i].collider;
       for (const int side : {0, 1}) {
         if (side == contacts[i].triangle_side) collider[side] = first_node + contacts[i].triangle.node[0];
-        if (contacts[i].of_surfaces && !contacts[i].surface.of_spheres()) collider[side] += first_node;
+        if (contacts[i].of_surfaces && !contacts[i].surface.of_spheres())
+          collider[side] = search_.side_of_surface(collider[side]);
       }
       const auto acting = directions_in<std::remove_const_t<Block>>(contacts[i], block.jacobian[i]);
       const Vec3 normal = acting.row(0);

@@ -2,12 +2,13 @@
 // (contact_search.h); gap and normal n follow the iterates. Rows of a contact, with the velocities v of the
 // map x(v) (integrators.h):
 //   normal      (g(x) - min(0, max(g_l, g_0 + recovery d))) / d, g the gap (m), g_l where the step begins,
-//               g_0 at x0: overlaps part at `recovery` at most and get no deeper. Sigma = A/(h d); a damper
-//               is met where the shapes touch. Where shapes collide with restitution e in this step, the
-//               smaller of this and n . (u(v) + e u(v_l)), u the relative velocity of what touches, in
-//               u(v_l) by a body's spin in its own axes: what rolls sinks by the curvature of its path if it
-//               is kept from approaching alone. The gap may then be the one to which that speed leads from
-//               x0: with newmark and alpha = 1/2 energy is kept for e = 1
+//               g_0 at x0: overlaps part at `recovery` at most and get no deeper. What yields (A > 0) is a
+//               spring from g = 0 on instead. Sigma = A/(h d); a damper is met where the shapes touch. Where
+//               shapes collide with restitution e in this step, the smaller of this and n . (u(v) + e
+//               u(v_l)), u the relative velocity of what touches, in u(v_l) by a body's spin in its own axes:
+//               what rolls sinks by the curvature of its path if it is kept from approaching alone. The gap
+//               may then be the one to which that speed leads from x0: with newmark and alpha = 1/2 energy is
+//               kept for e = 1
 //   tangential  t_j . (u(v) + s), two directions across n that follow it, s the velocity at which surfaces
 //               that move along themselves go against each other
 // A contact without friction has the normal row alone. The law listed for a step is `Method::friction`.
@@ -39,6 +40,7 @@
 // what collides is open, too. A collision falls at its step's end: the speed that comes back is e times that
 // at the step's start, g h too small at most, from a place up to v h above the ground: heights of rebounds
 // are of first order in h. What one round has let collide does so for the rest of the step, solved or missed.
+// What yields and is loaded where the step begins does not collide: its spring brings back what comes back.
 #pragma once
 
 #include <set>

@@ -31,7 +31,7 @@ void ContactRows::keep_impulses(ConstBlockSpan blocks) {
   seeds_.sort();
 }
 
-/// The gap that a contact aims at, `gap` where the step begins and farther by `shift` at x0 (m).
+/// The gap that a hard contact aims at, `gap` where the step begins and farther by `shift` at x0 (m).
 template <class Block>
 double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double shift,
                               const Block& block, std::size_t i) const {
@@ -68,7 +68,7 @@ void ContactRows::look_ahead(const StepBegin& begin, double gap, double ahead, A
   const Configuration free{free_.x, free_.pose, begin.at.time};
   const auto share = search_.closes_at(contact, begin.at, free, gap > 0 ? gap / (gap - ahead) : 0);
   const bool meets = share && search_.on_features(contact, begin.at, free, *share);
-  contact.restitution = meets ? contact.law.restitution : 0;
+  contact.restitution = meets ? contact.bounce : 0;
   contact.passes = share && !meets;
 }
 
@@ -81,27 +81,30 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double shift = (jacobian * block.gather(shifts.own, i))[0], from = gap + shift;
   const auto recovered = [&](double deep) { return target_of(begin, shifts, deep, shift, block, i); };
-  // A late one is told how deep its pair began, as its features may have lain anywhere then; a triangle may
-  // have begun cut by others. Of what surfaces pass the planes may have lain anywhere: its target stays.
-  if (!contact.late)
+  // What yields is a spring from where the shapes touch, however deep it begins. A late one is told how deep
+  // its pair began, as its features may have lain anywhere then; a triangle may have begun cut by others. Of
+  // what surfaces pass the planes may have lain anywhere: its target stays.
+  const bool yields = contact.law.compliance > 0;
+  if (yields)
+    contact.target = 0;
+  else if (!contact.late)
     contact.target = recovered(gap);
   else if (!contact.of_surfaces)
     contact.target =
         contact.triangle_side >= 0 ? std::min(contact.target, recovered(gap)) : recovered(contact.target);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
-  const bool springs = contact.law.compliance > 0 && contact.law.damping == 0;
+  const bool springs = yields && contact.law.damping == 0;
   if (hits(shifts.forced, contact, begin.map.d, ahead, block, i))
     impact_ = std::max(impact_, springs || contact.law.restitution > 0 ? Impact::rebound : Impact::stop);
+  contact.bounce = yields && gap < 0 ? 0 : contact.law.restitution;
   contact.restitution = 0;
   contact.passes = false;
-  if (contact.law.restitution > 0 && contact.closing > 0 && ahead < 0) look_ahead(begin, gap, ahead, contact);
-  if (collided_.contains({contact.pair(), contact.features.key}))
-    contact.restitution = contact.law.restitution;
-  contact.rebound =
-      contact.closing > 0
-          ? std::min(contact.target, from + begin.map.d * contact.law.restitution * contact.closing)
-          : contact.target;
+  if (contact.bounce > 0 && contact.closing > 0 && ahead < 0) look_ahead(begin, gap, ahead, contact);
+  if (collided_.contains({contact.pair(), contact.features.key})) contact.restitution = contact.bounce;
+  contact.rebound = contact.closing > 0
+                        ? std::min(contact.target, from + begin.map.d * contact.bounce * contact.closing)
+                        : contact.target;
   const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
   contact.compliance = elastic * contact.law.compliance;
   // The damper is met with the shape; what is seen late counts as apart before.

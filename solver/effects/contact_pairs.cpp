@@ -54,7 +54,8 @@ void ContactSearch::search_nodes(int first, int second, const Points& x, SearchT
                      SurfaceContact::Kind::node_edge,
                      1,
                      Vec3::UnitZ(),
-                     one.radius + two.radius};
+                     one.radius + two.radius,
+                     one.radius};
   contact.collider = {first, second};
   contact.law = effect_.between(first, second);
   const double gap = touching(contact.surface, x).gap;
@@ -134,12 +135,13 @@ void ContactSearch::search(const Configuration& start) {
     near_pairs_.push_back({pair, nearest, near_.size()});
   }
   for (Motion& motion : motions_) motion.grown = false;
-  if (std::exchange(surfaces_grown_, false) && effect_.surfaces_touch) {
+  if (std::exchange(surfaces_grown_, false)) {
     surface_contacts_.clear();
-    surfaces_->find(start.x, node_travel_, effect_.thickness, surface_contacts_);
+    surfaces_->find(start.x, node_travel_, surface_contacts_);
+    std::erase_if(surface_contacts_, [&](const SurfaceContact& found) { return !may_touch(found); });
   }
   searched_ = true;
-  if (near_.empty() && late_.empty() && !(surfaces_ && effect_.surfaces_touch)) look_for_clearance(start);
+  if (near_.empty() && late_.empty() && !(surfaces_ && surfaces_->searches())) look_for_clearance(start);
 }
 
 void ContactSearch::look_for_clearance(const Configuration& start) {

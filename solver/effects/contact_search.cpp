@@ -7,6 +7,18 @@
 #include "rows/threads.h"
 
 namespace pbd {
+namespace {
+
+/// Ascending, each once.
+std::vector<int> nodes_of(const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<int> nodes;
+  for (const auto& triangle : triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
 
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
     : effect_(effect),
@@ -15,7 +27,18 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
       motions_(effect.collider.size() + effect.node.size() +
                (effect.collider.empty() ? 0 : effect.triangle.size())) {
   points_.triangle.radius = effect.thickness / 2;
-  if (!effect.triangle.empty()) surfaces_.emplace(effect.triangle);
+  if (!effect.triangle.empty()) {
+    sphere_.assign(static_cast<std::size_t>(scene.nodes()), -1);
+    std::vector<NodeSphere> spheres;
+    const std::vector<int> of_surfaces = nodes_of(effect.triangle);
+    for (std::size_t i = 0; i < effect.node.size(); ++i) {
+      const int node = effect.node[i];
+      if (std::binary_search(of_surfaces.begin(), of_surfaces.end(), node)) continue;
+      spheres.push_back({node, effect.radius[i]});
+      sphere_[static_cast<std::size_t>(node)] = static_cast<int>(effect.collider.size() + i);
+    }
+    surfaces_.emplace(effect.triangle, effect.thickness, effect.surfaces_touch, spheres);
+  }
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];
     if (k >= effect.collider.size() + effect.node.size()) {
@@ -39,13 +62,14 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
 }
 
 ActiveContact ContactSearch::of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const {
-  const int material = effect_.surface_material;
+  const int sphere = sphere_[static_cast<std::size_t>(found.node[0])];
+  const auto surface = effect_.collider.size() + effect_.node.size();
   ActiveContact contact;
   contact.of_surfaces = true;
   contact.carrier = {-1, -1};
   contact.features.point_a = contact.features.point_b = Vec3::Zero();
   contact.surface = found;
-  contact.law = effect_.law[material * effect_.materials + material];
+  contact.law = effect_.between(sphere < 0 ? surface : static_cast<std::size_t>(sphere), surface);
   const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
   contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};
   const auto number = [](int node) { return static_cast<std::uint64_t>(node); };
@@ -73,6 +97,19 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
     contact.target = found.target;
     add(contact);
   }
+}
+
+int ContactSearch::side_of_surface(int node) const {
+  const int sphere = sphere_[static_cast<std::size_t>(node)];
+  return sphere >= 0 ? sphere : static_cast<int>(effect_.collider.size() + effect_.node.size()) + node;
+}
+
+/// False of a sphere and a triangle with a node that one element joins to it.
+bool ContactSearch::may_touch(const SurfaceContact& contact) const {
+  const int sphere = contact.node[0];
+  return sphere_[static_cast<std::size_t>(sphere)] < 0 ||
+         std::all_of(contact.node.begin() + 1, contact.node.end(),
+                     [&](int node) { return node == sphere || allowed_.nodes(sphere, node); });
 }
 
 bool ContactSearch::may_touch(int first, int second) const {

@@ -108,6 +108,10 @@ class ContactSearch {
   std::optional<double> closes_at(const ActiveContact& contact, const Configuration& start,
                                   const Configuration& end, double first);
 
+  /// What a contact of surfaces names a node's side: the node, if it is a sphere, else that of a surface's,
+  /// behind the colliders and nodes of the effect.
+  int side_of_surface(int node) const;
+
   /// True if what touches of a contact is on both shapes at a share of the way.
   bool on_features(const ActiveContact& contact, const Configuration& start, const Configuration& end,
                    double share);
@@ -139,6 +143,7 @@ class ContactSearch {
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
   bool see_passed(const Points& start, const Points& end);
   bool may_touch(int first, int second) const;
+  bool may_touch(const SurfaceContact& contact) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
   bool is_above(int first, int second) const;
@@ -274,6 +279,8 @@ class ContactSearch {
   std::vector<NearView> views_;  // of pairs found before or now
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
+  std::vector<int>
+      sphere_;  // where there are surfaces, of each node: its number among sides, if it is a sphere
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<PassedContact> passed_, late_surfaces_;  // as `late_`
   bool surfaces_grown_ = false;                        // their nodes go farther than they were searched for

@@ -214,15 +214,16 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 /// Adds what deformable surfaces passed or overlap by where a solved iterate ends, as none of their contacts
 /// tells: a surface has no inside by which to see it later.
 bool ContactSearch::see_passed(const Points& start, const Points& end) {
-  if (!surfaces_ || !effect_.surfaces_touch) return false;
+  if (!surfaces_ || !surfaces_->searches()) return false;
   passed_.clear();
   const double slack = std::max(overlooked, besides_) * effect_.thickness / 2;
-  surfaces_->find_passed(start, end, effect_.thickness, slack, passed_);
+  surfaces_->find_passed(start, end, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
     const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
-    if ((is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
+    if (may_touch(found.contact) &&
+        (is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
         std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
       late_surfaces_.push_back(found);
   }

@@ -31,10 +31,11 @@ struct Collider {
 
 /// Contact of colliders with each other, of nodes, spheres of `radius` (m, 0 for a point), with colliders,
 /// and of deformable surfaces, the triangles, with each other and themselves at a distance of `thickness`,
-/// and with colliders at half of it, which is not 0 then. Two colliders of one body, of bodies that a joint
-/// connects, or of bodies named in `apart` do not touch, nor does a node, or a triangle of it, the body that
-/// it is attached to; nodes touch each other with `nodes_touch` alone, but not those of one link, hinge,
-/// triangle or tetrahedron. `law` has an entry for each pair of materials, row by row of a symmetric table.
+/// with `surfaces_touch`, and with colliders and nodes of no triangle at half of it, which is not 0 then. Two
+/// colliders of one body, of bodies that a joint connects, or of bodies named in `apart` do not touch, nor
+/// does a node, or a triangle of it, the body that it is attached to; nodes touch each other with
+/// `nodes_touch` alone. No nodes of one link, hinge, triangle or tetrahedron touch, nor a node a triangle
+/// with such a node. `law` has an entry for each pair of materials, row by row of a symmetric table.
 /// Gaps g >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery`
 /// (m/s). Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved
 /// step colliders do not pass through colliders, nodes and triangles either, on straight ways and constant

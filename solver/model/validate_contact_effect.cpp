@@ -89,9 +89,10 @@ void validate(const EffectCheck& check, const Contact& effect) {
   check.node_indices(effect.triangle);
   REQUIRE(effect.thickness >= 0 && std::isfinite(effect.thickness), check.name + " thickness",
           text(effect.thickness), "a finite number >= 0, m");
-  REQUIRE(effect.thickness > 0 || effect.triangle.empty() || effect.collider.empty(),
-          check.name + " thickness", text(effect.thickness),
-          "a number > 0, m, where surfaces and bodies take part: a point has no side");
+  const bool surfaces_alone = effect.collider.empty() && effect.node.empty();
+  REQUIRE(effect.thickness > 0 || effect.triangle.empty() || surfaces_alone, check.name + " thickness",
+          text(effect.thickness),
+          "a number > 0, m, where surfaces touch bodies or nodes: a point has no side");
   material_index(effect.surface_material, 0, "surface_material");
   validate_laws(check, effect);
   for (std::size_t i = 0; i < effect.apart.size(); ++i)

@@ -75,7 +75,7 @@ void QuasiNewton::begin(StepSystem& system) {
   evaluated_ = false;
   potential_.since_factor = 0;
   fall_ = {};
-  last_residual_ = infinity;  // the metric of the last step serves until it proves outlived
+  last_residual_ = system.problem.method.warm_start ? infinity : 0;  // the last step's metric serves at first
   potential_.begin_metric(system);
 }
 

@@ -10,7 +10,8 @@
 // which allocates. Of sheets, whose stiffness across themselves is their tension, it is Newton's tangent at
 // the current shape (`Constraint::geometric_stiffness`), without what is not convex where that tangent is not
 // positive definite. It is factored anew wherever a descent leaves more than 0.7 of the residual, under rows
-// more than a tenth; a step begins with the last one's. Above
+// more than a tenth; a step begins with the last one's where it
+// is warm-started. Above
 // 1e10 block products (about 70000 nodes of a beam four times as long as high) it falls back to one number a
 // pair of nodes, which takes several times the iterations (measured: `rival_newton`).
 #pragma once

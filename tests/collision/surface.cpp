@@ -74,7 +74,7 @@ TEST_CASE("edges that are parallel have no normal, and are no contact but by the
   Points x(3, 6);
   x << Vec3::Zero(), edge, beside, beside + edge, Vec3(-1, 0, 0), Vec3(1, 0, 0);
   std::vector<SurfaceContact> found;
-  SurfaceSearch({{0, 1, 4}, {2, 3, 5}}).find(x, std::vector<double>(6, 1e-2), 1e-3, found);
+  SurfaceSearch({{0, 1, 4}, {2, 3, 5}}, 1e-3).find(x, std::vector<double>(6, 1e-2), found);
   CHECK(std::none_of(found.begin(), found.end(), [](const SurfaceContact& contact) {
     return contact.kind == SurfaceContact::Kind::edge_edge && contact.node == std::array{0, 1, 2, 3};
   }));
@@ -113,7 +113,7 @@ TEST_CASE("what surfaces pass on straight ways is told by the side from which it
     }
     if (grazes) continue;
     std::vector<PassedContact> found;
-    SurfaceSearch(triangles).find_passed(from, to, 0, 1e-9, found);
+    SurfaceSearch(triangles, 0).find_passed(from, to, 1e-9, found);
     const auto told = std::find_if(found.begin(), found.end(), [&](const PassedContact& each) {
       return each.contact.kind == kind && each.contact.node == contact.node;
     });

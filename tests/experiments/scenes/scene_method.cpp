@@ -97,3 +97,11 @@ TEST_CASE("every example of the format's description is read") {
   }
   CHECK(count >= 20);
 }
+
+TEST_CASE("a setting takes the place of a key that says the same in other words") {
+  const SceneFile by_count = read_scene_file(scenes / "pendulum.toml", {"step.steps=3"});
+  CHECK(by_count.steps == 3);
+  const SceneFile by_time =
+      read_scene_file(scenes / "pendulum.toml", {"step.steps=3", "step.step_s=0.01", "step.duration_s=0.05"});
+  CHECK(by_time.steps == 5);
+}

@@ -65,22 +65,28 @@ void add_simulate(CLI::App& app, SimulateOptions& options) {
 
 void add_compare(CLI::App& app, CompareOptions& options) {
   auto* command = app.add_subcommand(
-      "compare", "Measure methods against a reference on one step; writes DIR/compare.csv");
+      "compare", "Measure methods against a reference, on one step or a motion; writes DIR/compare.csv");
   add_scene_options(*command, options.scene, options.settings, options.directory);
   command
       ->add_option("--method", options.methods,
                    "KEY=VALUE ... on top of the scene's [method], or rival=NAME with tolerance=VALUE and\n"
-                   "max_outer=VALUE at most, in quotes; may be repeated")
+                   "max_outer=VALUE at most, in quotes; with --until also step_s=VALUE; may be repeated")
       ->required()
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--reference", options.reference,
-          fmt::format("{}; if left out the first that knows the scene", fmt::join(reference_names(), ", ")))
-      ->check(one_of(reference_names()));
-  command->add_option("--at-step", options.at_step, "Steps by the scene's own method before the compared one")
-      ->check(integer_from(0, std::numeric_limits<int>::max()))
-      ->capture_default_str();
+      ->add_option("--reference", options.reference,
+                   fmt::format("Of a step {}, of a motion {}; if left out the first that knows the scene",
+                               fmt::join(reference_names(), ", "), fmt::join(motion_reference_names(), ", ")))
+      ->check(one_of(all_reference_names()));
+  auto* at_step = command
+                      ->add_option("--at-step", options.at_step,
+                                   "Steps by the scene's own method before the compared one")
+                      ->check(integer_from(0, std::numeric_limits<int>::max()))
+                      ->capture_default_str();
+  command
+      ->add_option("--until", options.until, "Compare the whole motions from 0 to this time (s), not a step")
+      ->check(number_between(0, std::numeric_limits<double>::infinity()))
+      ->excludes(at_step);
 }
 
 void add_advise(CLI::App& app, AdviseOptions& options) {

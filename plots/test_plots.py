@@ -275,6 +275,18 @@ class Commands(unittest.TestCase):
             self.assertEqual(self.run_plots("compare.py", folder).returncode, 0)
             self.assertTrue((Path(folder) / "figures" / "compare_seconds.svg").exists())
 
+    def test_compare_draws_motions_of_all_steps_and_integrators_in_one_panel(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rows = [("a", 1.0, "none", "judge", "ode", "none", 0, 0, 0, 1.0, 1e-6, "ok", "", "ode", 1.0, 1e-6, "ODE"),
+                    ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 2.0, 1e-7, "ok", "", "x", 1.0, 1e-6, "ODE"),
+                    ("a", 0.2, "newmark", "plain", "direct", "none", 1, 1, 1, 1.0, 2e-7, "ok", "", "y", 1.0, 1e-6, "ODE"),
+                    ("a", 0.1, "newmark", "plain", "jacobi", "none", 1, 1, 1, 1.0, 0.1, "not_converged", "far", "z", 1.0, 1e-6, "ODE")]
+            sample.write(folder, ".", "compare", tables.METHOD + " method duration_s error_bar truth", rows)
+            fig = compare.draw(reading.read_table(Path(folder) / "compare.csv"))
+            self.assertEqual(len(fig.axes), 1)
+            self.assertEqual([text.get_text() for text in fig.legends[0].get_texts()], ["x", "y"])
+            self.assertIn("Least error told: 3e-6 in 1 s by y", title_of(fig))
+
     def test_a_comparison_without_an_error_is_never_ok(self):
         with tempfile.TemporaryDirectory() as folder:
             row = ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 1.0, math.nan, "ok", "", "outer=plain")

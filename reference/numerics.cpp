@@ -5,6 +5,7 @@
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_roots.h>
 
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -27,16 +28,24 @@ void require(int status, const char* what) {
   if (status != GSL_SUCCESS) throw std::runtime_error(std::string(what) + ": " + gsl_strerror(status));
 }
 
-/// The right-hand side as GSL calls it, up to a number of evaluations.
+/// The right-hand side as GSL calls it, up to a number of evaluations. Exceptions are kept: GSL lets none
+/// through.
 struct Evaluations {
   const Slope& f;
-  long allowed;
+  const OdeSettings& settings;
   Eigen::VectorXd y, slope;
   long count = 0;
+  std::exception_ptr stopped{};
 
   static int call(double t, const double* y, double* slope, void* data) {
     auto& e = *static_cast<Evaluations*>(data);
-    if (++e.count >= e.allowed) return GSL_EBADFUNC;
+    if (++e.count >= e.settings.max_evaluations) return GSL_EBADFUNC;
+    if (e.settings.poll) try {
+        e.settings.poll();
+      } catch (...) {
+        e.stopped = std::current_exception();
+        return GSL_EBADFUNC;
+      }
     e.y = Eigen::Map<const Eigen::VectorXd>(y, e.y.size());
     e.f(t, e.y, e.slope);
     Eigen::Map<Eigen::VectorXd>(slope, e.slope.size()) = e.slope;
@@ -79,7 +88,7 @@ OdeSolution solve_ode(const Slope& f, Eigen::VectorXd y, const std::vector<doubl
   for (std::size_t i = 0; i < times.size(); ++i)
     if (!(times[i] >= (i == 0 ? 0 : times[i - 1])))
       throw std::invalid_argument("ode: times must be >= 0 and increase");
-  Evaluations evaluations{f, settings.max_evaluations, y, y};
+  Evaluations evaluations{f, settings, y, y};
   gsl_set_error_handler_off();
   gsl_odeiv2_system system{&Evaluations::call, nullptr, static_cast<std::size_t>(y.size()), &evaluations};
   const std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver(
@@ -90,6 +99,7 @@ OdeSolution solve_ode(const Slope& f, Eigen::VectorXd y, const std::vector<doubl
   double t = 0;
   for (const double end : times) {
     const int status = gsl_odeiv2_driver_apply(driver.get(), &t, end, y.data());
+    if (evaluations.stopped) std::rethrow_exception(evaluations.stopped);
     if (evaluations.count >= settings.max_evaluations)
       throw OdeFailure("ode: stopped at t = " + std::to_string(t) + " s after " +
                        std::to_string(evaluations.count) + " evaluations");

@@ -22,6 +22,7 @@ using Slope = std::function<void(double t, const Eigen::VectorXd& y, Eigen::Vect
 struct OdeSettings {
   double tolerance = 1e-13;  // of a step's error in y_i, over 1 + |y_i|
   long max_evaluations = 10'000'000;
+  std::function<void()> poll{};  // called at each evaluation; what it throws ends the integration
 };
 struct OdeSolution {
   std::vector<Eigen::VectorXd> states;  // one per time asked

@@ -39,6 +39,7 @@ struct CompareOptions {
   std::vector<std::string> settings;
   std::vector<std::string> methods;  // each "KEY=VALUE KEY=VALUE ..." on top of the scene's method
   std::string reference;             // empty: the first one
+  std::optional<double> until;       // s: whole motions are compared, not one step
   int at_step = 0;                   // steps of the scene's own method before the step that is compared
   std::filesystem::path directory = default_directory;
 };

@@ -1,26 +1,20 @@
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "commands/commands.h"
+#include "commands/comparison.h"
 #include "commands/contender.h"
 #include "commands/way.h"
 #include "contact_newton.h"
 #include "error.h"
 #include "harness/contact_sums.h"
-#include "harness/files.h"
 #include "harness/interrupt.h"
 #include "harness/judges.h"
 #include "harness/measure.h"
 #include "harness/progress.h"
-#include "harness/provenance.h"
 #include "harness/step_judge.h"
+#include "scenes/choices.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
@@ -88,28 +82,12 @@ class Comparison {
   Table table_;
 };
 
-nlohmann::ordered_json comparison_json(const CompareOptions& options, const SceneFile& file,
-                                       const std::string& reference) {
-  return {{"scene", options.scene.string()}, {"set", options.settings},
-          {"step_s", file.step_s},           {"at_step", options.at_step},
-          {"nodes", file.scene.nodes()},     {"method", method_text(file.method)},
-          {"compared", options.methods},     {"reference", reference}};
-}
-
-/// Draws `compare.csv` of a folder by the project's plotting script; a warning if that fails.
-void draw(const std::filesystem::path& directory) {
-  const std::string script = (source_root() / "plots" / "compare.py").string(), folder = directory.string();
-  const char* const arguments[] = {"/usr/bin/python3", script.c_str(), folder.c_str(), nullptr};
-  pid_t child = 0;
-  int status = 0;
-  const bool started =
-      posix_spawn(&child, arguments[0], nullptr, nullptr, const_cast<char* const*>(arguments), environ) == 0;
-  if (!started || waitpid(child, &status, 0) < 0 || status != 0)
-    warn(fmt::format("no figure drawn: {} {} failed", arguments[0], script));
-}
-
 /// Refuses what the reference does not solve, and a step beyond the scene's last.
 void require_comparable(const CompareOptions& options, const SceneFile& file, const std::string& reference) {
+  for (const auto& name : motion_reference_names())
+    if (name == reference)
+      throw pbd::SetupError("--reference", "`" + name + "`",
+                            joined(reference_names()) + "; this one is of motions, with --until");
   if (contact_of(file.scene) != nullptr && !knows_contact(reference))
     throw pbd::SetupError(
         "--reference " + reference, "a scene with contact",
@@ -140,19 +118,14 @@ std::string reference_of(const CompareOptions& options, const SceneFile& file, c
   return name;
 }
 
-}  // namespace
-
-int compare(const CompareOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  SceneFile file = read_scene_file(options.scene, options.settings);
+int compare_step(const CompareOptions& options, SceneFile& file) {
   const std::string first = options.reference.empty() ? default_reference(file.scene) : options.reference;
   require_comparable(options, file, first);
   const auto contenders = parsed_contenders(options.methods, file);
   const std::string integrator = contenders.front().method.integrator;
   const std::string name = reference_of(options, file, integrator, first);
-  require_writable(options.directory);
+  ComparisonRecord record(options);
   Comparison comparison(options, file);
-  PartialFile record(options.directory / "run.json");
 
   Way way(file, integrator);
   way.go(options.at_step);
@@ -163,48 +136,43 @@ int compare(const CompareOptions& options) {
   const Judged judged = judge_step(name, file.scene, way.state, file.step_s,
                                    pbd::friction_by_name(file.method.friction), map ? &*map : nullptr);
   comparison.add_judge(name, integrator, judged);
-  RunOutcome outcome = RunOutcome::complete;
-  std::string reason;
-  if (judged.status != "ok") {
-    outcome = RunOutcome::failed;
-    reason = fmt::format("reference {} {}: {}", name, judged.status, judged.reason);
-    error_message(reason);
-  }
-  bool all_ok = outcome == RunOutcome::complete && way.missed == 0;
+  Compared compared{.all_ok = way.missed == 0};
+  if (judged.status != "ok")
+    compared.fail(fmt::format("reference {} {}: {}", name, judged.status, judged.reason));
   ProgressBar progress("compare", static_cast<std::int64_t>(contenders.size()));
   try {
     for (const auto& contender : contenders) {
-      if (outcome == RunOutcome::failed) {
-        comparison.skip(contender, reason);
+      if (compared.outcome == RunOutcome::failed) {
+        comparison.skip(contender, compared.reason);
         continue;
       }
       throw_if_interrupted();
       const Trace trace =
           measure([&] { return contender.measure_once(file, way.state, way.workspace, judged.x); });
       if (trace.report.status == pbd::Status::ok && trace.met_on_way) {
-        all_ok = false;
+        compared.all_ok = false;
         comparison.skip(contender, not_judged_if_met);
         warn(fmt::format("`{}` is not compared: {}", contender.text, not_judged_if_met));
       } else if (!comparison.add_trace(contender, trace)) {
-        all_ok = false;
+        compared.all_ok = false;
         warn(fmt::format("`{}` missed its tolerance: {}", contender.text, trace.report.reason));
       }
       progress.advance(contender.text);
     }
   } catch (const Interrupted&) {
-    outcome = RunOutcome::interrupted;
-    reason = "stopped by the user";
+    compared.stop();
   }
   comparison.close();
-  auto json = run_record(1, outcome, reason);
-  json["settings"] = comparison_json(options, file, name);
-  json["rows"] = comparison.totals().rows;
-  json["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.write(json_text(json));
-  record.complete();
-  if (outcome == RunOutcome::interrupted) return exit_interrupted;
-  draw(options.directory);
-  return all_ok ? exit_done : exit_failed;
+  auto settings = record.settings(file, name);
+  settings["at_step"] = options.at_step;
+  return record.close(settings, comparison.totals(), compared);
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  SceneFile file = read_scene_file(options.scene, options.settings);
+  return options.until ? compare_motions(options, file) : compare_step(options, file);
 }
 
 }  // namespace pbdcheck

@@ -27,7 +27,7 @@ _pbdcheck() {
           list) words="@KINDS@ --json --help" ;;
           completion) words="bash" ;;
           simulate) words="--set --output --export --check --judge --help" ;;
-          compare) words="--set --method --reference --at-step --output --help" ;;
+          compare) words="--set --method --reference --at-step --until --output --help" ;;
           advise) words="--set --error --seconds --json --help" ;;
           cone) words="--law --relaxation --tolerance --json --output --help" ;;
           verify) words="--only --tier --threads --resume --json --junit --output --help" ;;
@@ -54,7 +54,7 @@ int completion(const std::string& shell) {
     script.replace(script.find(placeholder), placeholder.size(), fmt::format("{}", fmt::join(words, " ")));
   };
   fill("@KINDS@", list_kinds());
-  fill("@REFERENCES@", reference_names());
+  fill("@REFERENCES@", all_reference_names());
   fill("@LAWS@", cone_laws());
   std::vector<std::string> solvers;
   for (const auto& solver : cone_solvers()) solvers.push_back(solver.name);

@@ -1,6 +1,7 @@
 // What `compare` compares, as `--method` names it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Contender {
   std::string text;  // as given
   pbd::Method method;
   const pbd::rivals::NamedRival* rival = nullptr;
+  std::int64_t steps = 1;  // of the motion
 
   /// The scene's step from `state`, watched; by another integrator than implicit Euler going on from
   /// `before`.
@@ -22,9 +24,15 @@ struct Contender {
                      const pbd::Points& exact) const;
 };
 
-/// Each text is "KEY=VALUE ..." on top of the file's method, or "rival=NAME" with tolerance and max_outer at
-/// most. Throws SetupError, also for what the scene does not allow, for a method that stands twice, and for
-/// integrators that differ, or are neither implicit Euler nor the file's own.
+/// Of one step. Each text is "KEY=VALUE ..." on top of the file's method, or "rival=NAME" with tolerance and
+/// max_outer at most. Throws SetupError, also for what the scene does not allow, for a method that stands
+/// twice, and for integrators that differ, or are neither implicit Euler nor the file's own.
 std::vector<Contender> parsed_contenders(const std::vector<std::string>& texts, const SceneFile& file);
+
+/// Of motions from 0 to `until` (s). Each text is "KEY=VALUE ..." on top of the file's method, with any
+/// integrator, and "step_s=VALUE" (s) if the step is not the file's. Throws SetupError, also for rivals,
+/// which do single steps, and for steps that do not divide `until`.
+std::vector<Contender> parsed_movers(const std::vector<std::string>& texts, const SceneFile& file,
+                                     double until);
 
 }  // namespace pbdcheck

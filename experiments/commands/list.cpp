@@ -58,6 +58,7 @@ std::vector<Item> reference_items() {
                    "steps with contact, and contact problems with friction: interior point, then Newton"});
   items.push_back({"cone_ipopt", "the same by Ipopt on two smooth forms"});
   items.push_back({"ode", "trajectories of compliant scenes and planar hard chains in continuous time"});
+  items.push_back({"finer_steps", "trajectories of all scenes: the solver's own by far smaller steps"});
   items.push_back({"closed_form", "formulas and their checks, see `list cases`"});
   return items;
 }

@@ -70,6 +70,17 @@ std::vector<std::string> reference_names() {
   return names;
 }
 
+const std::vector<std::string>& motion_reference_names() {
+  static const std::vector<std::string> names{"ode", "finer_steps"};
+  return names;
+}
+
+std::vector<std::string> all_reference_names() {
+  auto names = reference_names();
+  names.insert(names.end(), motion_reference_names().begin(), motion_reference_names().end());
+  return names;
+}
+
 bool knows_contact(const std::string& reference) {
   return contact_judge(reference) != nullptr;
 }

@@ -15,6 +15,12 @@ namespace pbdcheck {
 /// Names of the references that solve a step; those of `contact_judges()`, which know contact, come last.
 std::vector<std::string> reference_names();
 
+/// Names of the references of motions: the ODE where there is one, and the solver's own by far smaller steps.
+const std::vector<std::string>& motion_reference_names();
+
+/// Both.
+std::vector<std::string> all_reference_names();
+
 bool knows_contact(const std::string& reference);
 
 /// The first of them that knows the scene's effects and the integrator: with contact, damping or bounds of

@@ -38,14 +38,18 @@ pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
   for (Eigen::Index b = 0; b < bodies; ++b) {
     const auto& [node, inertia] = scene.bodies[static_cast<std::size_t>(b)];
     if (!inertia.allFinite()) continue;
-    const double mass = scene.mass[static_cast<std::size_t>(node)];
-    const pbd::Vec3 arm =
-        std::isfinite(mass) ? pbd::Vec3((inertia / mass).cwiseSqrt()) : pbd::Vec3(pbd::Vec3::Ones());
+    const pbd::Vec3 arm = gyration_radii(scene, scene.bodies[static_cast<std::size_t>(b)]);
     const Eigen::Matrix3d axes = orientation[static_cast<std::size_t>(b)].toRotationMatrix();
     all.middleCols(next, 3) = (axes * arm.asDiagonal()).colwise() + x.col(node);
     next += 3;
   }
   return all.leftCols(next);
+}
+
+pbd::Vec3 gyration_radii(const pbd::Scene& scene, const pbd::RigidBody& body) {
+  const double mass = scene.mass[static_cast<std::size_t>(body.node)];
+  if (!std::isfinite(mass)) return pbd::Vec3::Ones();
+  return (body.inertia / mass).cwiseSqrt();
 }
 
 double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {

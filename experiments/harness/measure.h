@@ -83,6 +83,9 @@ class WorstSpread {
 pbd::Points places(const pbd::Scene& scene, const pbd::Points& x,
                    const std::vector<Eigen::Quaterniond>& orientation);
 
+/// m, of those points from the centre of a body of finite inertia, along its axes.
+pbd::Vec3 gyration_radii(const pbd::Scene& scene, const pbd::RigidBody& body);
+
 /// What rounding may move a place by, of its coordinates.
 inline constexpr double rounded_place = 64 * std::numeric_limits<double>::epsilon();
 

@@ -9,9 +9,12 @@
 
 #include "error.h"
 #include "harness/contact_sums.h"
+#include "harness/interrupt.h"
 #include "harness/measure.h"
 #include "harness/probes.h"
+#include "harness/progress.h"
 #include "harness/stepper.h"
+#include "ode.h"
 
 namespace pbdcheck {
 
@@ -48,7 +51,10 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
     stepper.watch([&] {
       if (found.wall_s + since(clock) > limits.wall_s) throw OutOfTime();
     });
+  SlowNotice notice(fmt::format("{} steps by {}, {}, {}", setting.steps, setting.method.integrator,
+                                setting.method.outer, setting.method.relaxation));
   for (std::int64_t k = 1; k <= setting.steps && found.status == Status::ok; ++k) {
+    notice.poll();
     clock = Clock::now();
     Report report;
     try {
@@ -100,15 +106,45 @@ double way(const Scene& scene, const State& end) {
   return moved.cols() > 0 ? moved.colwise().norm().maxCoeff() : 0;
 }
 
+void require_ode(const SceneFile& file) {
+  if (!file.script.empty())
+    throw SetupError("scene", "what changes with time", "nothing that does: the ODE has one force");
+  reference::ode(file.scene, {});
+}
+
+Truth ode_truth(const SceneFile& file, double duration, reference::OdeSettings settings) {
+  require_ode(file);
+  settings.poll =
+      [notice = SlowNotice(fmt::format("ode integrates the motion to t = {:g} s", duration))]() mutable {
+        throw_if_interrupted();
+        notice.poll();
+      };
+  const auto found = reference::ode(file.scene, {duration}, settings);
+  Truth truth{file.scene.initial, std::nan(""), "ODE of order 8", found.reason};
+  if (found.outcome != reference::Outcome::ok) return truth;
+  truth.end = found.samples[0];
+  double metres = found.position_error[0], arm = 0;
+  for (const RigidBody& body : file.scene.bodies)
+    if (body.inertia.allFinite()) arm = std::max(arm, gyration_radii(file.scene, body).maxCoeff());
+  if (arm > 0) metres += arm * found.orientation_error[0];
+  const double moved = way(file.scene, truth.end);
+  truth.error_bar = moved > 0 ? metres / moved : metres;
+  return truth;
+}
+
 Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest) {
   Setting coarser = finest;
   coarser.steps /= 2;
   const Trajectory fine = trajectory(file, duration, finest);
-  const double bar = end_error(file.scene, trajectory(file, duration, coarser), fine.end);
+  const Trajectory coarse = trajectory(file, duration, coarser);
+  const double bar = end_error(file.scene, coarse, fine.end);
   const Method& method = finest.method;
+  std::string reason = fine.status == Status::ok ? coarse.reason : fine.reason;
+  if (reason.empty() && !std::isfinite(bar)) reason = "the end is not finite";
   return {fine.end, fine.status == Status::ok ? bar : std::nan(""),
           fmt::format("{} steps by {}, {}, {}, tolerance {:g}", finest.steps, method.integrator, method.outer,
-                      method.relaxation, method.tolerance)};
+                      method.relaxation, method.tolerance),
+          reason};
 }
 
 Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
@@ -129,10 +165,12 @@ Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
 
 double energy_error(const Scene& scene, const Trajectory& found, const State& truth) {
   if (found.status != Status::ok) return std::nan("");
-  const double turned_over = kinetic_energy(scene, truth) + elastic_energy(scene, truth) +
-                             std::abs(gravity_energy(scene, truth) - gravity_energy(scene, scene.initial));
+  const double moving = kinetic_energy(scene, truth) + elastic_energy(scene, truth);
+  const double before = gravity_energy(scene, scene.initial), after = gravity_energy(scene, truth);
+  const double turned_over = moving + std::abs(after - before);
   const double difference = std::abs(total_energy(scene, found.end) - total_energy(scene, truth));
-  return turned_over > 0 ? difference / turned_over : difference;
+  const double rounding = rounded_place * (std::abs(before) + std::abs(after));
+  return turned_over > rounding ? difference / turned_over : difference;
 }
 
 }  // namespace pbdcheck

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "numerics.h"
 #include "scenes/scene_file.h"
 #include "step/step.h"
 
@@ -52,6 +53,7 @@ struct Truth {
   pbd::State end;
   double error_bar = 0;
   std::string method;
+  std::string reason{};  // why the bar is NaN
 
   /// An error that this truth can tell: below three of its bars there is none.
   double told(double error) const { return error < 3 * error_bar ? 3 * error_bar : error; }
@@ -61,6 +63,12 @@ struct Truth {
 
 /// `relative_error` of places at the end, NaN unless the trajectory is ok.
 double end_error(const pbd::Scene& scene, const Trajectory& found, const pbd::State& truth);
+
+/// Throws SetupError unless the scene's motion is that of an ODE that `reference/ode.h` states.
+void require_ode(const SceneFile& file);
+
+/// The end by that ODE. Throws SetupError as `require_ode`, and Interrupted.
+Truth ode_truth(const SceneFile& file, double duration, pbd::reference::OdeSettings settings = {});
 
 /// The end of `finest`; its bar is the distance to the same with half as many steps: of any order from the
 /// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok.
@@ -76,7 +84,7 @@ Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
 double way(const pbd::Scene& scene, const pbd::State& end);
 
 /// Difference of total energies over what the true motion turned over: its kinetic energy, its elastic energy
-/// and the change of gravity's from `start`; NaN unless the trajectory is ok.
+/// and the change of gravity's from `start`, in joules if that was rounding; NaN unless the trajectory is ok.
 double energy_error(const pbd::Scene& scene, const Trajectory& found, const pbd::State& truth);
 
 }  // namespace pbdcheck

@@ -67,6 +67,9 @@ class Script {
              lines_.empty() && lengths_.empty());
   }
 
+  /// True if nothing changes with time.
+  bool empty() const { return !changes_scene() && bodies_.empty() && poses_.empty(); }
+
   /// Hands what `begin_step` has set in `scene` on to a workspace of that scene. The step is to be a start
   /// where the rate of a motor jumps.
   void hand_on(const pbd::Scene& scene, double h, double time, pbd::Workspace& workspace) const;

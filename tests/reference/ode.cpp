@@ -235,6 +235,8 @@ TEST_CASE("what cannot be integrated has a reason and no samples") {
   CHECK_THROWS_AS(solve_ode(blow_up, Vector::Ones(1), {0.5, 1.1}), OdeFailure);
   const auto undefined = [](double t, const Vector&, Vector& out) { out << std::sqrt(1 - t); };
   CHECK_THROWS_AS(solve_ode(undefined, Vector::Ones(1), {2}), OdeFailure);
+  struct Stopped {};
+  CHECK_THROWS_AS(solve_ode(blow_up, Vector::Ones(1), {0.5}, {.poll = [] { throw Stopped(); }}), Stopped);
   // A short pulse that lifts y from 0 to 1, undefined above 1.2: only trial steps, too long ones, get there.
   const auto pulse = [](double t, const Vector& y, Vector& out) {
     out << (y(0) < 1.2 ? 50 / std::pow(std::cosh(100 * (t - 1)), 2) : std::nan(""));

@@ -170,7 +170,8 @@ TEST_CASE("list prints names, as JSON if asked, and --help, --version and comple
   const auto listed = nlohmann::json::parse(run_program({"list", "relaxations", "--json"}).out);
   CHECK(listed[0]["name"] == "gauss_seidel");
   CHECK(nlohmann::json::parse(run_program({"list", "--json"}).out).size() == 10);
-  for (const auto* name : {"primal_newton  ", "ipopt  ", "cone_ipopt  ", "ode  ", "closed_form  "})
+  for (const auto* name :
+       {"primal_newton  ", "ipopt  ", "cone_ipopt  ", "ode  ", "finer_steps  ", "closed_form  "})
     CHECK_THAT(run_program({"list", "references"}).out, Catch::Contains(name));
   CHECK_THAT(run_program({"completion"}).out,
              Catch::Contains("words=\"primal_newton ipopt cone_interior_point"));
@@ -221,7 +222,8 @@ TEST_CASE("what the command line does not allow is refused with option, value an
       {{"compare", chain, "--method", "outer=plain", "--set", "method.integrator=symplectic_euler"},
        "--set method.integrator: got `symplectic_euler`; allowed: implicit_euler, newmark, bdf2"},
       {{"compare", chain, "--method", "outer=plain integrator=bdf2"},
-       "--method integrator: got `bdf2`; allowed: implicit_euler, or the integrator that leads to the step"},
+       "--method integrator: got `bdf2`; allowed: implicit_euler, which leads to the step: each integrator "
+       "has"},
       {{"compare", chain, "--method", "outer=plain", "--method", "integrator=implicit_euler", "--set",
         "method.integrator=bdf2"},
        "--method: got `integrator=implicit_euler`; allowed: the integrator of `outer=plain`"},

@@ -53,7 +53,7 @@ TEST_CASE("mistakes on the command line are refused with what is allowed") {
       {{"compare", scene, "--method", "relaxation=jacoby"},
        {"--method relaxation", "did you mean `jacobi`?"}},
       {{"compare", scene, "--method", "integrator=newmark"},
-       {"--method integrator", "`newmark`", "implicit_euler, or the integrator that leads to the step"}},
+       {"--method integrator", "`newmark`", "implicit_euler, which leads to the step"}},
       {{"compare", scene, "--method", "direction_blend=0.5"}, {"--method direction_blend", "got 0.5"}},
       {{"compare", scene, "--method", "speed=1"}, {"--method speed", "unknown key"}},
       {{"compare", scene, "--method", "outer=plain", "--reference", "oracle"}, {"--reference", "`oracle`"}},

@@ -94,8 +94,10 @@ void add_advise(CLI::App& app, AdviseOptions& options) {
   command->add_option("SCENE", options.scene, "Scene file (TOML)")->required();
   add_settings(*command, options.settings);
   command
-      ->add_option("--error", options.error,
-                   "Largest error of places at the end, relative to how far things move")
+      ->add_option(
+          "--error", options.error,
+          "Largest error of places at the end, relative to how far things move, or to a thousandth of "
+          "the scene's size if that is more")
       ->required()
       ->check(number_between(0, 1));
   command->add_option("--seconds", options.seconds, "About how long to compute")

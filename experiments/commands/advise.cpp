@@ -7,6 +7,7 @@
 #include "commands/commands.h"
 #include "error.h"
 #include "harness/pilot.h"
+#include "scenes/contacts.h"
 #include "scenes/scene_file.h"
 
 namespace pbdcheck {
@@ -47,15 +48,32 @@ std::string toml_text(const SceneFile& file, const Pilot& pilot, const PilotRun&
   return text;
 }
 
+double whole_duration(const SceneFile& file) {
+  return static_cast<double>(file.steps) * file.step_s;
+}
+
+bool is_part(const SceneFile& file, const Pilot& pilot) {
+  return pilot.duration < whole_duration(file) * (1 - 1e-9);
+}
+
+/// Nothing touches in the part that the pilot tells, which may be otherwise later.
+bool is_before_contact(const SceneFile& file, const Pilot& pilot) {
+  return is_part(file, pilot) && contact_of(file.scene) != nullptr && !pilot.truth.touched;
+}
+
 /// What the pilot cannot tell.
 std::vector<std::string> limits(const AdviseOptions& options, const SceneFile& file, const Pilot& pilot) {
   std::vector<std::string> all;
-  const double whole = static_cast<double>(file.steps) * file.step_s;
-  if (pilot.duration < whole * (1 - 1e-9))
-    all.emplace_back(
-        fmt::format("what comes after the first {:.4g} of {:.4g} s, which is as much as {:g} s of "
-                    "computing allow: impacts later on may want shorter steps",
-                    pilot.duration, whole, options.seconds));
+  if (is_part(file, pilot)) {
+    const std::string why =
+        pilot.untold > 0 ? fmt::format("as {:.3g} s of computing do not tell where the first {:.4g} s end",
+                                       pilot.spent_s, pilot.untold)
+                         : fmt::format("which took {:.3g} s of computing", pilot.spent_s);
+    all.emplace_back(fmt::format(
+        "what comes after the first {:.4g} of {:.4g} s, {}: impacts later on may want shorter steps",
+        pilot.duration, whole_duration(file), why));
+  }
+  if (is_before_contact(file, pilot)) all.emplace_back("contact, of which there is none in these");
   all.emplace_back(fmt::format("errors below {:.2g}, three error bars of the truth ({})", pilot.truth.told(0),
                                pilot.truth.method));
   if (!(pilot.truth.told(0) <= options.error))
@@ -65,6 +83,16 @@ std::vector<std::string> limits(const AdviseOptions& options, const SceneFile& f
     all.emplace_back(
         fmt::format("what is beyond the {} settings that {:g} s allow", pilot.tried, options.seconds));
   return all;
+}
+
+/// Why no setting is told.
+std::string why_none(const AdviseOptions& options, const Pilot& pilot) {
+  if (pilot.needed_s == 0)
+    return fmt::format("No setting of {} that were tried solves the scene", pilot.tried);
+  std::string why = fmt::format("No setting was tried, as there is no true end of the first {:.4g} s: {}, {}",
+                                pilot.duration, pilot.truth.method, pilot.truth.reason);
+  if (pilot.needed_s > options.seconds) why += fmt::format("; --seconds {:.0f} at least", pilot.needed_s);
+  return why;
 }
 
 /// How many times as long the second best takes; none if it is alone.
@@ -79,6 +107,7 @@ nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile
                               {"found", !pilot.met.empty()},
                               {"settings", nullptr},
                               {"error", nullptr},
+                              {"error_scale_m", nullptr},
                               {"ms_per_s", nullptr},
                               {"margin", nullptr},
                               {"second", nullptr}};
@@ -86,6 +115,7 @@ nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile
     json["settings"] = nlohmann::ordered_json::object();
     for (const auto& [key, value] : settings_of(file, pilot, *run)) json["settings"][key] = value;
     json["error"] = run->error;
+    json["error_scale_m"] = error_scale(file.scene, pilot.truth.end);
     json["ms_per_s"] = pilot.ms_per_s(*run);
   }
   if (const auto times = margin(pilot)) {
@@ -95,23 +125,33 @@ nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile
   json["error_bar"] = pilot.truth.error_bar;
   json["truth"] = pilot.truth.method;
   json["duration_s"] = pilot.duration;
+  json["before_contact"] = is_before_contact(file, pilot);
   json["tried"] = pilot.tried;
+  json["spent_s"] = pilot.spent_s;
+  if (pilot.needed_s > 0) json["needed_s"] = pilot.needed_s;
+  if (pilot.met.empty() && !pilot.nearest) json["reason"] = why_none(options, pilot);
   json["cannot_tell"] = limits(options, file, pilot);
   return json;
 }
 
 void print_advice(const AdviseOptions& options, const SceneFile& file, const Pilot& pilot) {
   if (pilot.met.empty() && !pilot.nearest) {
-    fmt::print("No setting of {} that were tried solves the scene.\n", pilot.tried);
+    fmt::print("{}.\n", why_none(options, pilot));
     return;
   }
   const PilotRun& run = pilot.met.empty() ? *pilot.nearest : pilot.met[0];
   if (pilot.met.empty())
     fmt::print("No setting of {} that were tried meets an error of {:g}; the nearest has {:.2g}.\n",
                pilot.tried, options.error, run.error);
+  if (is_before_contact(file, pilot))
+    fmt::print(
+        "Nothing touches in the first {:.4g} s, and no longer part could be told: this is advice for free "
+        "motion alone.\n",
+        pilot.duration);
   fmt::print("{}\n\n{}\n", set_text(file, pilot, run), toml_text(file, pilot, run));
-  fmt::print("error {:.2g} +- {:.1g} after {:.4g} s, {:.3g} ms per simulated second", run.error,
-             pilot.truth.error_bar, pilot.duration, pilot.ms_per_s(run));
+  fmt::print("error {:.2g} +- {:.1g} of {:.2g} m after {:.4g} s, {:.3g} ms per simulated second", run.error,
+             pilot.truth.error_bar, error_scale(file.scene, pilot.truth.end), pilot.duration,
+             pilot.ms_per_s(run));
   if (const auto times = margin(pilot))
     fmt::print("; the second best takes {:.2f} times as long:\n{}\n", *times,
                set_text(file, pilot, pilot.met[1]));

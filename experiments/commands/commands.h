@@ -48,7 +48,7 @@ int compare(const CompareOptions& options);
 struct AdviseOptions {
   std::filesystem::path scene;
   std::vector<std::string> settings;
-  double error = 0;     // of places at the end, relative to how far things move
+  double error = 0;     // of places at the end, as `end_error`
   double seconds = 30;  // of computing, about
   bool json = false;
 };

@@ -52,11 +52,12 @@ pbd::Vec3 gyration_radii(const pbd::Scene& scene, const pbd::RigidBody& body) {
   return (body.inertia / mass).cwiseSqrt();
 }
 
-double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start) {
+double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start,
+                      double least) {
   const auto farthest = [](const pbd::Points& d) {
     return d.cols() > 0 ? d.colwise().stableNorm().maxCoeff<Eigen::PropagateNaN>() : 0.0;
   };
-  const double displacement = farthest(reference - start);
+  const double displacement = std::max(farthest(reference - start), least);
   const double error = farthest(x - reference);
   if (!std::isfinite(displacement)) return std::nan("");
   const double size = start.cols() > 0 ? start.cwiseAbs().maxCoeff() : 0.0;

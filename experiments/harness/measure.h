@@ -89,9 +89,11 @@ pbd::Vec3 gyration_radii(const pbd::Scene& scene, const pbd::RigidBody& body);
 /// What rounding may move a place by, of its coordinates.
 inline constexpr double rounded_place = 64 * std::numeric_limits<double>::epsilon();
 
-/// max |x - reference| / max |reference - start| over the places; the numerator in metres if nothing moved
-/// but by rounding; NaN where the displacement is not finite.
-double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start);
+/// max |x - reference| / max |reference - start| over the places, a displacement below `least` (m) counting
+/// as that; the numerator in metres if nothing moved but by rounding; NaN where the displacement is not
+/// finite.
+double relative_error(const pbd::Points& x, const pbd::Points& reference, const pbd::Points& start,
+                      double least = 0);
 
 /// Does the step of h seconds from `state` once with a fresh workspace (no warm start), against the places at
 /// its end `exact`; one that goes on from the last step of `before`, if there is one. Throws SetupError as

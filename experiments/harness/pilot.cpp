@@ -19,6 +19,7 @@ using namespace pbd;
 constexpr double slack = 1.5;            // of times that are as good as the best one, as far as clocks tell
 constexpr double share_of_probe = 0.02;  // of the budget: the scene as it stands; 16 times finer is a third
 constexpr int doublings = 4;             // of the scene's own step, the longest of the grid
+constexpr double least_steps = 8;        // of the scene's own, of a pilot: to be halved three times
 
 class Stopwatch {
  public:
@@ -43,58 +44,35 @@ Method usual_method(const SceneFile& file, const std::string& integrator, double
   return method;
 }
 
-/// s, of a pilot: to be halved three times.
-double least_duration(const SceneFile& file) {
-  return std::min(static_cast<double>(file.steps), 8.0) * file.step_s;
+/// The scene as it stands for `wall_s` seconds at most.
+Trajectory probed(const SceneFile& file, double wall_s) {
+  const Setting setting{usual_method(file, file.method.integrator, file.method.tolerance), file.steps, true};
+  return trajectory(file, static_cast<double>(file.steps) * file.step_s, setting, {.wall_s = wall_s});
 }
 
-/// s, a whole number of the scene's steps: what `wall_s` seconds simulate of it.
-double affordable(const SceneFile& file, double wall_s) {
-  const double all = static_cast<double>(file.steps) * file.step_s;
-  Setting setting{usual_method(file, file.method.integrator, file.method.tolerance), file.steps, true};
-  const Trajectory probe = trajectory(file, all, setting, {.wall_s = wall_s});
-  const double steps = std::floor(probe.end.time / probe.wall_s * wall_s / file.step_s);
-  return std::clamp(steps * file.step_s, least_duration(file), all);
-}
-
-/// Ever finer, of steps that are solved to a thousandth of `error`, until a third of it can be told; ends
-/// where what a run can be told to meet would take more than `seconds`, its bar being of first order.
-Truth sharp_truth(const SceneFile& file, double duration, double error, double seconds, std::int64_t& steps) {
-  const Stopwatch all;
-  for (;; steps *= 2) {
-    const Stopwatch level;
-    Truth truth = pilot_truth(file, duration, error, steps);
-    const double next = level.seconds() * std::max(2.0, truth.least_met() / error);
-    if (truth.told(0) <= error / 3 || !(all.seconds() + next <= seconds)) return truth;
-  }
-}
-
+/// The settings of one pilot, whose truth is told.
 class Search {
  public:
-  Search(const SceneFile& file, double error, double seconds)
-      : file_(file), error_(error), seconds_(seconds) {
-    double duration = affordable(file, share_of_probe * seconds);
-    for (bool first = true;; first = false) {
-      std::int64_t steps = 2 * std::lround(duration / file.step_s);
-      const Truth truth = sharp_truth(file, duration, error, seconds / 2 - watch_.seconds(), steps);
-      if (first || std::isnan(pilot_.truth.error_bar) || truth.error_bar < pilot_.truth.error_bar) {
-        pilot_.duration = duration;
-        pilot_.truth_steps = steps;
-        pilot_.truth = truth;
-      }
-      if (truth.least_met() <= error || duration <= least_duration(file) || watch_.seconds() > seconds / 2)
-        break;
-      duration = std::max(std::round(duration / file.step_s / 2) * file.step_s, least_duration(file));
-    }
-  }
+  Search(const SceneFile& file, Pilot pilot, double error, double seconds)
+      : file_(file), error_(error), seconds_(seconds), pilot_(std::move(pilot)) {}
 
-  Pilot run() {
+  /// From the best of a pilot before, if there is one.
+  Pilot run(const Pilot& before) {
     steps_ = fewest_steps(file_, pilot_.duration);
-    while (8 * steps_ <= pilot_.truth_steps) steps_ *= 2;
+    if (before.met.empty()) {
+      while (8 * steps_ <= pilot_.truth_steps) steps_ *= 2;
+    } else {
+      Setting setting = before.met[0].setting;
+      const double step = before.duration / static_cast<double>(setting.steps);
+      while (static_cast<double>(steps_) * step < pilot_.duration * (1 - 1e-9)) steps_ *= 2;
+      setting.steps = steps_;
+      try_one(setting);
+    }
     for (const Integrator& integrator : integrators()) try_steps(std::string(integrator.name));
     while (descends()) {
     }
     std::sort(pilot_.met.begin(), pilot_.met.end(), quicker);
+    pilot_.complete = watch_.seconds() <= seconds_;
     return std::move(pilot_);
   }
 
@@ -149,11 +127,7 @@ class Search {
   /// Refused are settings that the scene does not allow, that were tried before, and all at the end of the
   /// budget.
   Outcome try_one(const Setting& setting) {
-    if (!is_new(setting)) return Outcome::refused;
-    if (watch_.seconds() > seconds_) {
-      pilot_.complete = false;
-      return Outcome::refused;
-    }
+    if (!is_new(setting) || watch_.seconds() > seconds_) return Outcome::refused;
     try {
       return measure_setting(setting);
     } catch (const SetupError&) {
@@ -163,7 +137,7 @@ class Search {
 
   Outcome measure_setting(const Setting& setting) {
     ++pilot_.tried;
-    const double bound = std::min(slack * best_, seconds_ / 4);
+    const double bound = std::min({slack * best_, seconds_ / 4, seconds_ - watch_.seconds()});
     const Trajectory found = timed_trajectory(file_, pilot_.duration, setting, {.wall_s = bound});
     const double error = pilot_.truth.told(end_error(file_.scene, found, pilot_.truth.end));
     const PilotRun run{setting, found.wall_s, error};
@@ -181,14 +155,136 @@ class Search {
   std::int64_t steps_ = 0;  // where the last integrator met the error
   Pilot pilot_;
   std::set<std::tuple<std::int64_t, std::string, std::string, std::string, double>> tried_;
-  Stopwatch watch_;  // from before the truth on
+  Stopwatch watch_;
+};
+
+/// Pilots of ever longer parts of a scene's motion, while their ends can be told.
+class Growth {
+ public:
+  Growth(const SceneFile& file, double error, double seconds)
+      : file_(file), error_(error), seconds_(seconds), probe_(probed(file, share_of_probe * seconds)) {}
+
+  Pilot run() {
+    Pilot best;
+    double truth_s = seconds_ / 4;
+    while (grows(truth_s)) {
+      const Stopwatch search;
+      Pilot longer = Search(file_, told_, error_, left()).run(best);
+      truth_s = std::max(0.6 * left(), left() - search.seconds());
+      if (!best.met.empty() && longer.met.empty()) {
+        untold_ = told_;
+        break;
+      }
+      best = std::move(longer);
+    }
+    if (told_.duration == 0)
+      best = blurred();
+    else
+      best.untold = untold_.duration;
+    best.spent_s = watch_.seconds();
+    return best;
+  }
+
+ private:
+  /// Of what is not told sharply the nearest setting, or what it takes to tell any.
+  Pilot blurred() const {
+    Pilot pilot = untold_;
+    if (!std::isnan(pilot.truth.error_bar)) return Search(file_, pilot, error_, left()).run({});
+    pilot.needed_s = least_need();
+    return pilot;
+  }
+
+  double left() const { return seconds_ - watch_.seconds(); }
+
+  /// s, of whole steps of the scene.
+  double of_steps(double count) const { return std::floor(count + 1e-9) * file_.step_s; }
+
+  double whole() const { return of_steps(static_cast<double>(file_.steps)); }
+
+  double least() const { return of_steps(std::min(static_cast<double>(file_.steps), least_steps)); }
+
+  /// What the probe's pace simulates in its time, or else the least.
+  double first_duration() const {
+    const double affordable = probe_.end.time / probe_.wall_s * share_of_probe * seconds_;
+    return std::clamp(of_steps(affordable / file_.step_s), least(), whole());
+  }
+
+  /// s, of wall time, at the pace of the truth that was given up: half of it makes all its steps, and half as
+  /// many.
+  double least_need() const {
+    const Truth& truth = untold_.truth;
+    return 2 * 1.5 * untold_.duration * truth.wall_s / std::max(truth.end.time, file_.step_s / 2);
+  }
+
+  /// A quarter longer than it takes until something touches, as the probe has it.
+  double past_contact() const { return of_steps(std::ceil(1.25 * probe_.touched_s / file_.step_s)); }
+
+  /// Longer than what is told, shorter than what is not, past the first contact if that is between; what is
+  /// not told if nothing is.
+  double next_duration() const {
+    constexpr double worthwhile = 1.05;
+    if (untold_.duration == 0)
+      return told_.duration == 0 ? first_duration() : std::min(2 * told_.duration, whole());
+    const double middle = std::max(of_steps((told_.duration + untold_.duration) / file_.step_s / 2), least());
+    const double next = middle >= worthwhile * told_.duration ? middle : untold_.duration;
+    return next < past_contact() && past_contact() < untold_.duration ? past_contact() : next;
+  }
+
+  /// Tells the ends of longer pilots for `seconds` at most, twice that until there is any, but begins one at
+  /// least. False if there is none.
+  /// The first one past contact and the shortest one that is not told get all that is left.
+  bool grows(double seconds) {
+    const Stopwatch watch;
+    const double before = told_.duration;
+    const auto time = [&] { return (told_.duration > 0 ? 1 : 2) * seconds - watch.seconds(); };
+    const auto is_first = [&] { return told_.duration + untold_.duration == 0; };
+    while (told_.duration < whole() * (1 - 1e-9) && (time() > 0 || is_first())) {
+      const double duration = next_duration();
+      const bool last = duration == untold_.duration;
+      Pilot pilot = last ? untold_ : Pilot{.duration = duration};
+      sharpen(pilot, time(), last || duration == past_contact());
+      const bool sharp = pilot.truth.least_met() <= error_;
+      if (sharp && last) untold_ = {};
+      (sharp ? told_ : untold_) = std::move(pilot);
+      if (last && !sharp) break;
+    }
+    return told_.duration > before;
+  }
+
+  /// Ever finer, of steps that are solved to a thousandth of the error asked, until a third of that can be
+  /// told or no finer one fits in `seconds`; unless `patient`, nor what a run can be told to meet, the bar
+  /// being of first order.
+  void sharpen(Pilot& pilot, double seconds, bool patient) const {
+    constexpr double least_finer = 1.25;
+    const Stopwatch watch;
+    auto steps = std::max<std::int64_t>(pilot.truth_steps, std::lround(pilot.duration / file_.step_s));
+    for (double finer = 2; finer >= least_finer;) {
+      steps = 2 * static_cast<std::int64_t>(static_cast<double>(steps) * finer / 2);
+      const Truth truth = pilot_truth(file_, pilot.duration, error_, steps, seconds - watch.seconds());
+      if (std::isnan(pilot.truth.error_bar) || !std::isnan(truth.error_bar)) {
+        pilot.truth = truth;
+        pilot.truth_steps = std::isnan(truth.error_bar) ? 0 : steps;
+      }
+      if (truth.tells(error_ / 3)) return;
+      const double levels = (seconds - watch.seconds()) / truth.wall_s;
+      if (!patient && levels < truth.least_met() / error_) return;
+      finer = std::min(2.0, levels);
+    }
+  }
+
+  const SceneFile& file_;
+  double error_, seconds_;
+  Stopwatch watch_;
+  Trajectory probe_;
+  Pilot told_;    // the longest
+  Pilot untold_;  // the shortest
 };
 
 }  // namespace
 
-Truth pilot_truth(const SceneFile& file, double duration, double error, std::int64_t steps) {
+Truth pilot_truth(const SceneFile& file, double duration, double error, std::int64_t steps, double wall_s) {
   const Setting finest{usual_method(file, "", std::max(1e-10, 1e-3 * error)), steps};
-  return agreed_truth(file, duration, finest, {"implicit_euler", "generalised_alpha", "newmark"});
+  return agreed_truth(file, duration, finest, {"implicit_euler", "generalised_alpha", "newmark"}, wall_s);
 }
 
 std::int64_t fewest_steps(const SceneFile& file, double duration) {
@@ -211,7 +307,7 @@ std::vector<Setting> pilot_grid(const SceneFile& file, std::int64_t steps) {
 }
 
 Pilot pilot(const SceneFile& file, double error, double seconds) {
-  return Search(file, error, seconds).run();
+  return Growth(file, error, seconds).run();
 }
 
 }  // namespace pbdcheck

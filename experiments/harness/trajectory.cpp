@@ -28,8 +28,15 @@ Points all_places(const Scene& scene, const State& state) {
   return places(scene, state.x, state.orientation);
 }
 
+/// m, that counts as moving.
+double shortest_way(const Scene& scene) {
+  const Points start = all_places(scene, scene.initial);
+  return start.cols() > 0 ? least_way * (start.rowwise().maxCoeff() - start.rowwise().minCoeff()).norm() : 0;
+}
+
 double distance(const Scene& scene, const State& end, const State& truth) {
-  return relative_error(all_places(scene, end), all_places(scene, truth), all_places(scene, scene.initial));
+  return relative_error(all_places(scene, end), all_places(scene, truth), all_places(scene, scene.initial),
+                        shortest_way(scene));
 }
 
 }  // namespace
@@ -68,10 +75,12 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
     found.missed_steps += report.status != Status::ok;
     if (found.wall_s > limits.wall_s) {
       found.status = Status::not_converged;
-      found.reason = fmt::format("given up after {:.2g} s", limits.wall_s);
+      found.reason = fmt::format("given up after {:.2g} s in step {} of {}", limits.wall_s, k, setting.steps);
       break;
     }
-    found.penetration_m = std::max(found.penetration_m, -least_gap(workspace.contacts()).value_or(0));
+    const std::vector<ContactForce> contacts = workspace.contacts();
+    found.penetration_m = std::max(found.penetration_m, -least_gap(contacts).value_or(0));
+    if (pressing(contacts) > 0) found.touched_s = std::min(found.touched_s, found.end.time);
     if (report.status == Status::diverged || (report.status != Status::ok && !setting.by_count)) {
       found.status = report.status;
       found.reason = fmt::format("step {}: {}", k, report.reason);
@@ -97,6 +106,10 @@ Trajectory timed_trajectory(const SceneFile& file, double duration, const Settin
   return best;
 }
 
+double error_scale(const Scene& scene, const State& truth) {
+  return std::max(way(scene, truth), shortest_way(scene));
+}
+
 double end_error(const Scene& scene, const Trajectory& found, const State& truth) {
   return found.status == Status::ok ? distance(scene, found.end, truth) : std::nan("");
 }
@@ -120,39 +133,46 @@ Truth ode_truth(const SceneFile& file, double duration, reference::OdeSettings s
         notice.poll();
       };
   const auto found = reference::ode(file.scene, {duration}, settings);
-  Truth truth{file.scene.initial, std::nan(""), "ODE of order 8", found.reason};
+  Truth truth{.end = file.scene.initial, .method = "ODE of order 8", .reason = found.reason};
   if (found.outcome != reference::Outcome::ok) return truth;
   truth.end = found.samples[0];
   double metres = found.position_error[0], arm = 0;
   for (const RigidBody& body : file.scene.bodies)
     if (body.inertia.allFinite()) arm = std::max(arm, gyration_radii(file.scene, body).maxCoeff());
   if (arm > 0) metres += arm * found.orientation_error[0];
-  const double moved = way(file.scene, truth.end);
-  truth.error_bar = moved > 0 ? metres / moved : metres;
+  truth.error_bar = metres / error_scale(file.scene, truth.end);
   return truth;
 }
 
-Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest) {
+Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest, double wall_s) {
   Setting coarser = finest;
   coarser.steps /= 2;
-  const Trajectory fine = trajectory(file, duration, finest);
-  const Trajectory coarse = trajectory(file, duration, coarser);
-  const double bar = end_error(file.scene, coarse, fine.end);
+  const Trajectory fine = trajectory(file, duration, finest, {.wall_s = wall_s});
   const Method& method = finest.method;
-  std::string reason = fine.status == Status::ok ? coarse.reason : fine.reason;
-  if (reason.empty() && !std::isfinite(bar)) reason = "the end is not finite";
-  return {fine.end, fine.status == Status::ok ? bar : std::nan(""),
-          fmt::format("{} steps by {}, {}, {}, tolerance {:g}", finest.steps, method.integrator, method.outer,
-                      method.relaxation, method.tolerance),
-          reason};
+  Truth truth{.end = fine.end,
+              .method = fmt::format("{} steps by {}, {}, {}, tolerance {:g}", finest.steps, method.integrator,
+                                    method.outer, method.relaxation, method.tolerance),
+              .touched = std::isfinite(fine.touched_s),
+              .wall_s = fine.wall_s,
+              .reason = fine.reason};
+  if (fine.status != Status::ok) return truth;
+  const Trajectory coarse = trajectory(file, duration, coarser, {.wall_s = wall_s - fine.wall_s});
+  truth.error_bar = end_error(file.scene, coarse, fine.end);
+  truth.wall_s += coarse.wall_s;
+  truth.reason = coarse.reason;
+  if (truth.reason.empty() && !std::isfinite(truth.error_bar)) truth.reason = "the end is not finite";
+  return truth;
 }
 
 Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
-                   const std::vector<std::string>& integrators) {
+                   const std::vector<std::string>& integrators, double wall_s) {
   std::optional<Truth> first, best;
+  double spent = 0;
   for (const std::string& integrator : integrators) try {
+      if (first && (std::isnan(first->error_bar) || spent >= wall_s)) break;
       finest.method.integrator = integrator;
-      const Truth truth = richardson_truth(file, duration, finest);
+      const Truth truth = richardson_truth(file, duration, finest, wall_s - spent);
+      spent += truth.wall_s;
       if (!first) first = best = truth;
       const double apart = distance(file.scene, truth.end, first->end);
       if (truth.error_bar < best->error_bar && apart <= 3 * (truth.error_bar + first->error_bar))
@@ -160,6 +180,7 @@ Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
     } catch (const SetupError&) {  // not for this scene
       if (!first) throw;
     }
+  best->wall_s = spent;
   return *best;
 }
 

@@ -25,8 +25,9 @@ struct Trajectory {
   pbd::State end;
   double wall_s = 0;  // making of the workspace and steps; the least of the repeats
   std::int64_t outer_iterations = 0, sweeps = 0, row_updates = 0, missed_steps = 0;
-  std::int64_t rows = 0, bytes = 0;  // of the last step
-  double penetration_m = 0;          // deepest overlap that a step ends with
+  std::int64_t rows = 0, bytes = 0;                            // of the last step
+  double penetration_m = 0;                                    // deepest overlap that a step ends with
+  double touched_s = std::numeric_limits<double>::infinity();  // when contacts first exerted a force
   pbd::Status status = pbd::Status::ok;
   std::string reason{};
 };
@@ -48,12 +49,14 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
 Trajectory timed_trajectory(const SceneFile& file, double duration, const Setting& setting,
                             const Limits& limits = {});
 
-/// Where a motion ends and how far that may be from the true end, relative to how far things move.
+/// Where a motion ends and how far that may be from the true end, as `end_error`.
 struct Truth {
-  pbd::State end;
-  double error_bar = 0;
-  std::string method;
-  std::string reason{};  // why the bar is NaN
+  pbd::State end{};
+  double error_bar = std::numeric_limits<double>::quiet_NaN();
+  std::string method{};
+  bool touched = false;  // contacts exerted a force on the way
+  double wall_s = 0;     // of its runs
+  std::string reason{};  // why there is no bar
 
   /// An error that this truth can tell: below three of its bars there is none.
   double told(double error) const { return error < 3 * error_bar ? 3 * error_bar : error; }
@@ -61,7 +64,15 @@ struct Truth {
   double least_met() const { return told(0) + error_bar; }  // that a run can be told to be within
 };
 
-/// `relative_error` of places at the end, NaN unless the trajectory is ok.
+/// Of the size of what moves (the diagonal of its bounding box at the start): a scene that is at rest is as
+/// exact as its error of this.
+inline constexpr double least_way = 1e-3;
+
+/// m, what errors at the end are relative to: the farthest way of a place, but `least_way` at least.
+double error_scale(const pbd::Scene& scene, const pbd::State& truth);
+
+/// Of the place that is farthest from where the truth has it, over `error_scale`; NaN unless the trajectory
+/// is ok.
 double end_error(const pbd::Scene& scene, const Trajectory& found, const pbd::State& truth);
 
 /// Throws SetupError unless the scene's motion is that of an ODE that `reference/ode.h` states.
@@ -71,14 +82,18 @@ void require_ode(const SceneFile& file);
 Truth ode_truth(const SceneFile& file, double duration, pbd::reference::OdeSettings settings = {});
 
 /// The end of `finest`; its bar is the distance to the same with half as many steps: of any order from the
-/// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok.
-Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest);
+/// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok, as
+/// after `wall_s` seconds for both.
+Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest,
+                       double wall_s = std::numeric_limits<double>::infinity());
 
 /// The best of the same by each of `integrators` that the scene allows: the one with the smallest bar of
 /// those that end where the first one does, as far as both bars tell. The first is to be one that is right
 /// wherever it converges, as implicit Euler, whose impacts obey the law of restitution as the step vanishes.
+/// After `wall_s` seconds it is the best one so far.
 Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
-                   const std::vector<std::string>& integrators);
+                   const std::vector<std::string>& integrators,
+                   double wall_s = std::numeric_limits<double>::infinity());
 
 /// m, of the place that ends farthest from its start.
 double way(const pbd::Scene& scene, const pbd::State& end);

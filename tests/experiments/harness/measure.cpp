@@ -48,6 +48,8 @@ TEST_CASE("the relative error is that of the worst node over the largest displac
   x.col(0) = pbd::Vec3(3, 4, 1);
   x.col(1) = pbd::Vec3(0, 2, 0);
   CHECK(relative_error(x, reference, start) == Approx(2.0 / 5));
+  CHECK(relative_error(x, reference, start, 4) == Approx(2.0 / 5));  // a displacement of at least 4 m
+  CHECK(relative_error(x, reference, start, 8) == Approx(2.0 / 8));
   CHECK(relative_error(x, start, start) == Approx(std::sqrt(26.0)));  // nothing moved: in metres
   const pbd::Points at = pbd::Points::Constant(3, 2, 8), rounded = pbd::Points::Constant(3, 2, 8 + 1e-14);
   CHECK(relative_error(at, rounded, at) < 2e-14);  // but by rounding: likewise

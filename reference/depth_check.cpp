@@ -130,7 +130,7 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
   const DistanceBounds end = over_triangle(i, nodes, claim_.end);
   if (end.found >= radius) return findings_.require("depth", "of a triangle, m", radius - end.found, 0);
   const DistanceBounds start = over_triangle(i, nodes, claim_.start);
-  if (!(start.proved > 0)) return findings_.leave_out("depth: triangles that bodies cut as a step begins");
+  if (!(start.proved > 0)) return findings_.leave_out("depth: triangles that are cut as a step begins");
   const double reach = (first - claim_.end.x.col(sides_.side(i).node)).norm() + side;
   const double round = size_of(*shape.shape).round;
   const double inverse = sides_.inverse_mass(i, reach) + sides_.inverse_mass(sides_.count(), 0);
@@ -176,7 +176,13 @@ void Depths::check_surfaces() {
 void Depths::check_triangles() {
   if (contact_.triangle.empty()) return;
   check_surfaces();
+  AxisBox all;
+  for (const auto& nodes : contact_.triangle)
+    for (const int node : nodes) all.extend(Vec3(claim_.end.x.col(node)));
   for (int i = 0; i < sides_.count(); ++i) {
+    const PlacedShape shape = sides_.placed(i, claim_.end);
+    const double reach = size_of(*shape.shape).outer + contact_.thickness / 2;
+    if (all.squaredExteriorDistance(shape.frame.origin) > reach * reach) continue;
     const ContactLaw& law = sides_.law(i, sides_.count());
     if (law.compliance > 0) {
       findings_.leave_out("depth: where shapes give way");

@@ -44,6 +44,11 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
         surfaces_.push_back(surface_of(free, b.radius, b.side));
       }
     }
+  for (const auto& [i, k] : pairs_) {
+    const auto one = static_cast<std::size_t>(surfaces_[i].side),
+               other = static_cast<std::size_t>(surfaces_[k].side);
+    yields_.push_back(contact.between(one, other).compliance > 0);
+  }
 }
 
 void FeatureSearch::find(const Placement& start, const Placement& at, const WaysOut& deep,
@@ -56,9 +61,10 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Ways
     for (const Vec3& x : placed.back().x) all.add(x);
   }
   const double extent = (all.most - all.least).norm() / 20;
-  for (const auto& [i, k] : pairs_) {
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+    const auto& [i, k] = pairs_[pair];
     const PlacedSurface &a = placed[i], &b = placed[k];
-    const double depth = std::min({a.size(), b.size(), extent}) / 50;
+    const double depth = std::min({a.size(), b.size(), extent}) / (yields_[pair] ? 5 : 50);
     const auto ways_out =
         deep.find({std::min(a.surface.side, b.surface.side), std::max(a.surface.side, b.surface.side)});
     find_between(

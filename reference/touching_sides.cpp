@@ -53,6 +53,8 @@ bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const 
 }
 
 std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact& contact, const Side& side) {
+  const auto has_side = [&](const auto& triangle) { return side.body < 0 && has(triangle, side.node); };
+  if (std::any_of(contact.triangle.begin(), contact.triangle.end(), has_side)) return {};
   std::set<int> kept;
   const auto keep = [&]<class E>(const E& own) {
     if constexpr (std::is_same_v<E, Attachment>) {
@@ -65,11 +67,9 @@ std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact
   };
   for (const Effect& effect : scene.effects) std::visit(keep, effect);
   std::vector<std::array<int, 3>> free;
-  for (const auto& triangle : contact.triangle) {
-    if (side.body < 0 && has(triangle, side.node)) return {};
+  for (const auto& triangle : contact.triangle)
     if (std::none_of(triangle.begin(), triangle.end(), [&](int node) { return kept.contains(node); }))
       free.push_back(triangle);
-  }
   return free;
 }
 

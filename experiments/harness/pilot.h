@@ -11,9 +11,9 @@
 
 namespace pbdcheck {
 
-/// The grid: these and all integrators, outer iterations that solve the step, and steps of the scene's own
-/// halved or doubled again and again. The laws of contact and friction are the scene's: they are its
-/// question.
+/// The grid: these and all integrators (explicit ones not where surfaces touch), outer iterations that solve
+/// the step, and steps of the scene's own halved or doubled again and again. The laws of contact and friction
+/// are the scene's: they are its question.
 inline constexpr std::array<std::string_view, 3> pilot_relaxations{"gauss_seidel", "conjugate_gradients",
                                                                    "direct"};
 inline constexpr std::array<double, 4> pilot_tolerances{1e-2, 1e-4, 1e-6, 1e-8};

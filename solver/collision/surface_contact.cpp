@@ -114,10 +114,10 @@ SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, d
   keep_each_once(nodes_);
   keep_each_once(edges_);
   if (touch)
-    for (const int node : nodes_) points_.push_back({node, half_, 0});
-  for (const auto& [node, radius] : spheres) {
-    points_.push_back({node, radius, radius});
-    nodes_.push_back(node);
+    for (const int node : nodes_) points_.push_back({{node}, half_});
+  for (const NodeSphere& sphere : spheres) {
+    points_.push_back({sphere, sphere.radius});
+    nodes_.push_back(sphere.node);
   }
   std::vector<std::array<int, 2>> across, neighbours;
   for (const auto& nodes : triangles)
@@ -126,6 +126,16 @@ SurfaceSearch::SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, d
   for (const auto& [a, b] : edges_) neighbours.insert(neighbours.end(), {{a, b}, {b, a}});
   across_ = Lists(std::move(across));
   neighbours_ = Lists(std::move(neighbours));
+}
+
+bool SurfaceSearch::Point::touches(const std::array<int, 3>& triangle) const {
+  return std::none_of(triangle.begin(), triangle.end(), [&](int other) {
+    return other == node || std::binary_search(kept.begin(), kept.end(), other);
+  });
+}
+
+SurfaceContact SurfaceSearch::Point::contact(SurfaceContact::Kind kind, double half_thickness) const {
+  return {.kind = kind, .thickness = half_thickness + margin, .radius = radius};
 }
 
 SurfaceSearch::Lists::Lists(std::vector<std::array<int, 2>> pairs) {
@@ -147,8 +157,9 @@ void SurfaceSearch::find_nodes(const Points& x, const std::vector<double>& reach
                                std::vector<SurfaceContact>& out) {
   each_node_and_triangle([&](const auto& nodes, double margin) { return box_of(nodes, x, reach, margin); },
                          [&](const Point& point, const auto& nodes) {
-                           add({.node = nodes, .thickness = half_ + point.margin, .radius = point.radius}, x,
-                               reach, out);
+                           SurfaceContact contact = point.contact(SurfaceContact::Kind::node_triangle, half_);
+                           contact.node = nodes;
+                           add(contact, x, reach, out);
                          });
 }
 
@@ -197,12 +208,10 @@ std::optional<SurfaceContact> SurfaceSearch::beside(const Point& point, int edge
   const int node = point.node;
   const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
   const auto others = across(edge);
-  if (node == c || node == d || std::find(others.begin(), others.end(), node) != others.end())
+  if (std::none_of(others.begin(), others.end(), [&](int third) { return point.touches({c, d, third}); }))
     return std::nullopt;
-  SurfaceContact contact{.node = {node, node, c, d},
-                         .kind = SurfaceContact::Kind::node_edge,
-                         .thickness = half_ + point.margin,
-                         .radius = point.radius};
+  SurfaceContact contact = point.contact(SurfaceContact::Kind::node_edge, half_);
+  contact.node = {node, node, c, d};
   const SurfaceTouching found = touching(contact, x);
   if (found.gap >= moved || !away_from(contact, edge, found, x, moved)) return std::nullopt;
   if (const int end = end_of(contact, found); end >= 0) {

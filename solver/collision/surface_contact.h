@@ -60,10 +60,12 @@ bool crossed(const Vec3& e, const Vec3& f);
 /// True if the nearest points lie on the features, or no farther `beside` them than that share of them.
 bool on_features(const SurfaceTouching& touching, SurfaceContact::Kind kind, double beside = 0);
 
-/// A node that is a sphere, of no triangle.
+/// A node that is a sphere, of no triangle. It touches no triangle with one of the nodes that it is `kept`
+/// from, ascending.
 struct NodeSphere {
   int node = 0;
   double radius = 0;  // m
+  std::vector<int> kept{};
 };
 
 /// What came to overlap on a way, with the gap that is asked for, m.
@@ -103,11 +105,14 @@ class SurfaceSearch {
   void find_passed(const Points& from, const Points& to, double slack, std::vector<PassedContact>& out);
 
  private:
-  /// A node that triangles and edges are looked for about: of a surface, `margin` is half the thickness and
-  /// the radius 0; of a sphere both are its radius (m).
-  struct Point {
-    int node;
-    double margin, radius;
+  /// A sphere, or a node of a surface, of radius 0 m, that triangles and edges are looked for about. It
+  /// touches at `margin` and half the thickness: a sphere's radius, or half the thickness as well (m).
+  struct Point : NodeSphere {
+    double margin = 0;
+
+    bool touches(const std::array<int, 3>& triangle) const;
+    /// A contact of it, but for its nodes.
+    SurfaceContact contact(SurfaceContact::Kind kind, double half_thickness) const;
   };
 
   /// visit(point, nodes) for each point and triangle, visit(nodes) for each two edges, without a common node,
@@ -160,8 +165,7 @@ void SurfaceSearch::each_node_and_triangle(Box&& box, Visit&& visit) {
   for (const Point& point : points_)
     tree_.find(box(std::array{point.node}, point.margin), [&](int k) {
       const auto& [a, b, c] = triangles_[k];
-      if (point.node != a && point.node != b && point.node != c)
-        visit(point, std::array{point.node, a, b, c});
+      if (point.touches(triangles_[k])) visit(point, std::array{point.node, a, b, c});
     });
 }
 

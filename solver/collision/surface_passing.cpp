@@ -137,7 +137,7 @@ void SurfaceSearch::find_passed(const Points& from, const Points& to, double sla
     out.push_back(found);
   };
   each_node_and_triangle(around, [&](const Point& point, const auto& nodes) {
-    look(nodes, {.thickness = half_ + point.margin, .radius = point.radius});
+    look(nodes, point.contact(Kind::node_triangle, half_));
   });
   each_pair_of_edges(
       around, [&](const auto& nodes) { look(nodes, {.kind = Kind::edge_edge, .thickness = 2 * half_}); });

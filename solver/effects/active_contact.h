@@ -36,7 +36,7 @@ struct ActiveContact {
   ContactPoint features;        // in the frames of its carriers
   std::array<int, 2> carrier;   // body, node or triangle of a and b
   std::array<int, 2> collider;  // as the effect counts them, nodes behind the shapes, triangles behind these;
-                                // of surfaces (not spheres) the node and a triangle's first one, or the
+                                // of surfaces (not two spheres) the node and a triangle's first one, or the
                                 // edges' first ones
   int node_side = -1;           // 0 or 1 where a or b is a node
   int triangle_side = -1;       // 0 or 1 where a or b is a triangle; `triangle` then tells what of it

@@ -41,6 +41,13 @@ bool AllowedPairs::nodes(int first, int second) const {
   return first != second && !std::binary_search(linked_.begin(), linked_.end(), std::array{first, second});
 }
 
+std::vector<int> AllowedPairs::linked_to(int node) const {
+  std::vector<int> nodes;
+  auto pair = std::lower_bound(linked_.begin(), linked_.end(), std::array{node, -1});
+  for (; pair != linked_.end() && (*pair)[0] == node; ++pair) nodes.push_back((*pair)[1]);
+  return nodes;
+}
+
 bool AllowedPairs::node_and_body(int node, int body) const {
   return !std::binary_search(attached_.begin(), attached_.end(), std::array{node, body});
 }

@@ -16,8 +16,10 @@ class AllowedPairs {
 
   bool bodies(int first, int second) const;
   bool node_and_body(int node, int body) const;
-  /// Where nodes touch each other or triangles.
+  /// Where nodes touch each other.
   bool nodes(int first, int second) const;
+  /// The nodes of a node's elements, itself among them, ascending; where nodes touch each other or triangles.
+  std::vector<int> linked_to(int node) const;
 
  private:
   std::vector<std::array<int, 2>> apart_;     // bodies, the lower one first

@@ -138,7 +138,6 @@ void ContactSearch::search(const Configuration& start) {
   if (std::exchange(surfaces_grown_, false)) {
     surface_contacts_.clear();
     surfaces_->find(start.x, node_travel_, surface_contacts_);
-    std::erase_if(surface_contacts_, [&](const SurfaceContact& found) { return !may_touch(found); });
   }
   searched_ = true;
   if (near_.empty() && late_.empty() && !(surfaces_ && surfaces_->searches())) look_for_clearance(start);

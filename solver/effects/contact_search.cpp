@@ -34,7 +34,7 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
     for (std::size_t i = 0; i < effect.node.size(); ++i) {
       const int node = effect.node[i];
       if (std::binary_search(of_surfaces.begin(), of_surfaces.end(), node)) continue;
-      spheres.push_back({node, effect.radius[i]});
+      spheres.push_back({node, effect.radius[i], allowed_.linked_to(node)});
       sphere_[static_cast<std::size_t>(node)] = static_cast<int>(effect.collider.size() + i);
     }
     surfaces_.emplace(effect.triangle, effect.thickness, effect.surfaces_touch, spheres);
@@ -102,14 +102,6 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
 int ContactSearch::side_of_surface(int node) const {
   const int sphere = sphere_[static_cast<std::size_t>(node)];
   return sphere >= 0 ? sphere : static_cast<int>(effect_.collider.size() + effect_.node.size()) + node;
-}
-
-/// False of a sphere and a triangle with a node that one element joins to it.
-bool ContactSearch::may_touch(const SurfaceContact& contact) const {
-  const int sphere = contact.node[0];
-  return sphere_[static_cast<std::size_t>(sphere)] < 0 ||
-         std::all_of(contact.node.begin() + 1, contact.node.end(),
-                     [&](int node) { return node == sphere || allowed_.nodes(sphere, node); });
 }
 
 bool ContactSearch::may_touch(int first, int second) const {

@@ -143,7 +143,6 @@ class ContactSearch {
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
   bool see_passed(const Points& start, const Points& end);
   bool may_touch(int first, int second) const;
-  bool may_touch(const SurfaceContact& contact) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
   bool is_above(int first, int second) const;

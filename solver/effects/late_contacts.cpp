@@ -222,8 +222,7 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   for (const PassedContact& found : passed_) {
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
     const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
-    if (may_touch(found.contact) &&
-        (is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
+    if ((is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
         std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
       late_surfaces_.push_back(found);
   }

@@ -75,7 +75,8 @@ void QuasiNewton::begin(StepSystem& system) {
   evaluated_ = false;
   potential_.since_factor = 0;
   fall_ = {};
-  last_residual_ = system.problem.method.warm_start ? infinity : 0;  // the last step's metric serves at first
+  // The last step's metric serves at first where line searches guard against it.
+  last_residual_ = system.problem.method.warm_start && dual_ == Dual::none ? infinity : 0;
   potential_.begin_metric(system);
 }
 
@@ -84,7 +85,7 @@ void QuasiNewton::begin(StepSystem& system) {
 bool QuasiNewton::outlived(const Progress& progress, double well) {
   constexpr int most_iterations = 30;
   const double last = std::exchange(last_residual_, progress.residual());
-  if (follows_) return progress.residual() > well * last;
+  if (follows_) return !(progress.residual() <= well * last);
   return ++potential_.since_factor > most_iterations;
 }
 
@@ -118,7 +119,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   }
   acceleration_.note(system);
   constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
-  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::tangent);
+  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::convex);
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;

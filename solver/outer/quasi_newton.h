@@ -7,13 +7,13 @@
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 descents of a step were not enough: it is then factored anew at the current shape,
-// which allocates. Of sheets, whose stiffness across themselves is their tension, it is Newton's tangent at
-// the current shape (`Constraint::geometric_stiffness`), without what is not convex where that tangent is not
-// positive definite. It is factored anew wherever a descent leaves more than 0.7 of the residual, under rows
-// more than a tenth; a step begins with the last one's where it
-// is warm-started. Above
-// 1e10 block products (about 70000 nodes of a beam four times as long as high) it falls back to one number a
-// pair of nodes, which takes several times the iterations (measured: `rival_newton`).
+// which allocates. Of sheets, whose stiffness across themselves is their tension, it is that of the current
+// shape. Where it descends, by line searches, it is Newton's tangent (`Constraint::geometric_stiffness`),
+// without what is not convex where that is not positive definite, and a step that is warm-started begins with
+// the last one's; under rows, which have no line search, it is the convex part. It is factored anew wherever
+// a descent leaves more than 0.7 of the residual, under rows more than a tenth. Above 1e10 block products
+// (about 70000 nodes of a beam four times as long as high) it falls back to one number a pair of nodes, which
+// takes several times the iterations (measured: `rival_newton`).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Spheres about nodes on deformable surfaces.
+#include <algorithm>
 #include <random>
 
 #include "contact_runs.h"
@@ -98,4 +99,30 @@ TEST_CASE("a node touches no triangle with a node of its own link") {
   State state = scene.initial;
   for (int k = 0; k < 10; ++k) REQUIRE(step(workspace, 0.01, state).status == Status::ok);
   CHECK(workspace.contacts().empty());
+}
+
+// One cell, of corners 1 to 4 and triangles 1 2 4 and 1 4 3, or with the other diagonal. The sphere comes
+// from beside: at a corner, or at the middle of the edge from 1 to 2.
+TEST_CASE(
+    "a sphere that flies at an edge or a corner is stopped, unless the triangles there are all its links'") {
+  const bool at_corner = GENERATE(true, false);
+  const int linked = GENERATE(0, 1, 2, 3, 4);
+  Scene scene = spheres({at_corner ? Vec3(-0.2, -0.2, 0) : Vec3(0, -0.2, 0)}, {.friction = 0}, 0);
+  const Vec3 to = at_corner ? Vec3(-0.1, -0.1, 0) : Vec3(0, -0.1, 0), way = to - scene.initial.x.col(0);
+  scene.initial.v.col(0) = way;
+  const int first = add_surface(scene, sheet(1, 0.2, 0), true);
+  REQUIRE(first == 1);
+  if (linked > 0)
+    scene.effects.emplace_back(Distance{.node = {{0, linked}}, .rest_length = {0}, .compliance = {1e9}});
+  const auto held = [&](int node) { return linked == node; };
+  bool meets = linked == 0;
+  for (const auto& triangle : contact_in(scene).triangle) {
+    const bool there = std::find(triangle.begin(), triangle.end(), 1) != triangle.end() &&
+                       (at_corner || std::find(triangle.begin(), triangle.end(), 2) != triangle.end());
+    meets = meets || (there && std::none_of(triangle.begin(), triangle.end(), held));
+  }
+  const State end = run(scene, contact_method("direct"), 0.05, 20);
+  const double left = (to - end.x.col(0)).dot(way.normalized());
+  INFO("linked to " << linked << (at_corner ? ", at a corner" : ", at an edge"));
+  CHECK((left >= resting - 1e-9) == meets);
 }

@@ -31,7 +31,7 @@ FemSystem assemble(const LinearSolid& solid) {
   return s;
 }
 
-Points corners(const TetMesh& mesh, const std::array<int, 4>& tet) {
+Points tet_corners(const TetMesh& mesh, const std::array<int, 4>& tet) {
   Points x(3, 4);
   for (int a = 0; a < 4; ++a) x.col(a) = mesh.x.col(tet[a]);
   return x;
@@ -47,7 +47,7 @@ double volume_of(const Points& x) {
 SparseMatrix mass_matrix(const FemSystem& s, const LinearSolid& solid, MassMatrix kind) {
   Triplets entries;
   for (const auto& tet : solid.mesh.tets) {
-    const double weight = solid.density * volume_of(corners(solid.mesh, tet));
+    const double weight = solid.density * volume_of(tet_corners(solid.mesh, tet));
     for (const int a : tet)
       for (const int b : tet) {
         const int i = s.model.first[a], j = s.model.first[b];
@@ -114,7 +114,7 @@ template <class Use>
 void integrate(const TetMesh& mesh, const Use& use) {
   const Quadrature q = collapsed_gauss(6);
   for (const auto& tet : mesh.tets) {
-    const Points x = corners(mesh, tet);
+    const Points x = tet_corners(mesh, tet);
     const double volume = volume_of(x);
     for (std::size_t p = 0; p < q.point.size(); ++p)
       use(tet, x, q.point[p], Vec3(x * q.point[p]), q.weight[p] * volume);

@@ -8,8 +8,9 @@
 namespace pbdcheck {
 namespace {
 
-/// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them.
-constexpr std::array<std::string_view, 16> scene_names{"incline",
+/// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them, and
+/// none begins with an overlap that parts.
+constexpr std::array<std::string_view, 15> scene_names{"incline",
                                                        "stack",
                                                        "dominoes",
                                                        "boxes_at_edges",
@@ -21,7 +22,6 @@ constexpr std::array<std::string_view, 16> scene_names{"incline",
                                                        "soft_cubes",
                                                        "soft_balls",
                                                        "soft_block_on_box_on_cloth",
-                                                       "house_of_soft_cards",
                                                        "strip_over_cylinder",
                                                        "ragdoll",
                                                        "boxes_1000"};

@@ -121,7 +121,7 @@ Truth truth_of(std::string& reference, const CompareOptions& options, const Scen
     const bool asked = !options.reference.empty();
     pbd::reference::OdeSettings settings;
     if (!asked) settings.max_evaluations = most_evaluated / file.scene.nodes();
-    const Truth truth = ode_truth(file, *options.until, settings);
+    Truth truth = ode_truth(file, *options.until, settings);
     if (asked || truth.reason.empty()) return truth;
     note(fmt::format("{}: the reference is {}", truth.reason, names.back()));
     reference = names.back();

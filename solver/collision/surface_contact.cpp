@@ -208,7 +208,9 @@ std::optional<SurfaceContact> SurfaceSearch::beside(const Point& point, int edge
   const int node = point.node;
   const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
   const auto others = across(edge);
-  if (std::none_of(others.begin(), others.end(), [&](int third) { return point.touches({c, d, third}); }))
+  if (std::none_of(others.begin(), others.end(), [&, c = c, d = d](int third) {
+        return point.touches({c, d, third});
+      }))
     return std::nullopt;
   SurfaceContact contact = point.contact(SurfaceContact::Kind::node_edge, half_);
   contact.node = {node, node, c, d};

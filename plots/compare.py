@@ -28,8 +28,8 @@ def draw(frame):
 def draw_motions(frame, looks):
     """Error at the end over time, a mark a method; what the reference does not tell is shaded."""
     chart, (ax,) = panels(1, width=4.5, height=2.8)
-    compared = frame[frame["outer"] != "judge"]
-    reference, reached = frame[frame["outer"] == "judge"].iloc[0], good(compared, "error", "wall_s")
+    compared = frame[frame["outer"] != "reference"]
+    reference, reached = frame[frame["outer"] == "reference"].iloc[0], good(compared, "error", "wall_s")
     for _, row in reached.iterrows():
         ax.plot([row["wall_s"]], [on_log(row["error"])], label=row["method"], **looks[row["method"]] | {"linestyle": "none"})
     for _, row in failed(compared, "error", "wall_s").iterrows():

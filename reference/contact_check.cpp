@@ -19,7 +19,7 @@ void check_force(const StepClaim& claim, const ClaimedContact& c, const ContactS
                    (1 + mu) * slack);
 }
 
-/// What yields without a damper is a spring from where the shapes touch. `slack` is what a gap may be off, m.
+/// Between the force and the gap that are told. `slack` is what a gap may be off, m.
 void check_spring(const ClaimedContact& c, const ContactSlack& open, double h, double slack,
                   Findings& findings) {
   if (!(open.normal * h > open.impulse)) return;

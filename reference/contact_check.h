@@ -7,6 +7,8 @@
 // their directions are taken there:
 //   force    -F_n h <= e and (|F_t| - mu F_n) h <= (1 + mu) e; the box law allows sqrt(2) mu
 //   open     where F_n h > e the gap is at most (1 + mu) s h; of the convex law it may be mu |u_t| h more
+//   spring   what yields by A without a damper or rebound, and is pressed, has the gap told at -A F_n, within
+//            what `open` allows and A e/h
 //   rebound  where shapes may bounce, pressed ones that end apart do so at e times the speed, along the end's
 //            normal, that they had where the step began: h |u_n1 + e u_n0| is at most that of `open`
 //   sliding  a step that ends on the cone at q = p + O(e) leaves W r_t = -c q_t/|q_t| + O(e), c >= 0; then

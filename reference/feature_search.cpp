@@ -64,7 +64,7 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Ways
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     const auto& [i, k] = pairs_[pair];
     const PlacedSurface &a = placed[i], &b = placed[k];
-    const double depth = std::min({a.size(), b.size(), extent}) / (yields_[pair] ? 5 : 50);
+    const double depth = std::min({a.size(), b.size(), extent}) / (yields_[pair] ? of_yielding : of_hard);
     const auto ways_out =
         deep.find({std::min(a.surface.side, b.surface.side), std::max(a.surface.side, b.surface.side)});
     find_between(

@@ -21,6 +21,10 @@ namespace pbd::reference {
 
 class FeatureSearch {
  public:
+  /// Parts of a size: as deep hard shapes are after a step that is missed, and yielding ones at rest.
+  /// Opposite faces are a whole size apart, and no pair of theirs may count.
+  static constexpr double of_hard = 50, of_yielding = 5;
+
   FeatureSearch(const Scene& scene, const Contact& contact);
 
   /// Appends the pairs that are valid at `at`, nearer than both surfaces have moved since `start` and a

@@ -29,7 +29,7 @@ class MotionTable {
   MotionTable(const CompareOptions& options, const SceneFile& file)
       : scene_(options.scene.stem().string()),
         until_(*options.until),
-        contact_(contact_of(file.scene) != nullptr),
+        file_(file),
         table_(options.directory / "compare.csv",
                {"scene",       "duration_s",   "step_s",        "integrator",       "outer",
                 "relaxation",  "friction",     "tolerance",     "outer_iterations", "sweeps",
@@ -39,17 +39,17 @@ class MotionTable {
                &totals_) {}
 
   /// The reference's own row: as its error it has its error bar. All rows tell the bar.
-  void add_judge(const std::string& name, const Truth& truth, double wall_s) {
+  void add_reference(const std::string& name, const Truth& truth, double wall_s) {
     truth_ = truth;
-    Contender judge{name, {}};
-    judge.method.integrator = "none";
-    judge.method.tolerance = std::nan("");
-    judge.method.outer = "judge";
-    judge.method.relaxation = name;
+    Contender reference{name, {}};
+    reference.method.integrator = "none";
+    reference.method.tolerance = std::nan("");
+    reference.method.outer = "reference";
+    reference.method.relaxation = name;
     Trajectory found;
     found.wall_s = wall_s;
     const bool ok = truth.reason.empty();
-    add(judge, found, truth.error_bar, ok ? 0 : std::nan(""), ok ? "ok" : "not_converged", truth.reason);
+    add(reference, found, truth.error_bar, ok ? 0 : std::nan(""), ok ? "ok" : "not_converged", truth.reason);
   }
 
   void skip(const Contender& contender, const std::string& reason) {
@@ -60,29 +60,15 @@ class MotionTable {
 
   void add(const Contender& contender, const Trajectory& found, double error, double energy_error,
            const std::string& status, const std::string& reason) {
-    const auto& method = contender.method;
-    table_.row({scene_,
-                until_,
-                until_ / static_cast<double>(contender.steps),
-                method.integrator,
-                method.outer,
-                method.relaxation,
-                contact_ ? method.friction : std::string("none"),
-                method.tolerance,
-                found.outer_iterations,
-                found.sweeps,
-                found.row_updates,
-                found.missed_steps,
-                found.bytes,
-                found.wall_s,
-                error,
-                truth_.error_bar,
-                energy_error,
-                found.penetration_m,
-                status,
-                reason,
-                contender.text,
-                truth_.method});
+    std::vector<Cell> cells{scene_, until_, until_ / static_cast<double>(contender.steps)};
+    const auto append = [&](const std::vector<Cell>& more) {
+      cells.insert(cells.end(), more.begin(), more.end());
+    };
+    append(method_cells(file_.scene, contender.method));
+    append(work_cells(found));
+    append({error, truth_.error_bar, energy_error, found.penetration_m, status, reason, contender.text,
+            truth_.method});
+    table_.row(cells);
   }
 
   void close() { table_.close(); }
@@ -91,7 +77,7 @@ class MotionTable {
  private:
   std::string scene_;
   double until_;
-  bool contact_;
+  const SceneFile& file_;
   Truth truth_;
   TableTotals totals_;
   Table table_;
@@ -175,8 +161,8 @@ int compare_motions(const CompareOptions& options, const SceneFile& file) {
   try {
     const auto start = std::chrono::steady_clock::now();
     truth = truth_of(reference, options, file, contenders);
-    table.add_judge(reference, truth,
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    table.add_reference(reference, truth,
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     if (truth.reason.empty())
       note(fmt::format("reference: {}, error bar {:.2g}; it tells errors from {:.2g} on", truth.method,
                        truth.error_bar, truth.told(0)));

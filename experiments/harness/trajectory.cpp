@@ -93,6 +93,19 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
   return found;
 }
 
+std::vector<Cell> method_cells(const Scene& scene, const Method& method) {
+  const auto none = [](bool without, const std::string& name) {
+    return without ? std::string("none") : name;
+  };
+  return {method.integrator, method.outer, none(method.outer == "quasi_newton", method.relaxation),
+          none(contact_of(scene) == nullptr, method.friction), method.tolerance};
+}
+
+std::vector<Cell> work_cells(const Trajectory& found) {
+  return {found.outer_iterations, found.sweeps, found.row_updates,
+          found.missed_steps,     found.bytes,  found.wall_s};
+}
+
 Trajectory timed_trajectory(const SceneFile& file, double duration, const Setting& setting,
                             const Limits& limits) {
   constexpr double enough = 0.02;  // s: twenty times what a scheduler takes a core away for

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/results.h"
 #include "numerics.h"
 #include "scenes/scene_file.h"
 #include "step/step.h"
@@ -31,6 +32,13 @@ struct Trajectory {
   pbd::Status status = pbd::Status::ok;
   std::string reason{};
 };
+
+/// integrator, outer, relaxation (none of quasi_newton, which relaxes nothing), friction (none without
+/// contact) and tolerance.
+std::vector<Cell> method_cells(const pbd::Scene& scene, const pbd::Method& method);
+
+/// outer_iterations, sweeps, row_updates, missed_steps, bytes and wall_s.
+std::vector<Cell> work_cells(const Trajectory& found);
 
 /// Where a trajectory is given up: as not converged after this wall time, as diverged this far from its
 /// start.

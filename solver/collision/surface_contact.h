@@ -75,7 +75,7 @@ struct PassedContact {
 };
 
 /// Finds what may touch: surfaces each other and themselves at a distance of `thickness`, if they `touch` at
-/// all, and spheres at half of it. Keeps triangles' edges and scratch from step to step.
+/// all, and spheres surfaces at half of it. Keeps triangles' edges and scratch from step to step.
 class SurfaceSearch {
  public:
   SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, double thickness, bool touch = true,

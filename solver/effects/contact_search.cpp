@@ -7,19 +7,6 @@
 #include "rows/threads.h"
 
 namespace pbd {
-namespace {
-
-/// Ascending, each once.
-std::vector<int> nodes_of(const std::vector<std::array<int, 3>>& triangles) {
-  std::vector<int> nodes;
-  for (const auto& triangle : triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-}  // namespace
-
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
     : effect_(effect),
       allowed_(scene, effect),
@@ -29,14 +16,15 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
   points_.triangle.radius = effect.thickness / 2;
   if (!effect.triangle.empty()) {
     sphere_.assign(static_cast<std::size_t>(scene.nodes()), -1);
+    const auto number = [&](int node) -> int& { return sphere_[static_cast<std::size_t>(node)]; };
+    for (std::size_t i = 0; i < effect.node.size(); ++i)
+      number(effect.node[i]) = static_cast<int>(effect.collider.size() + i);
+    for (const auto& triangle : effect.triangle)
+      for (const int node : triangle) number(node) = -1;
     std::vector<NodeSphere> spheres;
-    const std::vector<int> of_surfaces = nodes_of(effect.triangle);
-    for (std::size_t i = 0; i < effect.node.size(); ++i) {
-      const int node = effect.node[i];
-      if (std::binary_search(of_surfaces.begin(), of_surfaces.end(), node)) continue;
-      spheres.push_back({node, effect.radius[i], allowed_.linked_to(node)});
-      sphere_[static_cast<std::size_t>(node)] = static_cast<int>(effect.collider.size() + i);
-    }
+    for (std::size_t i = 0; i < effect.node.size(); ++i)
+      if (const int node = effect.node[i]; number(node) >= 0)
+        spheres.push_back({node, effect.radius[i], allowed_.linked_to(node)});
     surfaces_.emplace(effect.triangle, effect.thickness, effect.surfaces_touch, spheres);
   }
   for (std::size_t k = 0; k < motions_.size(); ++k) {

@@ -278,8 +278,7 @@ class ContactSearch {
   std::vector<NearView> views_;  // of pairs found before or now
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
-  std::vector<int>
-      sphere_;  // where there are surfaces, of each node: its number among sides, if it is a sphere
+  std::vector<int> sphere_;  // of each node where there are surfaces: its number as a side, -1 if no sphere
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<PassedContact> passed_, late_surfaces_;  // as `late_`
   bool surfaces_grown_ = false;                        // their nodes go farther than they were searched for

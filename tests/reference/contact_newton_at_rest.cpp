@@ -83,3 +83,18 @@ TEST_CASE("fixed nodes that lie in the ground touch nothing where a ball lands b
   CHECK(std::abs(j.v(2, ball) + gap / judged_step_s) <= by_hand);
   CHECK(j.contacts == 1);
 }
+
+// m (v - v0) = -m g h - h (x + h v)/A from x = -A m g, where the spring carries the weight.
+TEST_CASE(
+    "what stands on a loaded spring goes on by it, whatever it would bounce by and overlaps recover by") {
+  const double compliance = GENERATE(1e-5, 1e-3), recovery = GENERATE(1e-3, infinity);
+  const double speed = GENERATE(0.0, -0.1);
+  constexpr double mass = 2, radius = 0.1, h = judged_step_s;
+  BodyScene build({.friction = 0.5, .restitution = 0.5, .compliance = compliance}, gravity);
+  build.ground();
+  build.ball(radius, mass,
+             {.position = {0, 0, radius - compliance * mass * gravity}, .velocity = {0, 0, speed}});
+  build.contact().recovery = recovery;
+  const Vec3 expected(0, 0, speed / (1 + h * h / (compliance * mass)));
+  CHECK((judged(build.finish()).v.col(1) - expected).norm() <= by_hand);
+}

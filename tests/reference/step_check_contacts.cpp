@@ -46,6 +46,20 @@ TEST_CASE("contacts: force, cone, slip, gap and depth") {
   CHECK(refuted(deep) == Names{"depth"});
 }
 
+TEST_CASE("contacts: what yields is a spring between the gap and the force") {
+  Step step = box_on_ground(0, 0);
+  auto& law = std::get<Contact>(step.scene.effects.back()).law[0];
+  law.compliance = 1e-4;
+  const double deep = law.compliance * weight_per_kg;  // four contacts carry 4 kg
+  const Vec3 down(0, 0, -deep);
+  step.scene.initial.x.col(1) += down;
+  step.end.x.col(1) += down;
+  for (auto& contact : step.contacts) contact.point += down, contact.gap = -deep;
+  CHECK(refuted(step).empty());
+  law.compliance *= 1.01;
+  CHECK(refuted(step) == Names{"spring of contact"});
+}
+
 TEST_CASE("contacts: what met on the way is pushed as it stood there") {
   // The balls of balls(), turned by what is told of the way: where they touched is all that counts.
   Step step = balls();

@@ -191,7 +191,7 @@ TEST_CASE("on a taut sheet quasi_newton gains a digit in two iterations, however
 }
 
 TEST_CASE(
-    "on a sheet that is pressed by less than its mass holds quasi_newton is as fast as Newton's method") {
+    "on a sheet that is pressed by less than its mass holds quasi_newton gains a digit in an iteration") {
   // Eight links press a node by 0.1 of their stiffness, which times h^2 is half of a node's mass.
   const double node_mass = 1.0 / 64, stiffness = node_mass / 2 / (8 * 0.1 * 0.1 * 0.1);
   CHECK(iterations_of_sheet(0.9, 1 / stiffness) <= 8);

@@ -139,29 +139,16 @@ class Runs {
       }
     else
       found.reason = skipped;
-    const bool contact = contact_of(scene_.file.scene) != nullptr;
-    table_.row({scene_.name,
-                scene_.duration,
-                scene_.duration / static_cast<double>(setting.steps),
-                m.integrator,
-                m.outer,
-                m.outer == "quasi_newton" ? "none" : m.relaxation,
-                contact ? m.friction : std::string("none"),
-                m.tolerance,
-                std::int64_t{setting.by_count ? m.max_outer * m.max_sweeps : 0},
-                found.outer_iterations,
-                found.sweeps,
-                found.row_updates,
-                found.missed_steps,
-                found.bytes,
-                found.wall_s,
-                error,
-                truth_.error_bar,
-                energy,
-                found.penetration_m,
-                truth_.method,
-                status,
-                found.reason});
+    std::vector<Cell> cells{scene_.name, scene_.duration,
+                            scene_.duration / static_cast<double>(setting.steps)};
+    const auto add = [&](const std::vector<Cell>& more) {
+      cells.insert(cells.end(), more.begin(), more.end());
+    };
+    add(method_cells(scene_.file.scene, m));
+    add({std::int64_t{setting.by_count ? m.max_outer * m.max_sweeps : 0}});
+    add(work_cells(found));
+    add({error, truth_.error_bar, energy, found.penetration_m, truth_.method, status, found.reason});
+    table_.row(cells);
     return error;
   }
 

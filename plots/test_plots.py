@@ -277,7 +277,7 @@ class Commands(unittest.TestCase):
 
     def test_compare_draws_motions_of_all_steps_and_integrators_in_one_panel(self):
         with tempfile.TemporaryDirectory() as folder:
-            rows = [("a", 1.0, "none", "judge", "ode", "none", 0, 0, 0, 1.0, 1e-6, "ok", "", "ode", 1.0, 1e-6, "ODE"),
+            rows = [("a", 1.0, "none", "reference", "ode", "none", 0, 0, 0, 1.0, 1e-6, "ok", "", "ode", 1.0, 1e-6, "ODE"),
                     ("a", 0.1, "bdf2", "plain", "direct", "none", 1, 1, 1, 2.0, 1e-7, "ok", "", "x", 1.0, 1e-6, "ODE"),
                     ("a", 0.2, "newmark", "plain", "direct", "none", 1, 1, 1, 1.0, 2e-7, "ok", "", "y", 1.0, 1e-6, "ODE"),
                     ("a", 0.1, "newmark", "plain", "jacobi", "none", 1, 1, 1, 1.0, 0.1, "not_converged", "far", "z", 1.0, 1e-6, "ODE")]

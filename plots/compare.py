@@ -36,15 +36,16 @@ def draw_motions(frame, looks):
         draw_failed(ax, compared[compared["method"] == row["method"]], "wall_s", "error", looks[row["method"]])
     least = UNTOLD * reference["error_bar"]
     told = reached.assign(told=np.maximum(reached["error"], least)).sort_values(["told", "wall_s"])
-    if len(reached) and least > 0.1 * reached["error"].min():
+    shaded = len(reached) and least > 0.1 * reached["error"].min()
+    if shaded:
         beyond(ax, 0.1 * least, least)
     ax.set(xscale="log", yscale="log", xlabel="wall time (s)", ylabel="error at the end, relative",
            title=f"{scene_text(reference['scene'])} to t = {reference['duration_s']:g} s")
     shared_legend(chart, [ax], columns=1)
     best = [f"Least error told: {number(row['told'], 2)} in {number(row['wall_s'], 2)} s by {row['method']}" for _, row in told.iterrows()]
     finding(chart, best[0] if best else "No method solves its steps to the end")
-    footnote(chart, f"Reference: {reference['truth']}, error bar {number(reference['error_bar'], 2)}. Shaded: below three of its error bars, "
-                    "where it tells no error. " + reasons_note(failed(compared, "error", "wall_s")))
+    footnote(chart, f"Reference: {reference['truth']}, error bar {number(reference['error_bar'], 2)}. "
+                    + ("Shaded: below three of its error bars, where it tells no error. " if shaded else "") + reasons_note(failed(compared, "error", "wall_s")))
     return chart
 
 

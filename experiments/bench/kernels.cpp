@@ -8,8 +8,8 @@
 
 #include "harness/rows_of_step.h"
 #include "linear/linear_solver.h"
-#include "rows/threads.h"
 #include "scenes/standard.h"
+#include "threads/threads.h"
 
 namespace pbdcheck {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "collision/segments.h"
-#include "collision/surface_contact.h"
+#include "collision/surface_search.h"
 
 namespace pbd {
 namespace {
@@ -14,10 +14,10 @@ using Kind = SurfaceContact::Kind;
 /// contact's side is 1 (provot1997collision).
 class Volume {
  public:
-  Volume(Kind kind, const Points& from, const Points& to) {
+  Volume(Kind kind, const NodePlaces& from, const NodePlaces& to) {
     const bool triangle = kind == Kind::node_triangle;
-    const auto along = [&](int i, int j) {
-      const Vec3 begin = from.col(j) - from.col(i), end = to.col(j) - to.col(i);
+    const auto along = [&](std::size_t i, std::size_t j) {
+      const Vec3 begin = from[j] - from[i], end = to[j] - to[i];
       return std::array<Vec3, 2>{begin, end - begin};
     };
     const auto [p, dp] = along(triangle ? 1 : 2, 0);
@@ -70,15 +70,13 @@ class Volume {
 };
 
 /// m, between points i to j and k to l of x.
-double between(const Points& x, int i, int j, int k, int l) {
-  const Vec3 a = x.col(i), b = x.col(k), to_a = x.col(j) - a, to_b = x.col(l) - b;
-  const double length_a = to_a.norm(), length_b = to_b.norm();
-  const Vec3 along_a = to_a.normalized(), along_b = to_b.normalized();
-  return nearest({a, along_a, length_a}, {b, along_b, length_b}).apart.norm();
+double between(const NodePlaces& x, std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+  const Vec3 to_a = x[j] - x[i], to_b = x[l] - x[k];
+  return nearest({x[i], to_a.normalized(), to_a.norm()}, {x[k], to_b.normalized(), to_b.norm()}).apart.norm();
 }
 
 /// m, of a node from a triangle, or of two edges, one of which may be a node.
-double distance(const SurfaceContact& contact, const Points& x) {
+double distance(const SurfaceContact& contact, const NodePlaces& x) {
   if (contact.kind != Kind::node_triangle) return between(x, 0, 1, 2, 3);
   const SurfaceTouching over = touching(contact, x);
   if (on_features(over, contact.kind)) return std::abs(over.gap + contact.thickness);
@@ -86,36 +84,38 @@ double distance(const SurfaceContact& contact, const Points& x) {
 }
 
 /// True if a contact's features have a normal at x, and their nearest points lie on them.
-bool meets(const SurfaceContact& contact, const Points& x) {
+bool meets(const SurfaceContact& contact, const NodePlaces& x) {
   const bool triangle = contact.kind == Kind::node_triangle;
-  const Vec3 e = triangle ? x.col(2) - x.col(1) : x.col(1) - x.col(0);
-  const Vec3 f = triangle ? x.col(3) - x.col(1) : x.col(3) - x.col(2);
+  const Vec3 e = triangle ? x[2] - x[1] : x[1] - x[0];
+  const Vec3 f = triangle ? x[3] - x[1] : x[3] - x[2];
   return crossed(e, f) && on_features(touching(contact, x), contact.kind, between_features);
 }
 
-/// Sets the side and target of a contact of four nodes on the ways between these columns, if its features
-/// pass each other, or overlap where the ways end, by more than where they begin and `slack`.
-bool passes(SurfaceContact& contact, const Points& from, const Points& to, double slack, double& target) {
+/// A contact with its side and target, if its features pass each other on these ways, or overlap where the
+/// ways end, by more than where they begin and `slack`.
+std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& from, const NodePlaces& to,
+                                    double slack) {
   const Volume volume(contact.kind, from, to);
   int passed = 0;
-  Points x(3, 4);
   volume.each_change([&](double t, int before) {
-    x = from + t * (to - from);
+    NodePlaces x;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = from[k] + t * (to[k] - from[k]);
     if (meets(contact, x)) passed += before;
   });
   const double ends = passed != 0 ? passed : volume.at(1);
   contact.side = ends < 0 ? -1 : 1;
   const SurfaceTouching end = touching(contact, to);
-  if (passed == 0 && !(end.gap < -slack && meets(contact, to))) return false;
-  target = std::min(0.0, distance(contact, from) - contact.thickness);
-  return end.gap < target - slack;
+  if (passed == 0 && !(end.gap < -slack && meets(contact, to))) return std::nullopt;
+  const double target = std::min(0.0, distance(contact, from) - contact.thickness);
+  if (!(end.gap < target - slack)) return std::nullopt;
+  return PassedContact{contact, target};
 }
 
 }  // namespace
 
-void SurfaceSearch::find_passed(const Points& from, const Points& to, double slack,
+void SurfaceSearch::find_passed(int threads, const Points& from, const Points& to, double slack,
                                 std::vector<PassedContact>& out) {
-  Vec3 course = Vec3::Zero();
+  Vec3 course = Vec3::Zero();  // that brings no two nodes nearer
   for (const int node : nodes_)
     course += (to.col(node) - from.col(node)) / static_cast<double>(nodes_.size());
   const auto around = [&](const auto& nodes, double margin) {
@@ -124,30 +124,17 @@ void SurfaceSearch::find_passed(const Points& from, const Points& to, double sla
     const Vec3 around_box = Vec3::Constant(margin);
     return AxisBox(box.min() - around_box, box.max() + around_box);
   };
-  Points begin(3, 4), end(3, 4);
-  const auto look = [&](const std::array<int, 4>& nodes, SurfaceContact contact) {
-    for (int k = 0; k < 4; ++k) {
-      begin.col(k) = from.col(nodes[static_cast<std::size_t>(k)]);
-      end.col(k) = to.col(nodes[static_cast<std::size_t>(k)]);
-    }
-    contact.node = {0, 1, 2, 3};
-    PassedContact found{contact};
-    if (!passes(found.contact, begin, end, slack, found.target)) return;
-    found.contact.node = nodes;
-    out.push_back(found);
-  };
-  each_node_and_triangle(around, [&](const Point& point, const auto& nodes) {
-    look(nodes, point.contact(Kind::node_triangle, half_));
-  });
-  each_pair_of_edges(
-      around, [&](const auto& nodes) { look(nodes, {.kind = Kind::edge_edge, .thickness = 2 * half_}); });
-  each_node_and_edge(around, [&](const Point& point, int edge) {
-    const auto found = beside(point, edge, to, 0);
-    if (!found) return;
-    const auto [c, d] = ends(edge);
-    const double target = std::min(0.0, between(from, point.node, point.node, c, d) - found->thickness);
-    if (touching(*found, to).gap < target - slack) out.push_back({*found, target});
-  });
+  search(
+      threads, around,
+      [&](const SurfaceContact& contact) {
+        return passed(contact, places(contact, from), places(contact, to), slack);
+      },
+      [&](const Point& point, int edge) { return beside(point, edge, to, 0); });
+  out.insert(out.end(), met_.begin(), met_.end());
+  for (const auto& [contact, ends, again] : beside_) {
+    const double target = std::min(0.0, distance(contact, places(contact, from)) - contact.thickness);
+    if (touching(contact, to).gap < target - slack) out.push_back({contact, target});
+  }
 }
 
 }  // namespace pbd

@@ -83,9 +83,7 @@ void ContactSearch::set_out(const SearchedStep& step) {
   }
   if (!surfaces_) return;
   surfaces_grown_ = true;
-  node_travel_.assign(step.bodies.nodes(), 0.0);
-  for (const int node : surfaces_->nodes())
-    node_travel_[node] = (step.free.col(node) - step.start.x.col(node)).norm();
+  surface_reach_.set_out(step.start.x, step.straight, step.free, room);
 }
 
 bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
@@ -107,9 +105,7 @@ bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
     if (motion.grown) motion.beside = std::max(motion.beside, beside);
     grow(motion.turn, moved.turn, motion.grown);
   }
-  if (surfaces_)
-    for (const int node : surfaces_->nodes())
-      grow(node_travel_[node], (x.col(node) - step.start.x.col(node)).norm(), surfaces_grown_);
+  if (surfaces_ && surface_reach_.extend(step.start.x, x, room)) surfaces_grown_ = farther = true;
   if (farther) searched_ = false;
   return farther;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "effects/contact_search.h"
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 namespace pbd {
 
@@ -137,7 +137,7 @@ void ContactSearch::search(const Configuration& start) {
   for (Motion& motion : motions_) motion.grown = false;
   if (std::exchange(surfaces_grown_, false)) {
     surface_contacts_.clear();
-    surfaces_->find(start.x, node_travel_, surface_contacts_);
+    surfaces_->find(threads_, start.x, surface_reach_, surface_contacts_);
   }
   searched_ = true;
   if (near_.empty() && late_.empty() && !(surfaces_ && surfaces_->searches())) look_for_clearance(start);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 namespace pbd {
 ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
@@ -26,6 +26,7 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
       if (const int node = effect.node[i]; number(node) >= 0)
         spheres.push_back({node, effect.radius[i], allowed_.linked_to(node)});
     surfaces_.emplace(effect.triangle, effect.thickness, effect.surfaces_touch, spheres);
+    surface_reach_ = SurfaceReach(effect.triangle, surfaces_->nodes());
   }
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     Motion& motion = motions_[k];

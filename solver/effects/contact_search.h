@@ -57,6 +57,7 @@
 #include "collision/bounds.h"
 #include "collision/broad_phase.h"
 #include "collision/generate.h"
+#include "collision/surface_search.h"
 #include "effects/active_contact.h"
 #include "effects/allowed_pairs.h"
 #include "effects/clearance.h"
@@ -278,11 +279,11 @@ class ContactSearch {
   std::vector<NearView> views_;  // of pairs found before or now
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
+  SurfaceReach surface_reach_;
   std::vector<int> sphere_;  // of each node where there are surfaces: its number as a side, -1 if no sphere
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<PassedContact> passed_, late_surfaces_;  // as `late_`
   bool surfaces_grown_ = false;                        // their nodes go farther than they were searched for
-  std::vector<double> node_travel_;                    // m, of each node, where there are surfaces
 };
 
 }  // namespace pbd

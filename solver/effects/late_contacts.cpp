@@ -217,7 +217,7 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   if (!surfaces_ || !surfaces_->searches()) return false;
   passed_.clear();
   const double slack = std::max(overlooked, besides_) * effect_.thickness / 2;
-  surfaces_->find_passed(start, end, slack, passed_);
+  surfaces_->find_passed(threads_, start, end, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };

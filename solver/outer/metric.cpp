@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "rows/polar.h"
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 namespace pbd {
 namespace {

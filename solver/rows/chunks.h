@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 // What is done for a constraint is flattened, all it calls inlined, which GCC does not do of itself with so
 // many kinds of rows; not so with sanitizers, whose checks would make that too long to compile.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry.h"
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 namespace pbd {
 

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 const fs::path root = PBDCHECK_SOLVER;
 
 /// From what may include none of the others to what may include all.
-const std::vector<std::string> order{"model", "collision", "rows", "effects", "linear", "outer", "step"};
+const std::vector<std::string> order{"model",   "threads", "collision", "rows",
+                                     "effects", "linear",  "outer",     "step"};
 
 /// Those that stand side by side: neither includes the other.
 bool apart(const std::string& a, const std::string& b) {

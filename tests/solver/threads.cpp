@@ -1,4 +1,4 @@
-#include "rows/threads.h"
+#include "threads/threads.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>

@@ -1,0 +1,47 @@
+// How far the nodes of deformable surfaces go in a step: the nodes of each connected piece by a common
+// course, which brings no two of them nearer, and each node beside that.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "box_tree.h"
+#include "geometry.h"
+
+namespace pbd {
+
+class SurfaceReach {
+ public:
+  SurfaceReach() = default;
+  SurfaceReach(const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& nodes);
+
+  /// Courses lead to `straight`; nodes may go to `free`, or `room` times their course beside it.
+  void set_out(const Points& start, const Points& straight, const Points& free, double room);
+  /// True if nodes go farther to x than was told before; they may go `room` times as far then.
+  bool extend(const Points& start, const Points& x, double room);
+
+  /// Around where nodes of a piece go from x, in the mean course of all.
+  template <std::size_t K>
+  AxisBox box(const std::array<int, K>& nodes, const Points& x, double margin) const {
+    AxisBox box;
+    for (const int node : nodes) {
+      const Vec3 slack = Vec3::Constant(beside_[node] + margin),
+                 to = x.col(node) + course_[piece_[node]] - mean_;
+      box.extend(Vec3(x.col(node) - slack)).extend(Vec3(x.col(node) + slack));
+      box.extend(Vec3(to - slack)).extend(Vec3(to + slack));
+    }
+    return box;
+  }
+  /// m, by which the gap of a contact of these nodes may fall.
+  double of(const std::array<int, 4>& nodes) const;
+
+ private:
+  std::vector<int> nodes_;
+  std::vector<int> piece_;        // of each node of the scene up to the last of these
+  std::vector<Vec3> course_;      // m, of each piece
+  std::vector<double> in_piece_;  // nodes
+  Vec3 mean_ = Vec3::Zero();      // m, of all nodes' courses
+  std::vector<double> beside_;    // m, of each node
+};
+
+}  // namespace pbd

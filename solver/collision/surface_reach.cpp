@@ -4,6 +4,11 @@
 #include <numeric>
 
 namespace pbd {
+namespace {
+
+constexpr double way_rounding = 1e-9;  // of a way
+
+}  // namespace
 
 SurfaceReach::SurfaceReach(const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& nodes)
     : nodes_(nodes) {
@@ -40,16 +45,17 @@ void SurfaceReach::set_out(const Points& start, const Points& straight, const Po
   }
   for (const int node : nodes_) {
     const Vec3& course = course_[piece_[node]];
-    beside_[node] = (free.col(node) - start.col(node) - course).norm() + room * course.norm();
+    const double way = (free.col(node) - start.col(node)).norm();
+    beside_[node] = (free.col(node) - start.col(node) - course).norm() + room * (course - mean_).norm() +
+                    way_rounding * way;
   }
 }
 
 bool SurfaceReach::extend(const Points& start, const Points& x, double room) {
-  constexpr double rounding = 1e-9;  // of a way
   bool farther = false;
   for (const int node : nodes_) {
     const double reached = (x.col(node) - start.col(node) - course_[piece_[node]]).norm();
-    if (!(reached > (1 + rounding) * beside_[node])) continue;
+    if (!(reached > (1 + way_rounding) * beside_[node])) continue;
     beside_[node] = (1 + room) * reached;
     farther = true;
   }

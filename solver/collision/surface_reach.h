@@ -15,7 +15,8 @@ class SurfaceReach {
   SurfaceReach() = default;
   SurfaceReach(const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& nodes);
 
-  /// Courses lead to `straight`; nodes may go to `free`, or `room` times their course beside it.
+  /// Courses lead to `straight`; nodes may go to `free`, or, beside their course, `room` times as
+  /// far as that goes beside the mean of all.
   void set_out(const Points& start, const Points& straight, const Points& free, double room);
   /// True if nodes go farther to x than was told before; they may go `room` times as far then.
   bool extend(const Points& start, const Points& x, double room);

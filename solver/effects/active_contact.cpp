@@ -41,6 +41,17 @@ Touching touching_at(const ActiveContact& contact, const Configuration& at) {
   return touching(features, a, b);
 }
 
+bool beside_features(const SurfaceContact& contact, const SurfaceTouching& found) {
+  constexpr double most = 1;
+  return !on_features(found, contact.kind, most);
+}
+
+double gap_at(const ActiveContact& contact, const Configuration& at) {
+  if (!contact.of_surfaces) return touching_at(contact, at).gap;
+  const SurfaceTouching found = touching(contact.surface, at.x);
+  return beside_features(contact.surface, found) ? infinity : found.gap;
+}
+
 double largest_coordinate(const ActiveContact& contact, const Touching& found, const Configuration& at) {
   double most = std::max(found.point_a.cwiseAbs().maxCoeff(), found.point_b.cwiseAbs().maxCoeff());
   if (contact.of_surfaces) return most;

@@ -102,8 +102,15 @@ inline auto arc_of(int body, const Configuration& at) {
   return at.x.col(at.x.cols() - std::ssize(at.pose) + body);
 }
 
-/// Of what has features or has met.
+/// Of what has features or has met: not of surfaces.
 Touching touching_at(const ActiveContact& contact, const Configuration& at);
+
+/// True of surfaces that touch farther beside their features than these are long: of lines that are nearly
+/// parallel the nearest points lie anywhere, and forces there grow with their distance.
+bool beside_features(const SurfaceContact& contact, const SurfaceTouching& found);
+
+/// m, of any contact; infinite of surfaces that are beside their features.
+double gap_at(const ActiveContact& contact, const Configuration& at);
 
 /// Sets `level` of contacts of bodies and nodes, a pair's in a row. What collides ends apart, however near
 /// other features of its pair are.

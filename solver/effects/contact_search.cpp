@@ -73,8 +73,12 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
   const auto add = [&](const ActiveContact& contact) {
     contacts[contact.law.friction > 0 ? surfaces_rough : surfaces_smooth].push_back(contact);
   };
-  for (const SurfaceContact& found : surface_contacts_)
-    if (!is_left(found)) add(of_surfaces(found, nodes));
+  for (const SurfaceContact& found : surface_contacts_) {
+    if (is_left(found)) continue;
+    ActiveContact contact = of_surfaces(found, nodes);
+    if (contact.law.restitution == 0) contact.apart = near * surface_reach_.of(found.node);
+    add(contact);
+  }
   std::erase_if(late_surfaces_, [&](const PassedContact& late) {  // near by now: it went farther
     return !is_left(late.contact) &&
            std::any_of(surface_contacts_.begin(), surface_contacts_.end(),

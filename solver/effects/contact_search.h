@@ -142,7 +142,7 @@ class ContactSearch {
                             const Points& to) const;
   ActiveContact of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const;
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
-  bool see_passed(const Points& start, const Points& end);
+  bool see_passed(const Points& start, const Points& end, const ContactLists& contacts);
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);

@@ -5,6 +5,17 @@
 #include "effects/contact_search.h"
 
 namespace pbd {
+namespace {
+
+bool has_rows(const SurfaceContact& surfaces, const ContactLists& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [&](const ActiveContact& each) {
+      return each.of_surfaces && each.surface.same_features(surfaces);
+    });
+  });
+}
+
+}  // namespace
 
 double ContactSearch::gap_of(const ContactPoint& point, const Frame& at_first, const Frame& at_second) {
   return point.swapped ? touching(point, at_second, at_first).gap : touching(point, at_first, at_second).gap;
@@ -212,8 +223,8 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 }
 
 /// Adds what deformable surfaces passed or overlap by where a solved iterate ends, as none of their contacts
-/// tells: a surface has no inside by which to see it later.
-bool ContactSearch::see_passed(const Points& start, const Points& end) {
+/// tells: a surface has no inside by which to see it later. What waited for it is left to these.
+bool ContactSearch::see_passed(const Points& start, const Points& end, const ContactLists& contacts) {
   if (!surfaces_ || !surfaces_->searches()) return false;
   passed_.clear();
   const double slack = std::max(overlooked, besides_) * effect_.thickness / 2;
@@ -222,9 +233,11 @@ bool ContactSearch::see_passed(const Points& start, const Points& end) {
   for (const PassedContact& found : passed_) {
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
     const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
-    if ((is_left(found.contact) || std::none_of(surface_contacts_.begin(), surface_contacts_.end(), same)) &&
-        std::none_of(late_surfaces_.begin(), late_surfaces_.end(), same_late))
-      late_surfaces_.push_back(found);
+    if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(), same_late)) continue;
+    if (!is_left(found.contact) && has_rows(found.contact, contacts)) continue;
+    if (std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same))
+      left_surfaces_.insert(found.contact.features());
+    late_surfaces_.push_back(found);
   }
   return late_surfaces_.size() > before;
 }
@@ -233,7 +246,7 @@ bool ContactSearch::look_again(const Configuration& start, const Configuration& 
                                const Configuration& free, double tolerance, const ContactLists& contacts) {
   besides_ = std::max(tolerance, least_beside);
   const bool dropped = drop_left(start, end, free, contacts), seen = see_overlaps(start, end, contacts);
-  const bool passed = see_passed(start.x, end.x);
+  const bool passed = see_passed(start.x, end.x, contacts);
   return dropped || seen || passed;
 }
 

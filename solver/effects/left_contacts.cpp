@@ -179,12 +179,10 @@ void ContactSearch::add_touching(const std::vector<ActiveContact>& left, const C
   }
 }
 
-/// True of a contact of surfaces that acts farther beside its features than these are long: of lines that are
-/// nearly parallel the nearest points lie anywhere, and forces there grow with their distance.
+/// True of a contact of surfaces that acts beside its features.
 bool ContactSearch::leaves(const ActiveContact& contact, const Points& x) const {
-  constexpr double most_beside = 1;  // of a feature
   return contact.of_surfaces && contact.acts && !(contact.restitution > 0) &&
-         !pbd::on_features(touching(contact.surface, x), contact.surface.kind, most_beside);
+         beside_features(contact.surface, touching(contact.surface, x));
 }
 
 /// True if contacts of surfaces leave the step. What they held and then passes, or overlaps, is found late.

@@ -14,7 +14,7 @@ void WaitingContacts::take(std::span<const Configuration> places, ContactLists& 
   const auto waits = [&](const ActiveContact& contact) {
     if (std::isinf(contact.apart) || called_.contains(name_of(contact))) return false;
     return std::all_of(places.begin(), places.end(),
-                       [&](const Configuration& at) { return touching_at(contact, at).gap > contact.apart; });
+                       [&](const Configuration& at) { return gap_at(contact, at) > contact.apart; });
   };
   for (auto& list : contacts) {
     const auto first = std::stable_partition(list.begin(), list.end(), std::not_fn(waits));
@@ -37,7 +37,7 @@ void WaitingContacts::renew(const ContactLists& all, const ContactLists& contact
 bool WaitingContacts::call(const Configuration& end) {
   const std::size_t before = called_.size();
   for (const ActiveContact& contact : waiting_)
-    if (std::isinf(contact.apart) || touching_at(contact, end).gap < 0) called_.insert(name_of(contact));
+    if (std::isinf(contact.apart) || gap_at(contact, end) < 0) called_.insert(name_of(contact));
   return called_.size() > before;
 }
 

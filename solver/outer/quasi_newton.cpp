@@ -77,11 +77,12 @@ void QuasiNewton::begin(StepSystem& system) {
   fall_ = {};
   // The last step's metric serves at first where line searches guard against it.
   last_residual_ = system.problem.method.warm_start && dual_ == Dual::none ? infinity : 0;
+  if (std::exchange(pressed_, false)) potential_.metric.forget();
   potential_.begin_metric(system);
 }
 
 /// Counts an iteration. True if P is to be factored at the iterate: where rows leave directions free unless
-/// the residual falls well enough, else after many descents.
+/// the residual falls well enough, else after many iterations.
 bool QuasiNewton::outlived(const Progress& progress, double well) {
   constexpr int most_iterations = 30;
   const double last = std::exchange(last_residual_, progress.residual());
@@ -119,7 +120,11 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   }
   acceleration_.note(system);
   constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
-  if (follows_ && outlived(progress, well)) potential_.factor_metric(system, MetricShape::convex);
+  if (outlived(progress, well)) {
+    potential_.factor_metric(system, MetricShape::convex);
+    pressed_ = !follows_;
+    if (pressed_) acceleration_.forget();
+  }
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
   system.at.v -= direction_;

@@ -168,9 +168,16 @@ TEST_CASE("surfaces come no nearer than their reach tells") {
     straight(2, k) = 3 * towards;
     free(2, k) = 5 * towards;
   }
-  reach.set_out(x, straight, free, 0);
-  CHECK(reach.of({0, 3, 4, 5}) == 2 * 5);
-  CHECK(reach.of({0, 0, 1, 2}) == 2 * (5 - 3));  // of one piece
+  const Vec3 together(1000, -2000, 3000);
+  for (const Vec3& boost : {Vec3(0, 0, 0), together}) {
+    reach.set_out(x, straight.colwise() + boost, free.colwise() + boost, 0);
+    const double rounding = 1e-8 * (5 + boost.norm());  // a few times what is added for it
+    CHECK(std::abs(reach.of({0, 3, 4, 5}) - 2 * 5) < rounding);
+    CHECK(std::abs(reach.of({0, 0, 1, 2}) - 2 * (5 - 3)) < rounding);  // of one piece
+    constexpr double room = 0.25;                                      // of 3 m
+    reach.set_out(x, straight.colwise() + boost, free.colwise() + boost, room);
+    CHECK(std::abs(reach.of({0, 0, 1, 2}) - 2 * (5 - 3 + room * 3)) < rounding);
+  }
 }
 
 TEST_CASE("threads find what one finds, in its order") {

@@ -82,16 +82,15 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   const double shift = (jacobian * block.gather(shifts.own, i))[0], from = gap + shift;
   const auto recovered = [&](double deep) { return target_of(begin, shifts, deep, shift, block, i); };
   // What yields is a spring from where the shapes touch, however deep it begins. A late one is told how deep
-  // its pair began, as its features may have lain anywhere then; a triangle may have begun cut by others. Of
-  // what surfaces pass the planes may have lain anywhere: its target stays.
+  // its pair began, as its features may have lain anywhere then. Of what surfaces pass and of triangles,
+  // which may have begun cut by others, the target stays.
   const bool yields = contact.law.compliance > 0;
   if (yields)
     contact.target = 0;
   else if (!contact.late)
     contact.target = recovered(gap);
-  else if (!contact.of_surfaces)
-    contact.target =
-        contact.triangle_side >= 0 ? std::min(contact.target, recovered(gap)) : recovered(contact.target);
+  else if (!contact.of_surfaces && contact.triangle_side < 0)
+    contact.target = recovered(contact.target);
   contact.closing = -(jacobian * block.gather(start_v_, i))[0];
   const double ahead = gap + (jacobian * block.gather(shifts.free, i))[0];
   const bool springs = yields && contact.law.damping == 0;

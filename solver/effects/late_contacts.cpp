@@ -121,7 +121,8 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
         !overlapping_.empty())
       return true;
   }
-  if (!(generate_between(pair, start, end, 1, slack) < allowed)) return false;
+  const double gap = generate_between(pair, start, end, 1, slack);
+  if (!(gap < allowed)) return false;
   double overlapping = 1;
   const double apart = entering(pair, start, end, behind, last_apart(pair, start, end, behind), overlapping);
   const double left = (overlapping - apart) * travel;
@@ -139,11 +140,14 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
       });
     return !overlapping_.empty();
   };
+  // What has not come to a triangle's middle is on the side from which it came: so are its features there.
+  const bool grazes = two.kind == Carrier::triangle && is_convex(pair.collider[0]) &&
+                      !(pair.nearest < -slack) && gap > -effect_.thickness / 2;
   for (const bool left_too : {false, true}) {
     if (!left_too && !goes_round) continue;
     if (told(apart, behind, left_too) || told(1, behind, left_too) || told(apart, least_met, left_too))
       return true;
-    if (goes_round_apart(pair, slack) && told(1, -infinity, left_too)) return true;
+    if ((grazes || goes_round_apart(pair, slack)) && told(1, -infinity, left_too)) return true;
   }
   if (!begins_cut(pair)) return true;
   keep_deepening(pair, start, end, allowed);

@@ -77,9 +77,14 @@ void require_masses(const Keys& keys, const pbd::Scene& scene, const NodeRange& 
 void set_velocity(Keys& keys, pbd::Scene& scene, const NodeRange& range) {
   const pbd::Vec3 velocity = keys.vector_or("velocity_m_s", pbd::Vec3::Zero());
   const pbd::Vec3 spin = keys.vector_or("angular_velocity_rad_s", pbd::Vec3::Zero());
-  const auto x = scene.initial.x.middleCols(range.first, range.count);
-  const auto mass = Eigen::VectorXd::Map(scene.mass.data() + range.first, range.count);
-  const pbd::Vec3 centre = x * mass / mass.sum();
+  pbd::Vec3 moment = pbd::Vec3::Zero();
+  double total = 0;
+  for (int node = range.first; node < range.first + range.count; ++node) {
+    const double mass = scene.mass[static_cast<std::size_t>(node)];
+    moment += mass * scene.initial.x.col(node);
+    total += mass;
+  }
+  const pbd::Vec3 centre = moment / total;
   for (int node = range.first; node < range.first + range.count; ++node)
     scene.initial.v.col(node) = velocity + spin.cross(pbd::Vec3(scene.initial.x.col(node)) - centre);
 }

@@ -96,16 +96,16 @@ bool meets(const SurfaceContact& contact, const NodePlaces& x) {
 std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& from, const NodePlaces& to,
                                     double slack) {
   const Volume volume(contact.kind, from, to);
-  int passed = 0;
+  int crossings = 0;
   volume.each_change([&](double t, int before) {
     NodePlaces x;
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = from[k] + t * (to[k] - from[k]);
-    if (meets(contact, x)) passed += before;
+    if (meets(contact, x)) crossings += before;
   });
-  const double ends = passed != 0 ? passed : volume.at(1);
+  const double ends = crossings != 0 ? crossings : volume.at(1);
   contact.side = ends < 0 ? -1 : 1;
   const SurfaceTouching end = touching(contact, to);
-  if (passed == 0 && !(end.gap < -slack && meets(contact, to))) return std::nullopt;
+  if (crossings == 0 && !(end.gap < -slack && meets(contact, to))) return std::nullopt;
   const double target = std::min(0.0, distance(contact, from) - contact.thickness);
   if (!(end.gap < target - slack)) return std::nullopt;
   return PassedContact{contact, target};
@@ -115,7 +115,7 @@ std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& fr
 
 void SurfaceSearch::find_passed(int threads, const Points& from, const Points& to, double slack,
                                 std::vector<PassedContact>& out) {
-  Vec3 course = Vec3::Zero();  // that brings no two nodes nearer
+  Vec3 course = Vec3::Zero();  // the mean of all: what is common brings no two nodes nearer
   for (const int node : nodes_)
     course += (to.col(node) - from.col(node)) / static_cast<double>(nodes_.size());
   const auto around = [&](const auto& nodes, double margin) {
@@ -131,7 +131,8 @@ void SurfaceSearch::find_passed(int threads, const Points& from, const Points& t
       },
       [&](const Point& point, int edge) { return beside(point, edge, to, 0); });
   out.insert(out.end(), met_.begin(), met_.end());
-  for (const auto& [contact, ends, again] : beside_) {
+  for (const Beside& each : beside_) {
+    const SurfaceContact& contact = each.contact;
     const double target = std::min(0.0, distance(contact, places(contact, from)) - contact.thickness);
     if (touching(contact, to).gap < target - slack) out.push_back({contact, target});
   }

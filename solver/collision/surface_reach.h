@@ -15,13 +15,14 @@ class SurfaceReach {
   SurfaceReach() = default;
   SurfaceReach(const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& nodes);
 
-  /// Courses lead to `straight`; nodes may go to `free`, or, beside their course, `room` times as
-  /// far as that goes beside the mean of all.
+  /// Courses lead to `straight`. Nodes may go to `free`, and farther by `room` times what their course goes
+  /// beside the mean of all.
   void set_out(const Points& start, const Points& straight, const Points& free, double room);
-  /// True if nodes go farther to x than was told before; they may go `room` times as far then.
+  /// True if nodes go farther to x than was told before; they may then go farther than that, by the share
+  /// `room`.
   bool extend(const Points& start, const Points& x, double room);
 
-  /// Around where nodes of a piece go from x, in the mean course of all.
+  /// About where these nodes, of one piece, go from x, seen from what moves by the mean course.
   template <std::size_t K>
   AxisBox box(const std::array<int, K>& nodes, const Points& x, double margin) const {
     AxisBox box;
@@ -33,7 +34,8 @@ class SurfaceReach {
     }
     return box;
   }
-  /// m, by which the gap of a contact of these nodes may fall.
+  /// m, by which the gap of a contact of these nodes may fall, the first and the last of which are of its two
+  /// sides.
   double of(const std::array<int, 4>& nodes) const;
 
  private:

@@ -23,7 +23,7 @@ struct NodeSphere {
   std::vector<int> kept{};
 };
 
-/// What came to overlap on a way, with the gap that is asked for, m.
+/// What may touch, or came to overlap on a way: then with the gap that is asked for, m.
 struct PassedContact {
   SurfaceContact contact;
   double target = 0;
@@ -50,8 +50,8 @@ class SurfaceSearch {
   /// The nodes at the other ends of a node's edges.
   std::span<const int> neighbours(int node) const { return neighbours_.of(node); }
 
-  /// Appends pairs without a common node whose gap at x is below what it may fall by, and whose nearest
-  /// points lie on them. Edges that are parallel are left to their nodes.
+  /// Appends pairs without a common node that may come to touch: whose gap at x is below what `reach` says it
+  /// may fall by, and whose nearest points lie on them. Edges that are parallel are left to their nodes.
   void find(int threads, const Points& x, const SurfaceReach& reach, std::vector<SurfaceContact>& out);
 
   /// Appends nodes and triangles, and edges, that pass each other on the straight ways between two places of
@@ -83,9 +83,9 @@ class SurfaceSearch {
     std::vector<Beside> beside;
   };
 
-  /// Fills `met_` and `beside_`: with look(contact), an optional, of each point and triangle, and each two
-  /// edges, without a common node, and look_beside(point, edge) of each point and edge, whose boxes meet.
-  /// box(nodes, margin) gives a feature's.
+  /// Fills `met_` with what look(contact) returns for each point and triangle, and each two edges, without a
+  /// common node, whose boxes meet, and `beside_` with look_beside(point, edge) likewise. box(nodes, margin)
+  /// is a feature's box.
   template <class Box, class Look, class LookBeside>
   void search(int threads, Box&& box, Look&& look, LookBeside&& look_beside);
   template <class Look>
@@ -132,8 +132,7 @@ void SurfaceSearch::search(int threads, Box&& box, Look&& look, LookBeside&& loo
     tree.build(boxes);
   };
   each_task(threads, 2, [&](std::size_t k) {
-    if (k == 0) plant(triangles_, triangle_boxes_, triangle_tree_);
-    if (k == 1) plant(edges_, edge_boxes_, edge_tree_);
+    k == 0 ? plant(triangles_, triangle_boxes_, triangle_tree_) : plant(edges_, edge_boxes_, edge_tree_);
   });
   tasks_.resize(threads > 1 ? most_tasks : 1);
   each_task(threads, tasks_.size(), [&](std::size_t k) {

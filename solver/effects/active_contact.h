@@ -106,7 +106,8 @@ inline auto arc_of(int body, const Configuration& at) {
 Touching touching_at(const ActiveContact& contact, const Configuration& at);
 
 /// True of surfaces that touch farther beside their features than these are long: of lines that are nearly
-/// parallel the nearest points lie anywhere, and forces there grow with their distance.
+/// parallel the nearest points lie anywhere, and forces there grow with their distance. Never of a node and
+/// an edge.
 bool beside_features(const SurfaceContact& contact, const SurfaceTouching& found);
 
 /// m, of any contact; infinite of surfaces that are beside their features.

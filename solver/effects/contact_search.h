@@ -4,7 +4,8 @@
 // that. A motion is told from its course, where velocities take it, with a quarter of it to spare, so that
 // what flies side by side is not near for all of its speed. What is near by far less than its motion, and
 // touches neither where the step begins nor where its free motion ends, waits without rows
-// (waiting_contacts.h).
+// (waiting_contacts.h). Of surfaces what lies beside its features waits, whatever its gap; what then passes
+// is found late.
 //
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
 // chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel beside
@@ -73,7 +74,7 @@ struct SearchedStep {
   const Points& straight;  // where courses end
   const Points& free;      // where the free motion ends
   const std::vector<double>& inverse_mass;
-  int threads;  // that pairs are searched on
+  int threads;  // that pairs and surfaces are searched on
 };
 
 class ContactSearch {
@@ -262,7 +263,8 @@ class ContactSearch {
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
-  std::set<std::pair<SurfaceContact::Kind, std::array<int, 4>>> left_surfaces_;  // likewise
+  std::set<std::pair<SurfaceContact::Kind, std::array<int, 4>>>
+      left_surfaces_;                        // likewise, or passed without rows
   std::vector<std::array<int, 2>> dropped_;  // pairs that contacts have just left
   Points between_x_;  // m, on the way of a contact's carriers; the others' are of no use
   std::vector<Pose> between_pose_;

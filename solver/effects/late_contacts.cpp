@@ -140,9 +140,10 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
       });
     return !overlapping_.empty();
   };
-  // What has not come to a triangle's middle is on the side from which it came: so are its features there.
+  // What has neither come to a triangle's middle nor gone as far as it is wide is on the side from which it
+  // came: so are its features there.
   const bool grazes = two.kind == Carrier::triangle && is_convex(pair.collider[0]) &&
-                      !(pair.nearest < -slack) && gap > -effect_.thickness / 2;
+                      !(pair.nearest < -slack) && gap > -effect_.thickness / 2 && travel < 2 * round;
   for (const bool left_too : {false, true}) {
     if (!left_too && !goes_round) continue;
     if (told(apart, behind, left_too) || told(1, behind, left_too) || told(apart, least_met, left_too))
@@ -227,7 +228,8 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 }
 
 /// Adds what deformable surfaces passed or overlap by where a solved iterate ends, as none of their contacts
-/// tells: a surface has no inside by which to see it later. What waited for it is left to these.
+/// tells: a surface has no inside by which to see it later. What is near, has no rows and ends beside its
+/// features counts as left: the late contact takes its place. On its features its gap calls it.
 bool ContactSearch::see_passed(const Points& start, const Points& end, const ContactLists& contacts) {
   if (!surfaces_ || !surfaces_->searches()) return false;
   passed_.clear();
@@ -238,9 +240,11 @@ bool ContactSearch::see_passed(const Points& start, const Points& end, const Con
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
     const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
     if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(), same_late)) continue;
-    if (!is_left(found.contact) && has_rows(found.contact, contacts)) continue;
-    if (std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same))
+    if (!is_left(found.contact) && std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same)) {
+      const bool called = !beside_features(found.contact, touching(found.contact, end));
+      if (called || has_rows(found.contact, contacts)) continue;
       left_surfaces_.insert(found.contact.features());
+    }
     late_surfaces_.push_back(found);
   }
   return late_surfaces_.size() > before;

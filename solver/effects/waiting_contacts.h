@@ -1,6 +1,7 @@
 // Contacts that are near enough to be told where a step begins, and have no rows: their shapes are apart
 // where the step begins and where its free motion ends. They wait until an iterate that solves the step
-// brings the shapes together, so that what flies by at speed costs one test a solution.
+// brings the shapes together, surfaces by features that are near, so that what flies by at speed costs one
+// test a solution.
 #pragma once
 
 #include <set>

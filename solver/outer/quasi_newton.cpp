@@ -123,7 +123,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   if (outlived(progress, well)) {
     potential_.factor_metric(system, MetricShape::convex);
     pressed_ = !follows_;
-    if (pressed_) acceleration_.forget();
+    if (pressed_) acceleration_.forget();  // a sheet's metric changes too often to begin anew with each
   }
   const double accuracy = inner_accuracy(system.problem.method, progress);
   potential_.metric.solve(potential_.gradient, direction_);
@@ -204,6 +204,7 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   constexpr double well = 0.7;  // L-BFGS learns what the metric leaves out, and a factor would forget it
   if (outlived(progress, well)) {
     potential_.factor_metric(system, MetricShape::tangent);
+    pressed_ = !follows_ && dual_ == Dual::contacts;
     lbfgs_.forget();
     find_direction();
   }

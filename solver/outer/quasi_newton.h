@@ -7,14 +7,14 @@
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 iterations of a step were not enough: it is then factored anew at the current shape,
-// which allocates; under rows the next step begins by the rest shapes again. Of sheets, whose stiffness
-// across themselves is their tension, it is that of the current shape. Where it descends, by line searches,
-// it is Newton's tangent (`Constraint::geometric_stiffness`), without what is not convex where that is not
-// positive definite, and a step that is warm-started begins with the last one's; under rows, which have no
-// line search, it is the convex part. It is factored anew wherever a descent leaves more than 0.7 of the
-// residual, under rows more than a tenth. Above 1e10 block products (about 70000 nodes of a beam four times
-// as long as high) it falls back to one number a pair of nodes, which takes several times the iterations
-// (measured: `rival_newton`).
+// which allocates; in scenes with contact the next step begins by the rest shapes again. Of sheets, whose
+// stiffness across themselves is their tension, it is that of the current shape. Where it descends, by line
+// searches, it is Newton's tangent (`Constraint::geometric_stiffness`), without what is not convex where that
+// is not positive definite, and a step that is warm-started begins with the last one's; under rows, which
+// have no line search, it is the convex part. It is factored anew wherever a descent leaves more than 0.7 of
+// the residual, under rows more than a tenth. Above 1e10 block products (about 70000 nodes of a beam four
+// times as long as high) it falls back to one number a pair of nodes, which takes several times the
+// iterations (measured: `rival_newton`).
 #pragma once
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class QuasiNewton {
   Dual dual_ = Dual::none;
   bool bodies_move_ = false;
   bool follows_ = false;  // the metric is that of the current shape
-  bool pressed_ = false;  // the metric is that of a shape under rows, not at rest
+  bool pressed_ = false;  // the metric is that of a shape in contact; the next step forgets it
   FreeComponents components_;
   Potential potential_;
   Lbfgs lbfgs_;

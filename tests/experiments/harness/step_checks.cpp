@@ -58,10 +58,12 @@ TEST_CASE("no step of a scene that comes with the program is refuted") {
 TEST_CASE(
     "a ball that strikes a hanging cloth ends no deeper in it than it was, and by features that are near") {
   const TemporaryFolder folder;
-  const auto ran = run_program({"simulate", scenes / "ball_at_cloth.toml", "--check", "--set",
-                                "step.duration_s=0.225", "-o", folder.path});
-  CHECK_THAT(ran.out, Catch::Contains("none refuted"));
-  CHECK_THAT(ran.err, !Catch::Contains("calls for other rows"));
+  const auto run = [&](const char* duration) {
+    return run_program(
+        {"simulate", scenes / "ball_at_cloth.toml", "--check", "--set", duration, "-o", folder.path});
+  };
+  CHECK(run("step.duration_s=0.205").exit_code == 0);
+  CHECK_THAT(run("step.duration_s=0.225").out, Catch::Contains("none refuted"));  // after a missed step, too
 }
 
 TEST_CASE("a contact force that is another is told with step, number and bound") {

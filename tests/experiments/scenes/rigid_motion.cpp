@@ -77,7 +77,7 @@ angular_velocity_rad_s = [1, 2, 3]
         .scene.initial.v;
   };
   const pbd::Points first = velocity();
-  std::vector<std::vector<double>> kept;  // numbers of 16 bytes each time move what follows
+  std::vector<std::vector<double>> kept;  // what is allocated next moves by 16 bytes
   for (int k = 0; k < 32; ++k) {
     kept.emplace_back(2 * static_cast<std::size_t>(k) + 1);
     CHECK(velocity() == first);

@@ -134,7 +134,7 @@ void SurfaceSearch::gather() {
   for (const Task& task : tasks_) met_.insert(met_.end(), task.on_edges.begin(), task.on_edges.end());
   for (const Task& task : tasks_) beside_.insert(beside_.end(), task.beside.begin(), task.beside.end());
   for (std::size_t i = 0; i < beside_.size(); ++i)
-    if (beside_[i].ends[0] >= 0) ends_.push_back({beside_[i].ends, i});
+    if (beside_[i].ends[0] >= 0) ends_.emplace_back(beside_[i].ends, i);
   std::sort(ends_.begin(), ends_.end());
   for (std::size_t k = 1; k < ends_.size(); ++k)
     if (ends_[k].first == ends_[k - 1].first) beside_[ends_[k].second].again = true;

@@ -1,7 +1,6 @@
 // Contact of deformable surfaces with each other and with spheres about nodes: a node against a triangle or
-// an edge, or an edge against an edge. With
-// weights w that sum to zero, one a node, gap = n . sum_k w_k x_k - thickness, and its derivative by x_k is
-// w_k n^T:
+// an edge, or an edge against an edge. With weights w that sum to zero, one a node,
+// gap = n . sum_k w_k x_k - thickness, and its derivative by x_k is w_k n^T:
 //   node 0 against triangle 1 2 3   n = +- (x2 - x1) x (x3 - x1) normalised, w = (1, -b1, -b2, -b3), b the
 //                                   barycentric coordinates of x0's projection
 //   edge 0 1 against edge 2 3       n = +- (x1 - x0) x (x3 - x2) normalised, w = (1 - s, s, t - 1, -t) of the

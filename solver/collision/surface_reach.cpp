@@ -4,11 +4,6 @@
 #include <numeric>
 
 namespace pbd {
-namespace {
-
-constexpr double way_rounding = 1e-9;  // of a way
-
-}  // namespace
 
 SurfaceReach::SurfaceReach(const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& nodes)
     : nodes_(nodes) {
@@ -55,9 +50,7 @@ bool SurfaceReach::extend(const Points& start, const Points& x, double room) {
   bool farther = false;
   for (const int node : nodes_) {
     const double reached = (x.col(node) - start.col(node) - course_[piece_[node]]).norm();
-    if (!(reached > (1 + way_rounding) * beside_[node])) continue;
-    beside_[node] = (1 + room) * reached;
-    farther = true;
+    farther |= search_farther(beside_[node], reached, room);
   }
   return farther;
 }

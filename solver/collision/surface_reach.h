@@ -10,6 +10,15 @@
 
 namespace pbd {
 
+inline constexpr double way_rounding = 1e-9;  // of a way
+
+/// Where more is `reached` than was searched for, searches `room` times as far beyond that, and returns true.
+inline bool search_farther(double& searched, double reached, double room) {
+  if (!(reached > (1 + way_rounding) * searched)) return false;
+  searched = (1 + room) * reached;
+  return true;
+}
+
 class SurfaceReach {
  public:
   SurfaceReach() = default;

@@ -94,9 +94,7 @@ bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
   }
   bool farther = false;
   const auto grow = [&](double& searched, double reached, bool& grown) {
-    if (!(reached > (1 + rounding) * searched)) return;
-    searched = (1 + room) * reached;
-    grown = farther = true;
+    if (search_farther(searched, reached, room)) grown = farther = true;
   };
   for (Motion& motion : motions_) {
     const Displacement moved = displacement(motion, step.bodies, step.start, x);

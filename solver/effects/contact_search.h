@@ -123,7 +123,6 @@ class ContactSearch {
   static constexpr double overlooked = 1e-4;
   static constexpr double least_beside = 1e-9;  // what lies edge on edge comes and goes by rounding
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
-  static constexpr double rounding = 1e-9;      // of a way
   static constexpr int most_places = 10000;     // of a way: a hundred sizes take some hundred
   static constexpr double clipped_unseen = 0.01;  // of the radius: half of that is what may be cut unseen
   static constexpr double room = search_room;     // so that few steps are searched anew

@@ -158,8 +158,10 @@ TEST_CASE("surfaces come no nearer than their reach tells") {
     apart += !reach.box(std::array{0}, x, margin).intersects(reach.box(std::array{3, 4, 5}, x, margin));
   }
   CHECK(worst < accuracy);
-  CHECK(grown > 4000);   // some node of six, on nearly every second way
-  CHECK(grown <= 5000);  // and none on the others
+  // On every second way each node goes on at random, farther with a probability above 1/2: one of six above
+  // 1 - 2^-6. On the others none does.
+  CHECK(grown > 4800);
+  CHECK(grown <= 5000);
   CHECK(apart == 0);
 
   Points x = Points::Zero(3, 6), straight = x, free = x;  // straight at each other: as near as that

@@ -1,5 +1,5 @@
-// Sheets that fold, meet in flight or belong to what is pressed flat: no line search guards iterations under
-// contact.
+// Surfaces in contact, whose iterations no line search guards: of cloth that folds, sheets that meet in
+// flight and a block that is pressed flat.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -41,6 +41,7 @@ outer = "quasi_newton"
 }
 
 TEST_CASE("sheets that meet in flight are solved as at rest, whatever their common speed") {
+  constexpr int steps = 12;
   const auto flown = [](const pbd::Vec3& common) {
     const auto sheet = [&](int cells, double size, const pbd::Vec3& place, double speed) {
       return fmt::format(R"([[cloth]]
@@ -59,7 +60,7 @@ velocity_m_s = [{5}, {6}, {7}]
     pbd::Workspace workspace(file.scene, file.method);
     pbd::State state = file.scene.initial;
     int iterations = 0;
-    for (int k = 0; k < 12; ++k) {
+    for (int k = 0; k < steps; ++k) {
       const pbd::Report report = step(workspace, 0.005, state);
       INFO("step " << k);
       CHECK(report.status == pbd::Status::ok);
@@ -69,9 +70,9 @@ velocity_m_s = [{5}, {6}, {7}]
     return std::pair{iterations, state.x};
   };
   const auto [iterations, x] = flown(pbd::Vec3::Zero());
-  CHECK(iterations > 24);  // they meet
+  CHECK(iterations > 2 * steps);  // they meet
   const auto [boosted, boosted_x] = flown({30, -20, 50});
-  CHECK(std::abs(boosted - iterations) <= 2);                 // by rounding
+  CHECK(std::abs(boosted - iterations) <= steps);  // where rounding decides whether a step has arrived
   CHECK((boosted_x - x).cwiseAbs().maxCoeff() < 1e-6 * 0.4);  // of their size, as the tolerance
 }
 

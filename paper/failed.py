@@ -12,7 +12,7 @@ from tables import SOLVES
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(\.\d+)?(e[-+]?\d+)?(?![\w.]*[a-z_])")
 METHOD = ("integrator", "outer", "relaxation", "method", "solver", "friction", "law")
 ALONE = ("outer", "relaxation")  # of it where a table has one method
-TIMED = ("effects.empty.free", "effects.removed", "effects.frictionless.cheaper", "effects.linear", "joints.linear", "rival.fine",
+TIMED = ("effects.empty.free", "effects.idle", "effects.unused", "effects.removed", "effects.frictionless.cheaper", "effects.linear", "joints.linear", "rival.fine",
          "rival.coarse", "stability.auto_cost", "worlds.slowest")  # what these verdicts measure is a time
 MEANINGS = {
     "code": "our solver against code that shares nothing with it",

@@ -17,6 +17,7 @@ import sections
 from failed import cause, failed_section, failures, stripped
 from reading import InputError
 from results import Results
+from sections.trajectories import choice
 from tables import VERDICTS
 
 import reading
@@ -192,6 +193,14 @@ class Report(unittest.TestCase):
             text = self.html()
         self.assertIn("Brand new", text)
         self.assertIn("It &lt;works&gt;", text)
+
+    def test_the_guide_tells_step_time_memory_and_margin_of_the_quickest_method(self):
+        sample.trajectories(self.directory)
+        sample.write_run(self.directory, "trajectories")
+        (table,) = choice(Results(self.directory))
+        # bdf2 with the longest step has 0.005; direct to 0.01 takes three times as long as ten iterations
+        self.assertEqual(table.rows[0][:2], ["`pendulum`", "`incremental gauss_seidel bdf2 x10`, 0.1 s: 0.1 ms, 0.02 MB (x 3.00)"])
+        self.assertEqual(table.rows[1][3], "not told")
 
     def test_failures_are_counted_by_method_without_their_numbers(self):
         sample.write(self.directory, "a", "t", "outer error status reason",

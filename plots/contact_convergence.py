@@ -10,9 +10,8 @@ BOUNDED = {"jacobi": "the bound of ista, 1/k", "nesterov_jacobi": "the bound of 
 SHOWN = ("jacobi", "nesterov_jacobi", "power_law", "fista", "fista_restarted")
 
 
-def traces(frame, law, column, label, low, what):
-    """One panel a scene, over the sweeps; counts the scenes in which each relaxation's last value is at most `low`."""
-    frame = frame[frame["law"] == law]
+def sweeping(frame, column, label):
+    """One panel a scene, over the sweeps; the figure, and what it leaves to the table."""
     scenes, left = fewer(frame["scene"].unique())
     fig, axes = panels(len(scenes), columns=3, height=2.1, sharey=True)
     for ax, scene in zip(axes, scenes):
@@ -22,10 +21,25 @@ def traces(frame, law, column, label, low, what):
     fig.supxlabel("sweeps, set-up included", fontsize=8)
     fig.supylabel(label, fontsize=8)
     shared_legend(fig, axes, columns=5)
-    ends = frame.sort_values("sweep").groupby(["scene", "relaxation"], sort=False).tail(1)
-    finding(fig, f"Scenes {what} {number(low)} by the law {law}: " + ", ".join(
-        f"{name} {share((good(rows, column)[column] <= low).sum(), len(rows))}" for name, rows in ends.groupby("relaxation", sort=False)))
-    footnote(fig, left + reasons_note(failed(ends, column)))
+    return fig, left
+
+
+def ends(frame):
+    """The last sweep of each run."""
+    return frame.sort_values("sweep").groupby(["scene", "law", "relaxation"], sort=False).tail(1)
+
+
+def reached(last, column, low):
+    """Of each relaxation, how many runs end at most at `low`."""
+    return ", ".join(f"{name} {share((good(rows, column)[column] <= low).sum(), len(rows))}" for name, rows in last.groupby("relaxation", sort=False))
+
+
+def traces(frame, law, column, label, low, what):
+    """The scenes by one law; counts those in which each relaxation's last value is at most `low`."""
+    frame = frame[frame["law"] == law]
+    fig, left = sweeping(frame, column, label)
+    finding(fig, f"Scenes {what} {number(low)} by the law {law}: {reached(ends(frame), column, low)}")
+    footnote(fig, left + reasons_note(failed(ends(frame), column)))
     return fig
 
 
@@ -42,6 +56,17 @@ def residual_coulomb(frame):
 @figure("contact_convergence", "penetration", table="traces")
 def penetration(frame):
     return traces(frame, "coulomb", "penetration_m", "deepest overlap at the step's end (m)", 1e-9, "that overlap by at most (m)")
+
+
+@figure("contact_convergence", "deformables", table="deformables")
+def deformables(frame):
+    """The scenes by Coulomb's law; counts over all laws who is solved."""
+    fig, left = sweeping(frame[frame["law"] == "coulomb"], "natural_residual", "natural residual, of |q|")
+    last = ends(frame)
+    finding(fig, f"Steps of deformables solved to 1e-10, of {counted(last['scene'].nunique(), 'scene')} by {counted(last['law'].nunique(), 'law')}: "
+            f"{reached(last, 'natural_residual', 1e-10)}")
+    footnote(fig, left + reasons_note(failed(last, "natural_residual")))
+    return fig
 
 
 @figure("contact_convergence", "gaps", table="gaps")

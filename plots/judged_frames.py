@@ -5,12 +5,13 @@ import numpy as np
 from common import figure, footnote, on_log, panels, shared_legend
 from finding import finding
 from styles import BLACK, BLUE, GREEN, ORANGE
-from wording import number, share
+from wording import counted, number, share
 
 LOOKS = {1e-4: ORANGE, 1e-6: GREEN, 1e-8: BLUE}
 FILLED = "own"  # the judge's own solution; hollow are those it finds from what the solver claims
 
 
+@figure("figure_1", "distance", table="frames")
 @figure("judged_frames", "distance", table="frames")
 def distance(frame):
     """Distance from the nearest solution over the time, a panel a scene, a colour a tolerance."""
@@ -32,5 +33,7 @@ def distance(frame):
     last = frame[np.isclose(frame["tolerance"], frame["tolerance"].min()) & frame["status"].eq("ok")]
     near = int((last["nearest_error_of_scale"] <= 1e-6).sum())
     finding(fig, f"{share(near, len(last))} steps solved to {number(frame['tolerance'].min())} end within 1e-6 of a judge's solution")
-    footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims.")
+    unknown = int(frame["reference_status"].eq("not_judged").sum())
+    footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims."
+             + (f" Not drawn: {counted(unknown, 'step')} that the judge does not know." if unknown else ""))
     return fig

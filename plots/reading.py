@@ -24,11 +24,11 @@ SETTINGS = {"step_s", "mass_ratio", "young_pa", "poisson", "elements", "n", "h_m
             "most_rows"}  # chosen or counted: numbers
 RUN = {"commit": str, "dirty": bool, "version": str, "compiler": str, "flags": str, "processor": str, "threads": int,
        "seed": int, "tier": str, "libraries": dict, "wall_s": (int, float), "verdicts": dict}  # of a complete run
-TEXT = {"benchmark", "nearest_start", "solver", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
+TEXT = {"benchmark", "nearest_start", "reference_reason", "solver", "scene", "outer", "relaxation", "integrator", "friction", "status", "reason", "behaviour",
         "theory", "model", "quantity", "effect", "strain", "reference", "reference_a", "reference_b", "tolerance_kind", "id", "statement",
         "verdict", "class", "method", "case", "name", "unit", "gate", "reference_status",
         "parameter", "family", "limit", "torque", "mechanism", "structure", "outcome", "law", "variant",
-        "check", "what", "kind", "truth", "first", "second", "step_status", "part"}
+        "check", "what", "kind", "truth", "first", "second", "step_status", "part", "presence"}
 
 
 class InputError(Exception):

@@ -49,7 +49,7 @@ def work_precision(directory):
 
 
 RUN_COLUMNS = ("scene duration_s step_s integrator outer relaxation friction tolerance count outer_iterations sweeps row_updates "
-               "missed_steps bytes wall_s error error_bar energy_error penetration_m truth status reason")
+               "missed_steps bytes wall_s memory_mb error error_bar energy_error penetration_m truth status reason")
 
 
 def trajectories(directory):
@@ -62,9 +62,10 @@ def trajectories(directory):
                     for tolerance in (0,) if count else (1e-2, 1e-8):
                         skipped = integrator == "bdf2" and friction != "none"
                         wall = 1e-5 / step * (1 if count else 1 - np.log10(tolerance))
+                        memory = 0.02 if relaxation == "gauss_seidel" else 0.05 if relaxation == "direct" else 0.03
                         error = float("nan") if skipped else 0.5 * step ** order + 0.1 * tolerance
                         rows.append((scene, 1, step, integrator, outer, relaxation, friction, tolerance, count, 100, 200, 300, 0, 4000,
-                                     float("nan") if skipped else wall, error, bar, error, 0, truth,
+                                     float("nan") if skipped else wall, float("nan") if skipped else memory, error, bar, error, 0, truth,
                                      "skipped" if skipped else "ok", "not with contact" if skipped else ""))
     write(directory, "trajectories", "runs", RUN_COLUMNS, rows)
 
@@ -104,8 +105,12 @@ def effects_cost(directory):
            for e, b in (("distance", 120), ("tet_strain", 410), ("bending", 190), ("anchor", 60))]
           + [("cloth", "outside effects", 0, 0, 1e-3, 5e-5)])
     write(directory, "effects_cost", "absent", tables.TABLES["effects_cost", "absent"],
-          [(e, state, 1 + d, 0.99 + d, 1.01 + d, 1, 0) for e, state, d in (
-              ("none", "the same scene", 0), ("gravity", "empty", 0.001), ("bending", "empty", -0.002), ("contact", "never touches", 0.15))])
+          [(e, state, presence, 1 + d, 0.99 + d, 1.01 + d, 1, differ) for e, state, presence, d, differ in (
+              ("none", "the same scene", "control", 0, 0), ("gravity", "empty", "empty", 0.001, 0), ("bending", "empty", "empty", -0.002, 0),
+              ("contact", "never touches", "never touches", 0.15, 0), ("contact", "never touches itself", "never touches", 0.5, 0),
+              ("distance", "damping 0", "idle", 0.02, 0), ("gyroscopic", "equal moments", "idle", 0.2, 12),
+              ("body_distance", "limit never reached", "idle", 0.3, 0), ("probes", "empty", "empty", 0.004, 0),
+              ("probes", "each kind but of joints", "used", 0.1, 0))])
     write(directory, "effects_cost", "stripped", tables.TABLES["effects_cost", "stripped"],
           [(f"{n} links", n, 1e-8 * n, 1.2e-8 * n, 0.83, 0.82, 0.84, 1e-16) for n in (100, 100000)])
     rows = [("cantilever", r, n, n // 6, 1e-8 * n * (2 if r == "jacobi" else 1), 1.01, "ok", "")

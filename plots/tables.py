@@ -6,6 +6,8 @@ METHOD = "scene step_s integrator outer relaxation friction outer_iterations swe
 ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
 SCENES = ("scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations sweeps frame_wall_s "
           "overlap_share overlap_share_at_end bilateral_error_m excess_share rest_share judged_steps refuted_steps status reason")
+FRAMES = ("scene nodes step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
+          "nearest_error_of_scale reference reference_status reference_reason reference_residual reference_wall_s")
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
 CONES = ("family number contacts condition law relaxation tolerance natural_residual gap feasibility error_m_per_s "
@@ -47,6 +49,7 @@ TABLES = {
     ("contact_convergence", "gaps"): "scene relaxation sweep gap bound status reason",
     ("contact_convergence", "bounds"): "scene relaxation lipschitz bound_share exponent rises sweeps status reason",
     ("contact_convergence", "budgets"): "scene relaxation budget gap natural_residual penetration_m status reason",
+    ("contact_convergence", "deformables"): "scene law relaxation contacts rows sweep natural_residual error status reason",
     ("softness", "stretches"): "scene variant relaxation step_s sweeps compliance_m_per_n factor stretch_m expected_m physical_m error "
                                "status reason",
     ("late_friction", "motions"): "scene variant step_s quantity measured expected resolved unit natural_residual penetration_m sweeps "
@@ -91,8 +94,8 @@ TABLES = {
     ("figure_1", "series"): "scene step_s time_s kinetic_energy_j energy_change_j pressing_contacts overlap_m bilateral_error_m "
                             "outer_iterations sweeps residual wall_s status reason",
     ("contact_scenes", "scenes"): SCENES,
-    ("judged_frames", "frames"): "scene step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
-                                 "nearest_error_of_scale reference reference_status reference_residual reference_wall_s",
+    ("figure_1", "frames"): FRAMES,
+    ("judged_frames", "frames"): FRAMES,
     ("redundant", "motion"): "relaxation redundant_joints step_s position_difference_m net_force_difference split sweeps "
                              "row_updates missed_steps status reason",
     **{(experiment, "answers"): "quantity scene integrator outer relaxation friction step_s measured expected unit error bound "
@@ -118,14 +121,14 @@ TABLES = {
     ("work_precision", "points"): METHOD + " tolerance",
     ("work_precision", "contacts"): METHOD + " tolerance",
     ("trajectories", "runs"): "scene duration_s step_s integrator outer relaxation friction tolerance count outer_iterations sweeps "
-                              "row_updates missed_steps bytes wall_s error error_bar energy_error penetration_m truth status reason",
+                              "row_updates missed_steps bytes wall_s memory_mb error error_bar energy_error penetration_m truth status reason",
     ("advice", "recommended"): "scene duration_s error_asked step_s integrator outer relaxation tolerance settings error error_bar wall_s "
                           "wall_s_other status reason",
     ("rival_newton", "times"): "scene elements young_pa poisson method error_target iterations setup_s wall_s error status reason",
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("large_scenes", "steps"): "scene unit size unknowns method error_target iterations setup_s wall_s memory_mb error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
-    ("effects_cost", "absent"): "effect case time_ratio time_low time_high bytes_ratio entries_that_differ",
+    ("effects_cost", "absent"): "effect case presence time_ratio time_low time_high bytes_ratio entries_that_differ",
     ("effects_cost", "stripped"): "scene rows wall_s_per_sweep stripped_s_per_sweep ratio ratio_low ratio_high difference",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
     ("threads", "sweeps"): "scene relaxation threads constraints rows bytes wall_s_per_sweep wall_s_low wall_s_high bytes_per_s "
@@ -163,6 +166,7 @@ SOLVES = {  # tables of traces, where a solve has many rows: the columns that na
     ("inner_convergence", "errors"): "scene relaxation",
     ("contact_convergence", "traces"): "scene law relaxation",
     ("contact_convergence", "gaps"): "scene relaxation",
+    ("contact_convergence", "deformables"): "scene law relaxation",
     ("energy", "series"): "scene integrator alpha step_s",
     ("dual_vs_primal", "errors"): "scene elements young_pa poisson strain outer relaxation",
     ("direction", "energy"): SCHEME,

@@ -21,6 +21,7 @@ import reading
 import selecting
 import sample
 import tables
+import trajectories
 
 HERE = Path(__file__).parent
 
@@ -122,6 +123,13 @@ class Drawing(unittest.TestCase):
         self.assertEqual(len(boxes), 6)
         self.assertFalse(any(one.overlaps(other) for one in boxes for other in boxes if one is not other))
         common.plt.close(figure)
+
+    def test_memory_to_an_error_is_the_least_of_all_and_that_of_the_quickest(self):
+        runs = pd.DataFrame({"scene": ["a", "a", "a", "a", "b", "c"], "told": [1e-3, 1e-5, 1e-5, 1e-5, 1e-3, 1e-5],
+                             "wall_s": [0.1, 3.0, 2.0, 1.0, 1.0, 1.0], "memory_mb": [0.1, 1.0, 4.0, 2.0, 1.0, 1.0],
+                             "error_bar": [1e-9] * 5 + [1e-4], "status": "ok"})
+        found = trajectories.memories(runs, 1e-4)
+        self.assertEqual([(scene, row["least"], row["quickest"]) for scene, row in found.iterrows()], [("a", 1.0, 2.0)])
 
     def test_every_solver_counts_at_its_own_tightest_tolerance(self):
         frame = pd.DataFrame({"relaxation": ["judge", "a", "a", "b", "b"], "tolerance": [1e-10, 1e-4, 1e-8, 1e-4, 1e-8]})

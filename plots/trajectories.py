@@ -1,6 +1,7 @@
-"""Which method reaches the end of a motion with which error in which time?"""
+"""Which method reaches the end of a motion with which error in which time and memory?"""
 
 import numpy as np
+import pandas as pd
 from matplotlib.colors import LogNorm
 
 from common import figure, footnote, on_log, panels, profile_line, shared_legend
@@ -178,6 +179,47 @@ def least_error_by_integrator(solved):
     first = finest.loc[finest.groupby("scene")["error"].idxmin(), "integrator"].value_counts()
     return joined(f"{name} is the most accurate in {share(count, finest['scene'].nunique())}" if k == 0 else f"{name} in {count}"
                   for k, (name, count) in enumerate(first.items()))
+
+
+def memories(runs, accuracy):
+    """The memory (MB) of the quickest run to an accuracy, and the least one of any run to it, a row a scene that one reaches."""
+    reached = good(runs[runs["scene"].isin(tellable(runs, accuracy))], "told", "wall_s", "memory_mb")
+    reached = reached[reached["told"] <= accuracy]
+    quickest = reached.loc[reached.groupby("scene")["wall_s"].idxmin()].set_index("scene")["memory_mb"]
+    return pd.DataFrame({"quickest": quickest, "least": reached.groupby("scene")["memory_mb"].min()})
+
+
+@figure("trajectories", "memory", table="runs")
+def error_over_memory(runs):
+    """The memory that each error takes, a row a scene: from the least of any run to that of the quickest one."""
+    runs = told_runs(runs)
+    scenes = list(runs["scene"].unique())
+    chart, (ax,) = panels(1, width=6.5, height=0.3 * len(scenes) + 0.4)
+    found = [memories(runs, accuracy) for accuracy in ACCURACIES]
+    for k, (accuracy, memory) in enumerate(zip(ACCURACIES, found)):
+        color, marker, _ = FALLBACK[k]
+        rows = np.array([scenes.index(scene) for scene in memory.index]) + 0.22 * (k - 1)
+        ax.hlines(rows, memory["least"], memory["quickest"], color=color, linewidth=0.8)
+        ax.plot(memory["least"], rows, color=color, marker=marker, linestyle="none", markerfacecolor="white")
+        ax.plot(memory["quickest"], rows, color=color, marker=marker, linestyle="none", label=f"error {number(accuracy)}")
+    ax.set(xscale="log", xlabel="memory (MB)", ylim=(len(scenes) - 0.5, -0.5))
+    ax.set_yticks(range(len(scenes)), [scene_text(scene) for scene in scenes])
+    shared_legend(chart, [ax])
+    finding(chart, *dearer_memory(found, len(scenes)))
+    footnote(chart, "Open: the least of all runs to the error. Filled: the quickest run to it. Where a marker is missing, no run reaches the error, "
+             "or the truth cannot tell it.")
+    return chart
+
+
+def dearer_memory(found, scenes):
+    """What the quickest run takes over the least, and what the smallest error takes over the largest one."""
+    ratios = pd.concat([memory["quickest"] / memory["least"] for memory in found])
+    if ratios.empty:
+        return [f"No run of {counted(scenes, 'scene')} reaches an error of {number(ACCURACIES[0])}"]
+    finer = (found[-1]["least"] / found[0]["least"]).dropna()
+    return [f"The quickest run to an error takes {span(ratios)} times the least memory (median {number(ratios.median(), 2)})",
+            f"An error of {number(ACCURACIES[-1])} takes {span(finer)} times the least memory of {number(ACCURACIES[0])}"
+            if len(finer) else ""]
 
 
 @figure("trajectories", "digit", table="runs")

@@ -100,6 +100,9 @@ JudgedContact ContactStep::begun(const FeaturePair& pair) const {
   const double from = step.map ? found.gap + h * along(shifted_) : found.gap;
   const bool yields = made.law.compliance > 0, loaded = yields && found.gap < 0;
   made.target = yields ? 0.0 : std::min(0.0, std::max(found.gap, from + contact.recovery * d));
+  constexpr double parted = 0.1;  // a step, of the thickness
+  if (!yields && pair.a.deformable && pair.b.deformable)
+    made.target = std::min(made.target, found.gap + parted * contact.thickness);
   made.bounce = loaded ? 0.0 : made.law.restitution;
   made.closing = -along(step.start);
   const double ahead = found.gap + h * along(free_);
@@ -147,10 +150,11 @@ void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
 
 void ContactStep::take_forces(const std::vector<ClaimedContact>& claimed, const Vector& velocity) {
   const Placement at = step.placement(velocity);
-  const auto surface = static_cast<int>(contact.collider.size() + contact.node.size());
+  const auto side_of = [&, count = static_cast<int>(contact.collider.size() + contact.node.size())](int k) {
+    return k < count ? k : search.side_at(k - count);
+  };
   for (const ClaimedContact& claim : claimed) {
-    const std::array<int, 2> sides{std::min(claim.collider[0], surface),
-                                   std::min(claim.collider[1], surface)};
+    const std::array<int, 2> sides{side_of(claim.collider[0]), side_of(claim.collider[1])};
     JudgedContact* taker = nullptr;
     Nearest taken;
     for (JudgedContact& own : contacts) {

@@ -15,8 +15,9 @@
 //
 // by an integrator's map with d for h, and A r_n/(h d).
 // The targets and what collides are those of solver/model/contact_effect.h and README.md: overlaps part at
-// `recovery` at most; what would meet in free motion, by features that are there when their gap closes, and
-// what is parting too slowly for its e, collides.
+// `recovery` at most, those of deformable surfaces by a tenth of the thickness a step; what would meet in
+// free motion, by features that are there when their gap closes, and what is parting too slowly for its e,
+// collides.
 #pragma once
 
 #include "cone_problem.h"

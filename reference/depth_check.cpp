@@ -28,6 +28,7 @@ class Depths {
   void check_triangles();
   void check_surfaces();
   void check_triangle(int i, const std::array<int, 3>& nodes);
+  bool leaves_out(const ContactLaw& law);
   DistanceBounds over_triangle(int i, const std::array<int, 3>& nodes, const State& state) const;
   bool far(int i, int j, const PlacedShape& a, const PlacedShape& b) const;
   double allowed(int i, int j, double before) const;
@@ -47,6 +48,16 @@ bool Depths::far(int i, int j, const PlacedShape& a, const PlacedShape& b) const
   if (std::isfinite(reach)) return (a.frame.origin - b.frame.origin).norm() > reach;
   if (std::isinf(size_of(*a.shape).outer) && std::isinf(size_of(*b.shape).outer)) return true;
   return i == j;
+}
+
+/// Whether shapes may be deep by their law, for which no bound is known.
+bool Depths::leaves_out(const ContactLaw& law) {
+  const bool yields = law.compliance > 0, bounces = law.restitution > 0 && !is_euler_step(claim_);
+  if (yields)
+    findings_.leave_out("depth: where shapes give way");
+  else if (bounces)
+    findings_.leave_out("depth: where shapes bounce, by this integrator");
+  return yields || bounces;
 }
 
 /// What a pair may be deep, `before` where the step begins.
@@ -82,10 +93,7 @@ void Depths::check(int i, int j) {
   const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
   if (far(i, j, a, b) || !(sides_.inverse_mass(i, 1) + sides_.inverse_mass(j, 1) > 0)) return;
   if (!may_touch(claim_.scene, contact_, sides_.side(i), sides_.side(j))) return;
-  const ContactLaw& law = sides_.law(i, j);
-  if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
-  if (law.restitution > 0 && !is_euler_step(claim_))
-    return findings_.leave_out("depth: where shapes bounce, by this integrator");
+  if (leaves_out(sides_.law(i, j))) return;
   double most = allowed(i, j, 0);
   const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
   if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space) {
@@ -127,18 +135,19 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
   const double side =
       std::max((claim_.end.x.col(nodes[1]) - first).norm(), (claim_.end.x.col(nodes[2]) - first).norm());
   if ((shape.frame.origin - first).norm() > outer + side + radius) return;
+  const ContactLaw& law = sides_.law(i, sides_.of_node(nodes[0]));
+  if (leaves_out(law)) return;
   const DistanceBounds end = over_triangle(i, nodes, claim_.end);
   if (end.found >= radius) return findings_.require("depth", "of a triangle, m", radius - end.found, 0);
   const DistanceBounds start = over_triangle(i, nodes, claim_.start);
   if (!(start.proved > 0)) return findings_.leave_out("depth: triangles that are cut as a step begins");
   const double reach = (first - claim_.end.x.col(sides_.side(i).node)).norm() + side;
   const double round = size_of(*shape.shape).round;
-  const double inverse = sides_.inverse_mass(i, reach) + sides_.inverse_mass(sides_.count(), 0);
+  const double inverse = sides_.inverse_mass(i, reach) + sides_.inverse_mass(sides_.of_node(nodes[0]), 0);
   const double size = claim_.end.x.cwiseAbs().maxCoeff() + (std::isfinite(outer) ? outer : 0.0);
   const double most =
       std::max(std::max(0.0, radius - start.proved), std::isfinite(round) ? overlooked_ * round : 0.0) +
-      (1 + sides_.law(i, sides_.count()).friction) * level_ * std::sqrt(inverse) * claim_.h +
-      step_rounding * size;
+      (1 + law.friction) * level_ * std::sqrt(inverse) * claim_.h + step_rounding * size;
   findings_.require("depth",
                     (sides_.is_node(i) ? "sphere " : "collider ") + std::to_string(i) +
                         " in the triangle of nodes " + std::to_string(nodes[0]) + ", " +
@@ -149,16 +158,17 @@ void Depths::check_triangle(int i, const std::array<int, 3>& nodes) {
 /// Surfaces are round by half their thickness.
 void Depths::check_surfaces() {
   if (!contact_.surfaces_touch) return;
-  const int surface = sides_.count();
-  const ContactLaw& law = sides_.law(surface, surface);
-  if (law.compliance > 0) return findings_.leave_out("depth: where shapes give way");
-  if (law.restitution > 0 && !is_euler_step(claim_))
-    return findings_.leave_out("depth: where shapes bounce, by this integrator");
-  const double missed = (1 + law.friction) * level_ * std::sqrt(sides_.inverse_mass(surface, 0)) * claim_.h +
-                        step_rounding * claim_.end.x.cwiseAbs().maxCoeff();
+  const double inverse = sides_.inverse_mass(sides_.of_node(contact_.triangle[0][0]), 0);
+  const auto missed_by = [&](double friction) {
+    return (1 + friction) * level_ * std::sqrt(inverse) * claim_.h +
+           step_rounding * claim_.end.x.cwiseAbs().maxCoeff();
+  };
   ++findings_.compared;
   for (const SurfaceOverlap& found :
-       surface_overlaps(contact_.triangle, claim_.end.x, contact_.thickness, missed)) {
+       surface_overlaps(contact_.triangle, claim_.end.x, contact_.thickness, missed_by(0))) {
+    const ContactLaw& law = sides_.law(sides_.of_node(found.node[0]), sides_.of_node(found.node[2]));
+    const double missed = missed_by(law.friction);
+    if (!(found.depth > missed) || leaves_out(law)) continue;
     if (found.crease) {
       findings_.leave_out("depth: surfaces beside their creases");
       continue;
@@ -183,15 +193,8 @@ void Depths::check_triangles() {
     const PlacedShape shape = sides_.placed(i, claim_.end);
     const double reach = size_of(*shape.shape).outer + contact_.thickness / 2;
     if (all.squaredExteriorDistance(shape.frame.origin) > reach * reach) continue;
-    const ContactLaw& law = sides_.law(i, sides_.count());
-    if (law.compliance > 0) {
-      findings_.leave_out("depth: where shapes give way");
-    } else if (law.restitution > 0 && !is_euler_step(claim_)) {
-      findings_.leave_out("depth: where shapes bounce, by this integrator");
-    } else {
-      for (const auto& nodes : free_triangles(claim_.scene, contact_, sides_.side(i)))
-        check_triangle(i, nodes);
-    }
+    for (const std::size_t k : free_triangles(claim_.scene, contact_, sides_.side(i)))
+      check_triangle(i, contact_.triangle[k]);
   }
 }
 

@@ -36,8 +36,12 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
         if (may_touch(scene, contact, side_of(a), side_of(b))) pairs_.push_back({i, k});
         continue;
       }
-      const std::vector<std::array<int, 3>> free = free_triangles(scene, contact, side_of(a));
-      if (free.size() == contact.triangle.size()) {
+      const int material = contact.material(static_cast<std::size_t>(b.side));
+      std::vector<std::array<int, 3>> free;
+      for (const std::size_t triangle : free_triangles(scene, contact, side_of(a)))
+        if (contact.material(contact.collider.size() + contact.node.size() + triangle) == material)
+          free.push_back(contact.triangle[triangle]);
+      if (free.size() == b.face.size()) {
         pairs_.push_back({i, k});
       } else if (!free.empty()) {
         pairs_.push_back({i, surfaces_.size()});
@@ -71,6 +75,15 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Ways
         a, b,
         {start, at, found, a.moved + b.moved, depth, ways_out != deep.end() ? &ways_out->second : nullptr});
   }
+}
+
+int FeatureSearch::side_at(int node) const {
+  const auto has_node = [&](const Surface& own) {
+    return own.deformable &&
+           std::any_of(own.corner.begin(), own.corner.end(), [&](const Corner& c) { return c.node == node; });
+  };
+  const auto found = std::find_if(surfaces_.begin(), surfaces_.end(), has_node);
+  return found == surfaces_.end() ? -1 : found->side;
 }
 
 bool FeatureSearch::on_both(const FeaturePair& pair, const Placement& at) const {

@@ -35,6 +35,9 @@ class FeatureSearch {
   void find(const Placement& start, const Placement& at, const WaysOut& deep,
             std::vector<FeaturePair>& found) const;
 
+  /// The side of the deformable surface that has a node, -1 of none.
+  int side_at(int node) const;
+
   /// True if what touches of a pair at `at` is on both of its features.
   bool on_both(const FeaturePair& pair, const Placement& at) const;
 

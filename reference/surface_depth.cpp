@@ -70,6 +70,9 @@ class Overlaps {
       return distance_across({at(0), at(1)}, {at(2), at(3)}) < infinity;
     });
     each_pair(nodes_, edges_, Pair::node_edge, [](const auto&) { return true; });
+    std::erase_if(found_, [&](const SurfaceOverlap& found) {
+      return found.kind == Pair::node_edge && triangle_is_nearer(found);
+    });
     each_pair(edges_, triangles_, Pair::through, [](const auto&) { return true; });
     for (SurfaceOverlap& found : found_)
       found.crease = found.kind == Pair::node_edge &&
@@ -82,6 +85,25 @@ class Overlaps {
   static void sort_once(std::vector<T>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  /// True where the surface comes nearer to a node than by an edge: by a triangle of the edge, or of the end
+  /// that is nearest.
+  bool triangle_is_nearer(const SurfaceOverlap& found) const {
+    constexpr double rounding = 1e-9;
+    const auto& [node, from, to, rest, last] = found.node;
+    const auto distance = [&](int k) { return (x_.col(node) - x_.col(k)).norm(); };
+    const double to_edge = thickness_ - found.depth, enough = (1 + rounding) * to_edge;
+    const bool by_from = distance(from) <= enough, by_to = distance(to) <= enough;
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](const std::array<int, 3>& triangle) {
+      const auto has = [&](int k) {
+        return std::find(triangle.begin(), triangle.end(), k) != triangle.end();
+      };
+      const bool about = by_from ? has(from) : by_to ? has(to) : has(from) && has(to);
+      if (!about || has(node)) return false;
+      const auto& [a, b, c] = triangle;
+      return distance_of_triangle(x_.col(node), {x_.col(a), x_.col(b), x_.col(c)}) < (1 - rounding) * to_edge;
+    });
   }
 
   bool joined(int a, int b) const {

@@ -52,7 +52,7 @@ bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const 
   return true;
 }
 
-std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact& contact, const Side& side) {
+std::vector<std::size_t> free_triangles(const Scene& scene, const Contact& contact, const Side& side) {
   const auto has_side = [&](const auto& triangle) { return side.body < 0 && has(triangle, side.node); };
   if (std::any_of(contact.triangle.begin(), contact.triangle.end(), has_side)) return {};
   std::set<int> kept;
@@ -66,18 +66,22 @@ std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact
     }
   };
   for (const Effect& effect : scene.effects) std::visit(keep, effect);
-  std::vector<std::array<int, 3>> free;
-  for (const auto& triangle : contact.triangle)
-    if (std::none_of(triangle.begin(), triangle.end(), [&](int node) { return kept.contains(node); }))
-      free.push_back(triangle);
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < contact.triangle.size(); ++i) {
+    const auto& nodes = contact.triangle[i];
+    if (std::none_of(nodes.begin(), nodes.end(), [&](int node) { return kept.contains(node); }))
+      free.push_back(i);
+  }
   return free;
 }
 
 Sides::Sides(const StepClaim& claim, const Contact& contact) : claim_(claim), contact_(contact) {
   for (const Collider& collider : contact.collider) shapes_.push_back(collider.shape);
   for (const double radius : contact.radius) shapes_.emplace_back(Sphere{radius});
-  for (const auto& triangle : contact.triangle)
-    for (const int node : triangle) {
+  surface_material_.resize(claim.scene.mass.size());
+  for (std::size_t i = 0; i < contact.triangle.size(); ++i)
+    for (const int node : contact.triangle[i]) {
+      surface_material_[static_cast<std::size_t>(node)] = contact.material(shapes_.size() + i);
       const double inverse = 1 / claim.scene.mass[static_cast<std::size_t>(node)];
       surface_inverse_mass_ = std::max(surface_inverse_mass_, inverse);
       least_surface_inverse_mass_ = std::min(least_surface_inverse_mass_, inverse);
@@ -169,9 +173,10 @@ double Sides::least_inverse_mass(int k) const {
 
 const ContactLaw& Sides::law(int a, int b) const {
   const auto material = [&](int k) {
-    return k < count() ? contact_.material(static_cast<std::size_t>(k)) : contact_.surface_material;
+    return k < count() ? contact_.material(static_cast<std::size_t>(k))
+                       : surface_material_[static_cast<std::size_t>(k - count())];
   };
-  return contact_.law[material(a) * contact_.materials + material(b)];
+  return contact_.of_materials(material(a), material(b));
 }
 
 }  // namespace pbd::reference

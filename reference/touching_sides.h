@@ -16,9 +16,9 @@ struct Side {
 /// Whether the scene lets bodies or nodes touch: `AllowedPairs` of a judge. Nodes of one element do not.
 bool may_touch(const Scene& scene, const Contact& contact, const Side& a, const Side& b);
 
-/// The contact's triangles that a body or a node may touch: those without a node that is attached to the
-/// body; of a node, which is of no triangle, those without a node of its elements.
-std::vector<std::array<int, 3>> free_triangles(const Scene& scene, const Contact& contact, const Side& side);
+/// The contact's triangles that a body or a node may touch, by their numbers: those without a node that is
+/// attached to the body; of a node, which is of no triangle, those without a node of its elements.
+std::vector<std::size_t> free_triangles(const Scene& scene, const Contact& contact, const Side& side);
 
 /// What a finding calls a pair.
 inline std::string name_of(int a, int b) {
@@ -54,6 +54,8 @@ class Sides {
   /// nearest to each other or between them; against a half space at the other's point.
   double longest_lever(int k, int other) const;
   const ContactLaw& law(int a, int b) const;
+  /// Of a surface's node.
+  int of_node(int node) const { return count() + node; }
 
  private:
   PlacedShape placed(int k, Frame carrier) const;
@@ -61,6 +63,7 @@ class Sides {
   const StepClaim& claim_;
   const Contact& contact_;
   std::vector<Shape> shapes_;
+  std::vector<int> surface_material_;                                        // of each node of the scene
   double surface_inverse_mass_ = 0, least_surface_inverse_mass_ = infinity;  // 1/kg, of its nodes
 };
 

@@ -144,8 +144,17 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact) {
     find_neighbours(surface);
     surfaces.push_back(std::move(surface));
   }
-  if (!contact.triangle.empty())
-    surfaces.push_back(surface_of(contact.triangle, contact.thickness / 2, next()));
+  const std::size_t before = surfaces.size();
+  for (int material = 0; material < contact.materials; ++material) {
+    std::vector<std::array<int, 3>> own;
+    int side = 0;
+    for (std::size_t i = 0; i < contact.triangle.size(); ++i) {
+      if (contact.material(before + i) != material) continue;
+      if (own.empty()) side = static_cast<int>(before + i);
+      own.push_back(contact.triangle[i]);
+    }
+    if (!own.empty()) surfaces.push_back(surface_of(own, contact.thickness / 2, side));
+  }
   return surfaces;
 }
 

@@ -15,7 +15,7 @@ struct Corner {
 };
 
 struct Surface {
-  int side = 0;  // as a claim counts them: colliders, then nodes, then the deformable surface
+  int side = 0;  // colliders, then nodes, as a claim counts them, then triangles: a surface's first one
   std::vector<Corner> corner;
   std::vector<std::array<int, 2>> edge;
   std::vector<std::vector<int>> face;                        // of corners, anticlockwise seen from outside
@@ -31,7 +31,7 @@ struct Surface {
 inline constexpr double in_one_plane = 1e-9;  // rad, as of the planes of hulls
 inline constexpr int rim_corners = 8;         // they are what a cylinder stands on
 
-/// Colliders and nodes in the order of a claim, then the deformable surface if there is one.
+/// Colliders and nodes in the order of a claim, then the deformable surfaces, one of each material.
 std::vector<Surface> surfaces_of(const Scene& scene, const Contact& contact);
 
 /// Of a scene's deformable triangles.

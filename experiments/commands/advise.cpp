@@ -101,6 +101,11 @@ std::optional<double> margin(const Pilot& pilot) {
   return pilot.met[1].wall_s / pilot.met[0].wall_s;
 }
 
+/// Of a step from the true end.
+double memory_mb(const SceneFile& file, const Pilot& pilot, const PilotRun& run) {
+  return step_memory_mb(file, pilot.duration, run.setting, pilot.truth.end);
+}
+
 nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile& file, const Pilot& pilot) {
   nlohmann::ordered_json json{{"scene", options.scene.string()},
                               {"error_asked", options.error},
@@ -109,6 +114,7 @@ nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile
                               {"error", nullptr},
                               {"error_scale_m", nullptr},
                               {"ms_per_s", nullptr},
+                              {"memory_mb", nullptr},
                               {"margin", nullptr},
                               {"second", nullptr}};
   if (const auto* run = !pilot.met.empty() ? pilot.met.data() : pilot.nearest ? &*pilot.nearest : nullptr) {
@@ -117,6 +123,7 @@ nlohmann::ordered_json advice_json(const AdviseOptions& options, const SceneFile
     json["error"] = run->error;
     json["error_scale_m"] = error_scale(file.scene, pilot.truth.end);
     json["ms_per_s"] = pilot.ms_per_s(*run);
+    json["memory_mb"] = memory_mb(file, pilot, *run);
   }
   if (const auto times = margin(pilot)) {
     json["margin"] = *times;
@@ -149,9 +156,9 @@ void print_advice(const AdviseOptions& options, const SceneFile& file, const Pil
         "motion alone.\n",
         pilot.duration);
   fmt::print("{}\n\n{}\n", set_text(file, pilot, run), toml_text(file, pilot, run));
-  fmt::print("error {:.2g} +- {:.1g} of {:.2g} m after {:.4g} s, {:.3g} ms per simulated second", run.error,
-             pilot.truth.error_bar, error_scale(file.scene, pilot.truth.end), pilot.duration,
-             pilot.ms_per_s(run));
+  fmt::print("error {:.2g} +- {:.1g} of {:.2g} m after {:.4g} s, {:.3g} ms per simulated second, {:.2g} MB",
+             run.error, pilot.truth.error_bar, error_scale(file.scene, pilot.truth.end), pilot.duration,
+             pilot.ms_per_s(run), memory_mb(file, pilot, run));
   if (const auto times = margin(pilot))
     fmt::print("; the second best takes {:.2f} times as long:\n{}\n", *times,
                set_text(file, pilot, pilot.met[1]));

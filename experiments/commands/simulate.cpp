@@ -40,7 +40,7 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
   Stepper stepper(file, workspace);
   stepper.begin(file.step_s, state);  // for the probes at the start
   ProgressBar progress("simulate", file.steps);
-  std::string lost = output.add(0, state, nullptr);
+  std::string lost = output.add(0, state, nullptr, file.step_s);
   const auto judge = [&](const pbd::State& begun, const pbd::State& ended, double h,
                          const pbd::Report& report) {
     const std::int64_t step = totals.steps + 1;
@@ -65,7 +65,7 @@ std::string advance(SceneFile& file, pbd::Workspace& workspace, SimulationOutput
       warn(fmt::format("step {} {}: {} (residual {:.3g}, tolerance {:.3g}); later ones are counted",
                        totals.steps, pbd::status_names[static_cast<std::size_t>(report.status)],
                        report.reason, report.residual(), file.method.tolerance));
-    lost = output.add(totals.steps, state, &workspace);
+    lost = output.add(totals.steps, state, &workspace, stepper.part_s());
     progress.advance(fmt::format("t = {:.4g} s", state.time));
   }
   return lost.empty() ? "" : fmt::format("step {} diverged: {} is not finite", totals.steps, lost);

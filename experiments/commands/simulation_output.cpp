@@ -41,14 +41,15 @@ SimulationOutput::SimulationOutput(const SimulateOptions& options, const SceneFi
     contact_frames_.emplace(options.directory, "contacts", "contacts", VtkCells{});
 }
 
-std::string SimulationOutput::add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped) {
+std::string SimulationOutput::add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped,
+                                  double h) {
   std::vector<Cell> row{step, state.time};
   append_probes(file_, state, stepped, row);
   for (std::size_t i = 0; i < row.size(); ++i)
     if (const auto* number = std::get_if<double>(&row[i]); number != nullptr && !std::isfinite(*number))
       return columns_[i];
   if (probes_) probes_->row(row);
-  if (frames_) frames_->add_frame(state.time, state.x, state.v);
+  if (frames_) frames_->add_frame(file_.scene, state);
   if (body_frames_) {
     pbd::Points x, v;
     surfaces_->place(state, x, v);
@@ -56,7 +57,7 @@ std::string SimulationOutput::add(std::int64_t step, const pbd::State& state, co
   }
   if (contact_frames_)
     contact_frames_->add_contacts(
-        state.time, stepped != nullptr ? stepped->contacts() : std::vector<pbd::ContactForce>{});
+        state.time, h, stepped != nullptr ? stepped->contacts() : std::vector<pbd::ContactForce>{});
   return "";
 }
 

@@ -17,8 +17,9 @@ class SimulationOutput {
   /// Removes what an earlier simulation has written there: a folder holds one.
   SimulationOutput(const SimulateOptions& options, const SceneFile& file);
 
-  /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing.
-  std::string add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped);
+  /// Writes the state down unless a probe's value is not finite: returns that one's column, or nothing. The
+  /// last step of the workspace was of h seconds.
+  std::string add(std::int64_t step, const pbd::State& state, const pbd::Workspace* stepped, double h);
 
   void close();
 

@@ -35,23 +35,23 @@ void fill_response(const Eigen::SparseMatrix<double>& delassus, LocalContacts& b
   }
 }
 
-/// f(block, i) for each contact, in order.
+/// f(block, i, its first row in the problem) for each constraint, those of contacts with friction first.
 template <class F>
-void each_contact(const Rows& rows, F&& f) {
-  for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
-    if constexpr (Block::rows == 3)
-      for (std::size_t i = 0; i < block.size(); ++i) f(block, i);
-  });
+void each_in_order(const Rows& rows, F&& f) {
+  Eigen::Index row = 0;
+  for (const bool contacts : {true, false})
+    for_each_block(rows.blocks, [&]<class Block>(const Block& block) {
+      if (block.frictional() != contacts) return;
+      for (std::size_t i = 0; i < block.size(); ++i, row += Block::rows) f(block, i, row);
+    });
 }
 
 }  // namespace
 
-Eigen::VectorXd contact_impulses(const Rows& rows) {
+Eigen::VectorXd impulses_in_order(const Rows& rows) {
   Eigen::VectorXd all(row_count(rows));
-  Eigen::Index row = 0;
-  each_contact(rows, [&](const auto& block, std::size_t i) {
-    all.segment<3>(row) = block.impulse[i];
-    row += 3;
+  each_in_order(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
+    all.segment<Block::rows>(row) = block.impulse[i];
   });
   return all;
 }
@@ -84,30 +84,38 @@ ConeProblem cone_problem(const Rows& rows, const Points& v_free) {
   ConeProblem problem;
   const auto count = row_count(rows);
   problem.free_velocity.resize(count);
-  problem.friction.resize(count / 3);
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::Index row = 0;
-  each_contact(rows, [&]<class Block>(const Block& block, std::size_t i) {
-    problem.friction(row / 3) = block.friction[i];
-    problem.free_velocity.segment<3>(row) = block.residual(v_free, i, Eigen::Vector3d::Zero());
-    for (int k = 0; k < 3; ++k, ++row)
+  std::vector<double> friction;
+  std::vector<Eigen::Triplet<double>> directions, compliances;
+  each_in_order(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
+    if (block.frictional()) friction.push_back(block.friction[i]);
+    problem.free_velocity.segment<Block::rows>(row) = block.residual(v_free, i, Block::Value::Zero());
+    const typename Block::Jacobian jacobian = block.jacobian[i];
+    const typename Block::Square compliance(block.compliance[i]);
+    for (int k = 0; k < Block::rows; ++k) {
       for (int entry = 0; entry < 3 * Block::nodes; ++entry)
-        entries.emplace_back(row, 3 * block.node[i][static_cast<std::size_t>(entry / 3)] + entry % 3,
-                             block.jacobian[i](k, entry));
+        directions.emplace_back(row + k, 3 * block.node[i][static_cast<std::size_t>(entry / 3)] + entry % 3,
+                                jacobian(k, entry));
+      for (int other = 0; other < Block::rows; ++other)
+        if (compliance(k, other) != 0) compliances.emplace_back(row + k, row + other, compliance(k, other));
+    }
   });
-  Eigen::SparseMatrix<double> jacobian(count, v_free.size());
-  jacobian.setFromTriplets(entries.begin(), entries.end());
+  problem.friction = Eigen::VectorXd::Map(friction.data(), std::ssize(friction));
+  const Eigen::Index others = count - 3 * problem.friction.size();
+  problem.lower.setConstant(others, -infinity);
+  problem.upper.setConstant(others, infinity);
+  Eigen::SparseMatrix<double> jacobian(count, v_free.size()), compliance(count, count);
+  jacobian.setFromTriplets(directions.begin(), directions.end());
+  compliance.setFromTriplets(compliances.begin(), compliances.end());
   const Eigen::VectorXd inverse_mass = Eigen::VectorXd::NullaryExpr(
       v_free.size(), [&](Eigen::Index k) { return rows.inverse_mass[static_cast<std::size_t>(k / 3)]; });
   problem.delassus = jacobian * inverse_mass.asDiagonal() * jacobian.transpose();
+  problem.delassus += compliance;
   return problem;
 }
 
 Points moved_by(const Rows& rows, Points v_free, const Eigen::VectorXd& impulse) {
-  Eigen::Index row = 0;
-  each_contact(rows, [&](const auto& block, std::size_t i) {
-    block.apply(rows.inverse_mass, i, impulse.segment<3>(row), v_free);
-    row += 3;
+  each_in_order(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
+    block.apply(rows.inverse_mass, i, impulse.segment<Block::rows>(row), v_free);
   });
   return v_free;
 }
@@ -126,7 +134,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           const auto [own, exhausted] = method.sweep(rows, v_free, nullptr);
           ++found.iterations;
           if (own > worth && !exhausted) continue;
-          const double natural = measure_cone(task.problem, task.law, contact_impulses(rows)).residual();
+          const double natural = measure_cone(task.problem, task.law, impulses_in_order(rows)).residual();
           if (exhausted || !(own > 0 && natural > task.tolerance))
             break;  // reached, nothing left to gain, or NaN
           constexpr double least = 0.1, most = 0.7;
@@ -136,7 +144,7 @@ ConeSolution relax_cone(std::string_view relaxation, Rows rows, Points v_free, c
           found.iterations += static_cast<int>(method.further_sweeps());
       },
       any);
-  found.impulse = contact_impulses(rows);
+  found.impulse = impulses_in_order(rows);
   certify(task.problem, task.law, task.tolerance, found);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return found;

@@ -11,14 +11,14 @@ namespace pbdcheck {
 /// The problem as rows of local contacts, impulses zero; their velocities are u.
 pbd::Rows local_rows(const pbd::reference::ConeProblem& problem, pbd::reference::FrictionLaw law);
 
-/// The contact problem of a step's rows, all of them of contacts with friction and without compliance:
-/// W = J M^-1 J^T, q = b + J v_free.
+/// The contact problem of a step's rows: those of contacts, all with friction, and behind them all others,
+/// as bounded rows whose bounds are infinite. W = J M^-1 J^T + Sigma, q = b + J v_free.
 pbd::reference::ConeProblem cone_problem(const pbd::Rows& rows, const pbd::Points& v_free);
 
-/// Impulses of contacts with friction, N s, three a contact in the rows' order.
-Eigen::VectorXd contact_impulses(const pbd::Rows& rows);
+/// The rows' impulses, N s, in the order of that problem.
+Eigen::VectorXd impulses_in_order(const pbd::Rows& rows);
 
-/// v_free + W J^T impulse of those rows, m/s.
+/// v_free + M^-1 J^T impulse of those rows, m/s.
 pbd::Points moved_by(const pbd::Rows& rows, pbd::Points v_free, const Eigen::VectorXd& impulse);
 
 /// What the rows' impulses are to be: sweeps until the natural residual of their problem is within the

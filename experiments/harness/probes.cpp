@@ -101,8 +101,7 @@ std::vector<std::string> columns_of(const Probe& probe, const pbd::Scene& scene)
   if (probe.kind == "contacts")
     for (const auto* name : {"contacts", "least_gap_m"}) columns.push_back(begin + name);
   if (probe.kind == "energy")
-    for (const auto* name : {"kinetic_energy_j", "gravity_energy_j", "elastic_energy_j"})
-      columns.push_back(begin + name);
+    for (const EnergyTerm& term : energy_terms) columns.push_back(fmt::format("{}{}_j", begin, term.name));
   if (probe.kind == "momentum") {
     per_axis("momentum_{}_kg_m_s");
     per_axis("angular_momentum_{}_kg_m2_s");
@@ -198,7 +197,9 @@ double elastic_energy(const pbd::Scene& scene, const pbd::State& state) {
 }
 
 double total_energy(const pbd::Scene& scene, const pbd::State& state) {
-  return kinetic_energy(scene, state) + gravity_energy(scene, state) + elastic_energy(scene, state);
+  double sum = 0;
+  for (const EnergyTerm& term : energy_terms) sum += term.of(scene, state);
+  return sum;
 }
 
 double constraint_error(const pbd::Scene& scene, const pbd::Effect& effect, const pbd::State& state) {
@@ -229,8 +230,7 @@ void append_probes(const SceneFile& file, const pbd::State& state, const pbd::Wo
     if (probe.kind == "joint_force") append_joint_force(file, file.joints[probe.joint], state, stepped, row);
     if (probe.kind.starts_with("contact")) append_contact(file, probe, stepped, row);
     if (probe.kind == "energy")
-      for (const auto energy : {kinetic_energy, gravity_energy, elastic_energy})
-        row.emplace_back(energy(scene, state));
+      for (const EnergyTerm& term : energy_terms) row.emplace_back(term.of(scene, state));
     if (probe.kind == "momentum") append_momentum(scene, state, row);
     if (probe.kind == "constraint_error")
       for (const auto& effect : scene.effects)

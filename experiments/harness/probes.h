@@ -1,6 +1,7 @@
 // What a simulation writes down after every step.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,7 +33,17 @@ double gravity_energy(const pbd::Scene& scene, const pbd::State& state);
 /// bounds, what they let it hold.
 double elastic_energy(const pbd::Scene& scene, const pbd::State& state);
 
-/// Kinetic, elastic and gravity energy, J.
+/// An energy of a scene in a state, J.
+struct EnergyTerm {
+  std::string_view name;
+  double (*of)(const pbd::Scene& scene, const pbd::State& state);
+};
+/// What simulations tell of a scene's energy.
+inline constexpr std::array<EnergyTerm, 3> energy_terms{{{"kinetic_energy", kinetic_energy},
+                                                         {"gravity_energy", gravity_energy},
+                                                         {"elastic_energy", elastic_energy}}};
+
+/// The sum of these, J.
 double total_energy(const pbd::Scene& scene, const pbd::State& state);
 
 /// How the column of an effect's constraint error ends: "_m", "_rad" or, of strains, "". None of an effect

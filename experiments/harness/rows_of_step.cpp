@@ -83,8 +83,7 @@ StepRows::StepRows(const Scene& scene, const State& state, double h, Friction la
   map_.v_free = start_v_ + h * acceleration;
   const Configuration at = start();
   const StepBegin begin = step_begin(at);
-  for (Slot& slot : slots_)
-    if (slot.source->kind().contacts) slot.source->begin_step(begin, slot.blocks(rows_));
+  for (Slot& slot : slots_) slot.source->begin_step(begin, slot.blocks(rows_));
 }
 
 std::string_view StepRows::effect_of(std::size_t block) const {

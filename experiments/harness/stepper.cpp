@@ -28,7 +28,7 @@ void Stepper::begin(double h, pbd::State& state) {
 bool Stepper::advance_in(int parts, const Judge& judge, pbd::State& state, pbd::Report& sum) {
   for (int part = 0; part < parts && sum.status != pbd::Status::diverged; ++part) {
     throw_if_interrupted();
-    const double h = file_.step_s / parts;
+    const double h = part_s();
     begin(h, state);
     file_.script.hand_on(file_.scene, h, state.time, workspace_);
     const pbd::State begun = judge ? state : pbd::State{};

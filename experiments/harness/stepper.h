@@ -36,6 +36,9 @@ class Stepper {
   /// Of the last step.
   int parts() const { return parts_; }
 
+  /// s, how long each of them was.
+  double part_s() const { return file_.step_s / parts_; }
+
  private:
   bool advance_in(int parts, const Judge& judge, pbd::State& state, pbd::Report& sum);
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <optional>
 
 #include "error.h"
+#include "harness/allocated_memory.h"
 #include "harness/contact_sums.h"
 #include "harness/interrupt.h"
 #include "harness/measure.h"
@@ -117,6 +119,22 @@ Trajectory timed_trajectory(const SceneFile& file, double duration, const Settin
     best.wall_s = std::min(best.wall_s, again);
   }
   return best;
+}
+
+double step_memory_mb(const SceneFile& file, double duration, const Setting& setting, const State& state) {
+  const auto measured = [&] {
+    SceneFile moved = file;
+    moved.step_s = duration / static_cast<double>(setting.steps);
+    State end = state;
+    const AllocatedMemory memory;
+    Workspace workspace(file.scene, setting.method);
+    Stepper stepper(moved, workspace);
+    double most = 0;
+    stepper.watch([&] { most = std::max(most, memory.megabytes()); });
+    stepper.whole(end);
+    return std::max(memory.megabytes(), most);  // also where it is NaN
+  };
+  return std::async(std::launch::async, measured).get();
 }
 
 double error_scale(const Scene& scene, const State& truth) {

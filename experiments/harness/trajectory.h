@@ -57,6 +57,13 @@ Trajectory trajectory(const SceneFile& file, double duration, const Setting& set
 Trajectory timed_trajectory(const SceneFile& file, double duration, const Setting& setting,
                             const Limits& limits = {});
 
+/// MB (1e6 bytes) that simulating so takes: what a workspace and a step from `state` have allocated
+/// (`AllocatedMemory`), at the outer iteration or the step's end where that is the most. It is made and done
+/// for that alone, so that no timed run is disturbed; what is taken and freed within an iteration is not
+/// seen. `Trajectory::bytes` are those of rows alone, without factors, kept iterates and the scene.
+double step_memory_mb(const SceneFile& file, double duration, const Setting& setting,
+                      const pbd::State& state);
+
 /// Where a motion ends and how far that may be from the true end, as `end_error`.
 struct Truth {
   pbd::State end{};

@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "harness/probes.h"
+
 namespace pbdcheck {
 namespace {
 
@@ -32,10 +34,16 @@ std::string numbers(const Eigen::MatrixXd& columns) {
   return text;
 }
 
-std::string float_array(const VtkPointData& data) {
-  return data_array(
-      fmt::format(R"(type="Float64" NumberOfComponents="{}" Name="{}")", data.values.rows(), data.name),
-      numbers(data.values));
+std::string float_array(const VtkArray& array, std::string_view more = {}) {
+  return data_array(fmt::format(R"(type="Float64" NumberOfComponents="{}" Name="{}"{})", array.values.rows(),
+                                array.name, more),
+                    numbers(array.values));
+}
+
+std::string field_data(const std::vector<VtkArray>& field) {
+  std::string text;
+  for (const VtkArray& each : field) text += float_array(each, R"( NumberOfTuples="1")");
+  return field.empty() ? "" : "<FieldData>\n" + text + "</FieldData>\n";
 }
 
 std::string text_of(const VtkCells& cells) {
@@ -87,11 +95,11 @@ std::string VtkSeries::frame_name(std::size_t index) const {
 }
 
 void VtkSeries::add(double time, const pbd::Points& x, const VtkCells& cells,
-                    const std::vector<VtkPointData>& data) {
+                    const std::vector<VtkArray>& data, const std::vector<VtkArray>& field) {
   std::string arrays;
-  for (const VtkPointData& each : data) arrays += float_array(each);
+  for (const VtkArray& each : data) arrays += float_array(each);
   write_file(directory_ / frame_name(times_.size()),
-             fmt::format(file_tag, "UnstructuredGrid") + "<UnstructuredGrid>\n" +
+             fmt::format(file_tag, "UnstructuredGrid") + "<UnstructuredGrid>\n" + field_data(field) +
                  fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", x.cols(), cells.count) +
                  "<Points>\n" + float_array({"points", x}) + "</Points>\n" + text_of(cells) +
                  fmt::format("<PointData Vectors=\"{}\">\n", data.front().name) + arrays +
@@ -103,21 +111,30 @@ void VtkSeries::add_frame(double time, const pbd::Points& x, const pbd::Points& 
   add(time, x, cells_, {{"velocity", v}});
 }
 
-void VtkSeries::add_contacts(double time, const std::vector<pbd::ContactForce>& contacts) {
+void VtkSeries::add_frame(const pbd::Scene& scene, const pbd::State& state) {
+  std::vector<VtkArray> energies;
+  for (const EnergyTerm& term : energy_terms)
+    energies.push_back({term.name, Eigen::MatrixXd::Constant(1, 1, term.of(scene, state))});
+  add(state.time, state.x, cells_, {{"velocity", state.v}}, energies);
+}
+
+void VtkSeries::add_contacts(double time, double h, const std::vector<pbd::ContactForce>& contacts) {
   const auto count = std::ssize(contacts);
-  pbd::Points place(3, count), force(3, count), normal(3, count), slip(3, count);
+  pbd::Points place(3, count), force(3, count), impulse(3, count), normal(3, count), slip(3, count);
   Eigen::RowVectorXd gap(count);
   VtkCells cells;
   for (int i = 0; i < count; ++i) {
     const pbd::ContactForce& contact = contacts[static_cast<std::size_t>(i)];
     place.col(i) = contact.point;
     force.col(i) = contact.force;
+    impulse.col(i) = h * contact.force;
     normal.col(i) = contact.normal;
     slip.col(i) = contact.slip;
     gap[i] = contact.gap;
     add_cell(cells, std::array{i}, vtk_vertex);
   }
-  add(time, place, cells, {{"force", force}, {"normal", normal}, {"slip", slip}, {"gap", gap}});
+  add(time, place, cells,
+      {{"force", force}, {"impulse", impulse}, {"normal", normal}, {"slip", slip}, {"gap", gap}});
 }
 
 void VtkSeries::close() {

@@ -1,6 +1,8 @@
 // Frames of a simulation for ParaView: one VTK unstructured grid (.vtu, ASCII) a frame and a collection
 // (.pvd) with their times. Points are in m; point data are `velocity` (m/s) or, of contacts, `force` (N, on
-// the first of both), `normal`, `slip` (m/s) and `gap` (m).
+// the first of both), `impulse` (N s, that force times the step's h), `normal`, `slip` (m/s) and `gap` (m).
+// Frames of a scene's nodes have its energies (J) as field data, one number a frame: `kinetic_energy`,
+// `gravity_energy` and `elastic_energy`, as probes tell them (probes.h).
 #pragma once
 
 #include <filesystem>
@@ -25,8 +27,8 @@ struct VtkCells {
 /// in contact, the links as lines (3), and a vertex (1) for each node none of them uses.
 VtkCells node_cells(const pbd::Scene& scene);
 
-/// Values at the points, a column each: three rows or one.
-struct VtkPointData {
+/// Values at the points, a column each: three rows or one. Of field data one column for the whole frame.
+struct VtkArray {
   std::string_view name;
   Eigen::MatrixXd values;
 };
@@ -37,17 +39,22 @@ class VtkSeries {
   VtkSeries(const std::filesystem::path& directory, const std::string& collection, std::string frame,
             const VtkCells& cells);
 
+  /// A surface.
   void add_frame(double time, const pbd::Points& x, const pbd::Points& v);
 
-  /// Points alone, each a vertex (1).
-  void add_contacts(double time, const std::vector<pbd::ContactForce>& contacts);
+  /// The scene's nodes and its energies.
+  void add_frame(const pbd::Scene& scene, const pbd::State& state);
+
+  /// Points alone, each a vertex (1), of a step of h seconds.
+  void add_contacts(double time, double h, const std::vector<pbd::ContactForce>& contacts);
 
   /// Writes the collection of the frames so far.
   void close();
 
  private:
   std::string frame_name(std::size_t index) const;
-  void add(double time, const pbd::Points& x, const VtkCells& cells, const std::vector<VtkPointData>& data);
+  void add(double time, const pbd::Points& x, const VtkCells& cells, const std::vector<VtkArray>& data,
+           const std::vector<VtkArray>& field = {});
 
   std::filesystem::path directory_;
   std::string frame_;

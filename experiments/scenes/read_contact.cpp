@@ -65,13 +65,10 @@ void read_apart(Keys& contact, Builder& builder) {
   }
 }
 
-/// All triangles are of one material.
-void add_surface(const Keys& keys, pbd::Contact& effect, int material, int first,
+void add_surface(pbd::Contact& effect, int material, int first,
                  const std::vector<std::array<int, 3>>& surface) {
-  if (!effect.triangle.empty() && effect.surface_material != material)
-    keys.refuse("material", "a surface of another material", "one material for all surfaces that touch");
-  effect.surface_material = material;
   for (const auto& [i, j, k] : surface) effect.triangle.push_back({first + i, first + j, first + k});
+  effect.triangle_material.resize(effect.triangle.size(), material);
 }
 
 /// Numbers of the nodes of a surface, or of all in the range, in the scene.
@@ -105,7 +102,7 @@ void read_node_contact(Keys& owner, Builder& builder, const NodeRange& range,
   const int material = builder.material(keys);
   builder.contact.mentioned = keys.where();
   if (!surface.empty() && keys.flag_or("surface", false)) {  // its nodes take part by their triangles
-    add_surface(keys, effect, material, range.first, surface);
+    add_surface(effect, material, range.first, surface);
     return keys.refuse_unknown();
   }
   const double radius = keys.number_or("radius_m", 0, Range::not_negative);

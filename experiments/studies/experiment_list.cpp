@@ -75,7 +75,7 @@ const std::vector<Experiment>& experiments() {
       {"work_precision", "What does accuracy cost in time, for every outer iteration and relaxation?",
        work_precision, work_precision_cases},
       {"trajectories",
-       "What does accuracy at the end of a motion cost in time, over method, step and tolerance?",
+       "What does accuracy at the end of a motion cost in time and memory, over method, step and tolerance?",
        trajectories},
       {"advice", "Does `pbdcheck advise` find settings that meet an error, and the quickest that do?",
        advice},

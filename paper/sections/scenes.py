@@ -27,8 +27,17 @@ def figure_1(results):
         figures=[
             Figure("figure_1_pictures", "The scenes at the start, after 40 % and 70 % of the time, and at its end."),
             Figure("figure_1_series", "Energy since the start, deepest overlap and time a step over time. Crossed: steps that missed their "
-                   "tolerance.")])
-    return section.tell(results.table("figure_1", "scenes"), scenes_text, sizes_table, gates_table)
+                   "tolerance."),
+            Figure("figure_1_distance", "Small versions of the scenes: distance of sampled steps from the nearest solution that the judge "
+                   "finds, over time.", detail=True)])
+    section.tell(results.table("figure_1", "scenes"), scenes_text, sizes_table, gates_table)
+    return section.tell(results.table("figure_1", "frames"), small_text, frames_text, frames_table)
+
+
+def small_text(frame):
+    sizes = joined(f"`{scene}` with {counted(int(rows['nodes'].iloc[0]), 'node')}" for scene, rows in frame.groupby("scene", sort=False))
+    return (f"The judge is asked about small versions, bodies counted as nodes: {sizes}. The cow touches the ground with its nodes alone. "
+            f"They are solved by `direct` to {number(frame['tolerance'].min())}. Distances are as in [#judged_frames].")
 
 
 def contact_scenes(results):
@@ -105,15 +114,16 @@ def judged_frames(results):
 
 def frames_text(frame):
     ok = frame[frame["status"] == "ok"]
-    missed, unsolved = len(frame) - len(ok), int(ok["nearest_error_of_scale"].isna().sum())
+    unknown = ok[ok["reference_status"] == "not_judged"]
+    missed, unsolved = len(frame) - len(ok), int(ok["nearest_error_of_scale"].isna().sum()) - len(unknown)
     itself = ok["reference_status"] == "ok"
     other = int(((ok["nearest_start"] != "own") & itself).sum())
     helped = int((ok["nearest_error_of_scale"].notna() & ~itself).sum())
     last = ok[ok["tolerance"] == frame["tolerance"].min()]
     far = last[~(last["nearest_error_of_scale"] <= NEAR)]
-    text = (f"{counted(len(frame), 'step')} were judged. {missed or 'None'} missed the solver's tolerance. Of the others the judge left "
-            f"{unsolved or 'none'} unsolved, solved {helped or 'none'} only from what the solver claims, and found {other or 'none'} "
-            "beside another solution of its own: Coulomb's law may have several. ")
+    text = (f"{counted(len(frame), 'step')} were sampled. {missed or 'None'} missed the solver's tolerance. Of the others the judge "
+            f"{unknown_text(unknown)}left {unsolved or 'none'} unsolved, solved {helped or 'none'} only from what the solver claims, and found "
+            f"{other or 'none'} beside another solution of its own: Coulomb's law may have several. ")
     if far.empty:
         return text + f"At the least tolerance every step ends within {number(NEAR)} of a solution."
     known = far[far["nearest_error_of_scale"].notna()]
@@ -126,13 +136,18 @@ def frames_text(frame):
                    "is a fault of the solver or of the judge, or comes from how each states what touches.")
 
 
+def unknown_text(unknown):
+    """What the judge does not know, and why."""
+    return f"does not know {len(unknown)} ({joined(unknown['reference_reason'].unique())}), " if len(unknown) else ""
+
+
 def frames_table(frame):
     rows = []
     for (scene, tolerance), own in frame.groupby(["scene", "tolerance"], sort=False):
         ok = own[own["status"] == "ok"]
-        rows.append([f"`{scene}`", number(tolerance), f"{len(ok)} of {len(own)}", number(ok["nearest_error_of_scale"].median()),
-                     number(ok["nearest_error_of_scale"].max()), number(ok["error_of_scale"].max()),
+        rows.append([f"`{scene}`", number(tolerance), f"{len(ok)} of {len(own)}", f"{int(ok['nearest_error_of_scale'].notna().sum())}",
+                     number(ok["nearest_error_of_scale"].median()), number(ok["nearest_error_of_scale"].max()), number(ok["error_of_scale"].max()),
                      f"{int((ok['nearest_start'] != 'own').sum())}", number(own["reference_wall_s"].median())])
-    return Table("Distance of judged steps from the judge's solutions, over the step's scale. Others: steps at another solution than the "
-                 "judge's own.",
-                 ["scene", "tolerance", "ok", "median", "worst", "worst from its own", "others", "judge (s)"], rows)
+    return Table("Distance of judged steps from the judge's solutions, over the step's scale. Judged: steps that are ok for which the judge "
+                 "found a solution. Others: steps at another solution than the judge's own.",
+                 ["scene", "tolerance", "ok", "judged", "median", "worst", "worst from its own", "others", "judge (s)"], rows)

@@ -1,6 +1,6 @@
 """What sweeps make of a step: of its contacts, of its stiffness, and of its friction."""
 
-from content import Figure, Section, Table, listed, number, share, span
+from content import Figure, Section, Table, joined, listed, number, share, span
 from sections.relaxations import sweeps_to
 from selecting import step_text
 
@@ -17,24 +17,42 @@ def contact_convergence(results):
     section = Section(
         "How do sweeps solve the contacts of a step?",
         "One linearised step of cubes at rest, sliding and piled, of masses 1 to 100, and a planted problem. The natural residual needs "
-        "no other solution; error and dual gap are those to a judge's, an interior point method, or to the planted one.",
+        "no other solution; error and dual gap are those to a judge's, an interior point method, or to the planted one. Then steps of small "
+        "deformable bodies at rest, sliding and struck, in which elastic rows stand beside those of contacts, scaled so that the diagonal of W "
+        "is 1 in the mean of each contact and each other row.",
         figures=[
             Figure("contact_convergence_residual", "Natural residual over the sweeps, convex law. Crossed: not solved to 1e-10."),
             Figure("contact_convergence_residual_coulomb", "The same under Coulomb's law.", detail=True),
+            Figure("contact_convergence_deformables", "Deformables: natural residual of contacts and elastic rows over the sweeps, Coulomb's "
+                   "law. Crossed: not solved to 1e-10."),
             Figure("contact_convergence_gaps", "Dual gap over the sweeps, convex law; black: what theory allows `ista` and `fista`."),
             Figure("contact_convergence_penetration", "How deep the step ends, Coulomb's law.", detail=True)])
     section.tell(results.table("contact_convergence", "traces"), sweeps_table)
+    section.tell(results.table("contact_convergence", "deformables"), deformables_text, deformables_table)
     section.tell(results.table("contact_convergence", "bounds"), lambda frame: GRADIENTS, orders_table, bounds_table)
     return section.tell(results.table("contact_convergence", "budgets"), nearest_table, budgets_table)
 
 
-def sweeps_table(frame, target=1e-6):
+def deformables_text(frame):
+    """What is in the steps, and who solves them."""
+    sizes = joined(f"{scene}: {number(rows['contacts'].iloc[0])} contacts in {number(rows['rows'].iloc[0])} rows"
+                   for scene, rows in frame.groupby("scene", sort=False))
+    runs = frame.groupby(["relaxation", "law", "scene"], sort=False)["natural_residual"].last() <= 1e-10
+    found = joined(f"`{name}` {share(solved.sum(), len(solved))}" for name, solved in runs.groupby("relaxation", sort=False))
+    return f"Deformables ({sizes}), by three laws; solved to 1e-10: {found}."
+
+
+def deformables_table(frame):
+    return sweeps_table(frame, what="Steps of deformables")
+
+
+def sweeps_table(frame, target=1e-6, what="Scenes"):
     """Sweeps to a residual, over the scenes, and what is not solved."""
     laws = list(frame["law"].unique())
     reached = {law: sweeps_to(rows.assign(error=rows["natural_residual"]), target).unstack("scene") for law, rows in frame.groupby("law", sort=False)}
     rows = [[f"`{name}`", *(f"{share(sweeps.notna().sum(), len(sweeps))}, in {span(sweeps)}" for sweeps in (reached[law].loc[name] for law in laws))]
             for name in frame["relaxation"].unique()]
-    return Table(f"Scenes in which the natural residual falls to {number(target)}, and in how many sweeps.",
+    return Table(f"{what} in which the natural residual falls to {number(target)}, and in how many sweeps.",
                  ["relaxation", *(f"law `{law}`" for law in laws)], rows)
 
 

@@ -17,14 +17,14 @@ def quickest(runs, scene, accuracy):
 
 
 def cell(runs, scene, accuracy):
-    """Method, step, ms and margin, or why there is none."""
+    """Method, step, ms, memory and margin, or why there is none."""
     if scene not in tellable(runs, accuracy):
         return "not told"
     run, margin = quickest(runs, scene, accuracy)
     if run is None:
         return "not reached"
-    return (f"`{run['name']}`, {step_text(float(f'{run.step_s:.3g}'))}: {number(1e3 * run['wall_s'] / run['duration_s'])} ms" +
-            (f" (x {margin:.2f})" if margin > 0 else ""))
+    return (f"`{run['name']}`, {step_text(float(f'{run.step_s:.3g}'))}: {number(1e3 * run['wall_s'] / run['duration_s'])} ms, "
+            f"{number(run['memory_mb'], 2)} MB" + (f" (x {margin:.2f})" if margin > 0 else ""))
 
 
 def choice(results):
@@ -34,8 +34,8 @@ def choice(results):
         return []
     runs = told_runs(frame)
     return [Table("Which method for which accuracy at the end of a motion: outer iteration and relaxation, integrator and law unless they "
-                  "are implicit Euler and Coulomb's, step, wall time of a simulated second; in brackets how many times as long the second "
-                  "best method takes. Not told: beyond the error bar of the true end.",
+                  "are implicit Euler and Coulomb's, step, wall time of a simulated second, memory; in brackets how many times as long the "
+                  "second best method takes. Not told: beyond the error bar of the true end.",
                   ["scene", *(f"error {number(accuracy)}" for accuracy in ACCURACIES)],
                   [[f"`{scene}`", *(cell(runs, scene, accuracy) for accuracy in ACCURACIES)] for scene in runs["scene"].unique()])]
 
@@ -67,7 +67,8 @@ def trajectories(results):
             "`direct`, and its error bar the distance to the run of half as many steps. Of implicit Euler and `newmark` the one with the "
             "smaller bar is taken if both end at the same place, else implicit Euler. Errors below three bars are not counted. Piles and "
             "arches go separate ways soon, so that their motions are short. Of `incremental` and `frozen` a number of iterations is asked, no "
-            "tolerance."],
+            "tolerance. The memory is what workspace and scene have allocated in a step from where the run ended, counted by the allocator: "
+            "small scenes take less than the pages that a process grows by."],
         figures=[
             Figure("trajectories_profile", "Performance profiles [@dolan2002benchmarking]: the share of scenes that a method brings to an "
                    "error within a multiple of the least time of any method. What fails takes for ever."),
@@ -78,6 +79,7 @@ def trajectories(results):
                    "method beats in both."),
             Figure("trajectories_contact_fronts", "The same beside finest runs."),
             Figure("trajectories_steps", "Error at the end over the step, with the time as colour."),
+            Figure("trajectories_memory", "The memory of a step to three errors: the least of any run, and that of the quickest one."),
             Figure("trajectories_digit", "How many times as long a tenth of the error takes.")])
     return section.tell(results.table("trajectories", "runs"), outcomes, truths_table)
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision/segments.h"
+
 namespace pbd {
 namespace {
 
@@ -53,6 +55,36 @@ SurfaceTouching node_edge(const SurfaceContact& contact, const NodePlaces& x) {
   return found;
 }
 
+/// Of fixed normal and weights, where these met.
+SurfaceTouching as_met(const SurfaceContact& contact, const NodePlaces& x) {
+  SurfaceTouching found;
+  found.normal = contact.toward;
+  Vec3 apart = Vec3::Zero();
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double weight = (*contact.met)[k];
+    found.weight[static_cast<Eigen::Index>(k)] = weight;
+    apart += weight * x[k];
+    found.point += std::max(weight, 0.0) * x[k];
+  }
+  found.gap = found.normal.dot(apart) - contact.thickness;
+  return found;
+}
+
+struct NearestPoints {
+  Vec3 apart;   // from the second one to the first, m
+  double s, t;  // shares of the ways from i to j and from k to l
+};
+
+NearestPoints nearest_points(const NodePlaces& x, std::size_t i, std::size_t j, std::size_t k,
+                             std::size_t l) {
+  const Vec3 first = x[j] - x[i], second = x[l] - x[k];
+  const double one = first.norm(), two = second.norm();
+  const Vec3 along = one > 0 ? Vec3(first / one) : Vec3::Zero(),
+             other = two > 0 ? Vec3(second / two) : Vec3::Zero();
+  const Nearest found = nearest({x[i], along, one}, {x[k], other, two});
+  return {found.apart, one > 0 ? found.s / one : 0, two > 0 ? found.t / two : 0};
+}
+
 }  // namespace
 
 NodePlaces places(const SurfaceContact& contact, const Points& x) {
@@ -65,8 +97,39 @@ SurfaceTouching touching(const SurfaceContact& contact, const Points& x) {
 }
 
 SurfaceTouching touching(const SurfaceContact& contact, const NodePlaces& x) {
+  if (contact.met) return as_met(contact, x);
   if (contact.kind == SurfaceContact::Kind::node_edge) return node_edge(contact, x);
   return contact.kind == SurfaceContact::Kind::edge_edge ? edge_edge(contact, x) : node_triangle(contact, x);
+}
+
+SurfaceTouching nearest_touching(const SurfaceContact& contact, const NodePlaces& x) {
+  SurfaceTouching found;
+  if (contact.kind == SurfaceContact::Kind::node_triangle) {
+    found = node_triangle(contact, x);
+    if (on_features(found, contact.kind)) {
+      found.normal = found.gap + contact.thickness < 0 ? Vec3(-found.normal) : found.normal;
+      found.gap = std::abs(found.gap + contact.thickness) - contact.thickness;
+      return found;
+    }
+  }
+  double least = infinity;
+  const auto take = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+    const NearestPoints points = nearest_points(x, i, j, k, l);
+    const double distance = points.apart.norm();
+    if (!(distance < least)) return;
+    least = distance;
+    found = {distance - contact.thickness, points.apart.normalized()};
+    found.weight[static_cast<Eigen::Index>(i)] += 1 - points.s;
+    found.weight[static_cast<Eigen::Index>(j)] += points.s;
+    found.weight[static_cast<Eigen::Index>(k)] += points.t - 1;
+    found.weight[static_cast<Eigen::Index>(l)] -= points.t;
+    found.point = x[i] + points.s * (x[j] - x[i]);
+  };
+  if (contact.kind == SurfaceContact::Kind::node_triangle)
+    take(0, 0, 1, 2), take(0, 0, 2, 3), take(0, 0, 3, 1);
+  else
+    take(0, 1, 2, 3);
+  return found;
 }
 
 bool crossed(const Vec3& e, const Vec3& f) {

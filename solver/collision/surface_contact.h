@@ -11,11 +11,13 @@
 //   sphere 0 against sphere 2       the same of an edge without length, nodes 2 and 3 being one, w = (1, 0,
 //                                   -1, 0), the thickness the sum of their radii
 // The sign keeps the side on which the step begins. A node and an edge have none: a node that comes out on
-// the other side within one step, by more than the thickness, goes through.
+// the other side within one step, by more than the thickness, goes through. What met on the way of a step,
+// from beside each other, has n and w of where that was, whatever turns or slides later.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "geometry.h"
@@ -28,9 +30,10 @@ struct SurfaceContact {
   std::array<int, 4> node{};  // of a node and an edge the node twice
   Kind kind = Kind::node_triangle;
   double side = 1;
-  Vec3 toward = Vec3::Zero();  // of a node and an edge, n where the node is on it
-  double thickness = 0;        // m, at which they touch
-  double radius = 0;           // m, of a sphere about node 0
+  Vec3 toward = Vec3::Zero();                  // n of what met on the way, and of a node that is on its edge
+  double thickness = 0;                        // m, at which they touch
+  double radius = 0;                           // m, of a sphere about node 0
+  std::optional<std::array<double, 4>> met{};  // w, of what met on the way; n is `toward`
 
   std::pair<Kind, std::array<int, 4>> features() const { return {kind, node}; }
   bool same_features(const SurfaceContact& other) const { return features() == other.features(); }
@@ -52,6 +55,14 @@ NodePlaces places(const SurfaceContact& contact, const Points& x);
 
 SurfaceTouching touching(const SurfaceContact& contact, const NodePlaces& x);
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x);
+
+/// Of the nearest points of a node and a triangle, or of two edges, themselves: without a normal where these
+/// are one.
+SurfaceTouching nearest_touching(const SurfaceContact& contact, const NodePlaces& x);
+
+/// Of the thickness: surfaces are pushed apart by no more in a step. Where they crumple, what was beside a
+/// triangle and near comes over it; to be out of it at once would take energy that nothing has.
+inline constexpr double parted = 0.1;
 
 /// Of a feature: what lies between two that meet is on both.
 inline constexpr double between_features = 1e-9;

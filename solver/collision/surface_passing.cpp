@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/segments.h"
 #include "collision/surface_search.h"
 
 namespace pbd {
@@ -69,18 +68,44 @@ class Volume {
   std::array<double, 4> coefficient_{};
 };
 
-/// m, between points i to j and k to l of x.
-double between(const NodePlaces& x, std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
-  const Vec3 to_a = x[j] - x[i], to_b = x[l] - x[k];
-  return nearest({x[i], to_a.normalized(), to_a.norm()}, {x[k], to_b.normalized(), to_b.norm()}).apart.norm();
+/// At a share of straight ways.
+NodePlaces on_way(const NodePlaces& from, const NodePlaces& to, double share) {
+  NodePlaces x;
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = from[k] + share * (to[k] - from[k]);
+  return x;
 }
 
-/// m, of a node from a triangle, or of two edges, one of which may be a node.
-double distance(const SurfaceContact& contact, const NodePlaces& x) {
-  if (contact.kind != Kind::node_triangle) return between(x, 0, 1, 2, 3);
-  const SurfaceTouching over = touching(contact, x);
-  if (on_features(over, contact.kind)) return std::abs(over.gap + contact.thickness);
-  return std::min({between(x, 0, 0, 1, 2), between(x, 0, 0, 2, 3), between(x, 0, 0, 3, 1)});
+/// m, negative where features began in each other's thickness.
+double begun(const SurfaceContact& contact, const NodePlaces& from) {
+  return std::min(0.0, nearest_touching(contact, from).gap);
+}
+
+/// Sets how features met that are nearer than `begun` (m) at share `near` of their ways: where they last came
+/// to be so.
+void meet_on_way(SurfaceContact& contact, const NodePlaces& from, const NodePlaces& to, double near,
+                 double begun) {
+  constexpr double nearest = 1.0 / 64;
+  constexpr int halvings = 30;  // of a way: to a billionth
+  const auto is_apart = [&](double share) {
+    return !(nearest_touching(contact, on_way(from, to, share)).gap < begun);
+  };
+  double apart = 0, within = near;
+  for (double back = nearest; back < 1; back *= 2) {
+    const double share = near * (1 - back);
+    if (is_apart(share)) {
+      apart = share;
+      break;
+    }
+    within = share;
+  }
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (apart + within) / 2;
+    (is_apart(middle) ? apart : within) = middle;
+  }
+  const SurfaceTouching met = nearest_touching(contact, on_way(from, to, apart));
+  if (met.normal.isZero(0)) return;
+  contact.toward = met.normal;
+  contact.met = {met.weight[0], met.weight[1], met.weight[2], met.weight[3]};
 }
 
 /// True if a contact's features have a normal at x, and their nearest points lie on them.
@@ -97,17 +122,20 @@ std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& fr
                                     double slack) {
   const Volume volume(contact.kind, from, to);
   int crossings = 0;
+  double near = 1;
   volume.each_change([&](double t, int before) {
-    NodePlaces x;
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] = from[k] + t * (to[k] - from[k]);
-    if (meets(contact, x)) crossings += before;
+    if (!meets(contact, on_way(from, to, t))) return;
+    crossings += before;
+    near = std::min(near, t);
   });
   const double ends = crossings != 0 ? crossings : volume.at(1);
   contact.side = ends < 0 ? -1 : 1;
   const SurfaceTouching end = touching(contact, to);
   if (crossings == 0 && !(end.gap < -slack && meets(contact, to))) return std::nullopt;
-  const double target = std::min(0.0, distance(contact, from) - contact.thickness);
+  const double target = begun(contact, from);
   if (!(end.gap < target - slack)) return std::nullopt;
+  if (target - touching(contact, from).gap > parted * contact.thickness)
+    meet_on_way(contact, from, to, near, target);
   return PassedContact{contact, target};
 }
 
@@ -133,7 +161,7 @@ void SurfaceSearch::find_passed(int threads, const Points& from, const Points& t
   out.insert(out.end(), met_.begin(), met_.end());
   for (const Beside& each : beside_) {
     const SurfaceContact& contact = each.contact;
-    const double target = std::min(0.0, distance(contact, places(contact, from)) - contact.thickness);
+    const double target = begun(contact, places(contact, from));
     if (touching(contact, to).gap < target - slack) out.push_back({contact, target});
   }
 }

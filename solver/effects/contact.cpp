@@ -211,6 +211,7 @@ void ContactRows::add_contact_forces(const StepMap& map, const Configuration& at
       forces.push_back({collider, place_of(contacts[i], found), normal,
                         acting.transpose() * block.impulse[i] / map.h, slip, found.gap});
       if (contacts[i].meeting) forces.back().met = contacts[i].meeting->on_way;
+      if (contacts[i].surface.met) forces.back().met.emplace();
     }
   });
 }

@@ -28,7 +28,8 @@
 //
 // What a missed step leaves overlapping, or a diverged one began with, parts by a tenth of that a step, and
 // what forces move in one, until nothing overlaps: to part at once would throw it, by all the speed that has
-// gone into the overlap.
+// gone into the overlap. Surfaces in each other part by a tenth of their thickness a step at most
+// (surface_contact.h).
 //
 // Restitution is Newton's. What approaches each other where the step begins collides if its free motion
 // meets, by features that are there when their gap closes (that motion is without the gyroscopic torque where
@@ -85,8 +86,8 @@ class ContactRows final : public Source {
   bool fill(const StepBegin& begin, std::span<const Configuration> places, const Configuration& last,
             BlockSpan blocks);
   template <class Block>
-  double target_of(const StepBegin& begin, const Shifts& shifts, double gap, double shift, const Block& block,
-                   std::size_t i) const;
+  double target_of(const StepBegin& begin, const Shifts& shifts, const ActiveContact& contact, double gap,
+                   double shift, const Block& block, std::size_t i) const;
   template <class Block>
   void take_seed(const Configuration& at, const ActiveContact& contact, Block& block, std::size_t i) const;
   template <class Block>

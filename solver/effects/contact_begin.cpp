@@ -33,11 +33,13 @@ void ContactRows::keep_impulses(ConstBlockSpan blocks) {
 
 /// The gap that a hard contact aims at, `gap` where the step begins and farther by `shift` at x0 (m).
 template <class Block>
-double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, double gap, double shift,
-                              const Block& block, std::size_t i) const {
+double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, const ActiveContact& contact,
+                              double gap, double shift, const Block& block, std::size_t i) const {
   constexpr double recovered =
       0.1;  // a step, of what missed steps left: at once it would take a hundred times the energy
-  const double target = std::min(0.0, std::max(gap, gap + shift + effect_.recovery * begin.map.d));
+  double target = std::min(0.0, std::max(gap, gap + shift + effect_.recovery * begin.map.d));
+  if (contact.of_surfaces && contact.surface.radius == 0)
+    target = std::min(target, gap + parted * contact.surface.thickness);
   if (!recovering_ || gap >= target) return target;
   const double forced = std::abs((block.jacobian[i] * block.gather(shifts.forced, i))[0]);
   return std::min(target, (1 - recovered) * gap + forced);
@@ -80,7 +82,9 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   contact.reference = reference_for(evaluate<Block>(contact, begin.at, jacobian).normal);
   const double gap = evaluate<Block>(contact, begin.at, jacobian).gap;
   const double shift = (jacobian * block.gather(shifts.own, i))[0], from = gap + shift;
-  const auto recovered = [&](double deep) { return target_of(begin, shifts, deep, shift, block, i); };
+  const auto recovered = [&](double deep) {
+    return target_of(begin, shifts, contact, deep, shift, block, i);
+  };
   // What yields is a spring from where the shapes touch, however deep it begins. A late one is told how deep
   // its pair began, as its features may have lain anywhere then. Of what surfaces pass and of triangles,
   // which may have begun cut by others, the target stays.

@@ -15,15 +15,17 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
                (effect.collider.empty() ? 0 : effect.triangle.size())) {
   points_.triangle.radius = effect.thickness / 2;
   if (!effect.triangle.empty()) {
-    sphere_.assign(static_cast<std::size_t>(scene.nodes()), -1);
-    const auto number = [&](int node) -> int& { return sphere_[static_cast<std::size_t>(node)]; };
-    for (std::size_t i = 0; i < effect.node.size(); ++i)
-      number(effect.node[i]) = static_cast<int>(effect.collider.size() + i);
-    for (const auto& triangle : effect.triangle)
-      for (const int node : triangle) number(node) = -1;
+    side_.assign(static_cast<std::size_t>(scene.nodes()), -1);
+    const auto number = [&](int node) -> int& { return side_[static_cast<std::size_t>(node)]; };
+    auto side = static_cast<int>(effect.collider.size());
+    for (const int node : effect.node) number(node) = side++;
+    for (const auto& triangle : effect.triangle) {
+      for (const int node : triangle) number(node) = side;
+      ++side;
+    }
     std::vector<NodeSphere> spheres;
     for (std::size_t i = 0; i < effect.node.size(); ++i)
-      if (const int node = effect.node[i]; number(node) >= 0)
+      if (const int node = effect.node[i]; number(node) < first_triangle())
         spheres.push_back({node, effect.radius[i], allowed_.linked_to(node)});
     surfaces_.emplace(effect.triangle, effect.thickness, effect.surfaces_touch, spheres);
     surface_reach_ = SurfaceReach(effect.triangle, surfaces_->nodes());
@@ -51,14 +53,13 @@ ContactSearch::ContactSearch(const Scene& scene, const Contact& effect)
 }
 
 ActiveContact ContactSearch::of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const {
-  const int sphere = sphere_[static_cast<std::size_t>(found.node[0])];
-  const auto surface = effect_.collider.size() + effect_.node.size();
+  const auto side = [&](int node) { return static_cast<std::size_t>(side_[static_cast<std::size_t>(node)]); };
   ActiveContact contact;
   contact.of_surfaces = true;
   contact.carrier = {-1, -1};
   contact.features.point_a = contact.features.point_b = Vec3::Zero();
   contact.surface = found;
-  contact.law = effect_.between(sphere < 0 ? surface : static_cast<std::size_t>(sphere), surface);
+  contact.law = effect_.between(side(found.node[0]), side(found.node[3]));
   const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
   contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};
   const auto number = [](int node) { return static_cast<std::uint64_t>(node); };
@@ -93,8 +94,8 @@ void ContactSearch::add_surfaces(Eigen::Index nodes, ContactLists& contacts) {
 }
 
 int ContactSearch::side_of_surface(int node) const {
-  const int sphere = sphere_[static_cast<std::size_t>(node)];
-  return sphere >= 0 ? sphere : static_cast<int>(effect_.collider.size() + effect_.node.size()) + node;
+  const int side = side_[static_cast<std::size_t>(node)];
+  return side < first_triangle() ? side : first_triangle() + node;
 }
 
 bool ContactSearch::may_touch(int first, int second) const {

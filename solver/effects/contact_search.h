@@ -140,6 +140,8 @@ class ContactSearch {
   Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
   Displacement displacement(const Motion& motion, const Bodies& bodies, const Configuration& start,
                             const Points& to) const;
+  /// As the effect counts them.
+  int first_triangle() const { return static_cast<int>(effect_.collider.size() + effect_.node.size()); }
   ActiveContact of_surfaces(const SurfaceContact& found, Eigen::Index nodes) const;
   void add_surfaces(Eigen::Index nodes, ContactLists& contacts);
   bool see_passed(const Points& start, const Points& end, const ContactLists& contacts);
@@ -281,7 +283,7 @@ class ContactSearch {
   std::vector<TriangleName> names_;
   std::optional<SurfaceSearch> surfaces_;
   SurfaceReach surface_reach_;
-  std::vector<int> sphere_;  // of each node where there are surfaces: its number as a side, -1 if no sphere
+  std::vector<int> side_;  // of each node where there are surfaces: as a sphere, or one of its triangles
   std::vector<SurfaceContact> surface_contacts_;
   std::vector<PassedContact> passed_, late_surfaces_;  // as `late_`
   bool surfaces_grown_ = false;                        // their nodes go farther than they were searched for

@@ -48,6 +48,7 @@ void add_contact_stiffness(const ActiveContact& contact, const StepMap& map, con
                            std::vector<double>& added_mass) {
   if constexpr (Block::nodes == 4)
     if (contact.of_surfaces) {
+      if (contact.surface.met) return;  // its rows are linear
       const double bound = surface_bound(contact.surface, at.x, factor * block.impulse[i].norm());
       for (const int node : block.node[i]) added_mass[node] += map.d / 2 * bound;
       return;

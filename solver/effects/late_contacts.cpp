@@ -238,7 +238,9 @@ bool ContactSearch::see_passed(const Points& start, const Points& end, const Con
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {
     const auto same = [&](const SurfaceContact& other) { return other.same_features(found.contact); };
-    const auto same_late = [&](const PassedContact& other) { return same(other.contact); };
+    const auto same_late = [&](const PassedContact& other) {
+      return same(other.contact) && !other.contact.met;
+    };
     if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(), same_late)) continue;
     if (!is_left(found.contact) && std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same)) {
       const bool called = !beside_features(found.contact, touching(found.contact, end));

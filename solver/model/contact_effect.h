@@ -36,11 +36,13 @@ struct Collider {
 /// does a node, or a triangle of it, the body that it is attached to; nodes touch each other with
 /// `nodes_touch` alone. No nodes of one link, hinge, triangle or tetrahedron touch, nor a node a triangle
 /// with such a node. `law` has an entry for each pair of materials, row by row of a symmetric table.
-/// Gaps g >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery`
-/// (m/s). Pairs take part that are nearer than their motions go, and `margin` (m). `continuous`: in a solved
-/// step colliders do not pass through colliders, nodes and triangles either, on straight ways and constant
-/// turns: through what they begin apart from not at all, through what they begin in touch with no deeper than
-/// a tenth of its half width and out again.
+/// Triangles with a common node are of one material, which is that of the node and of their edges, too. Gaps
+/// g >= 0 at the end of each step; where one begins with overlap, the shapes part by at most `recovery`
+/// (m/s), surfaces in surfaces by a tenth of their thickness a step at most. Pairs take part that are nearer
+/// than their motions go, and `margin` (m). `continuous`: in a solved step colliders do not pass through
+/// colliders, nodes and triangles either, on straight ways and constant turns: through what they begin apart
+/// from not at all, through what they begin in touch with no deeper than a tenth of its half width and out
+/// again.
 struct Contact {
   static constexpr std::string_view name = "contact";
   std::vector<Collider> collider;
@@ -48,8 +50,8 @@ struct Contact {
   std::vector<double> radius{};
   std::vector<int> node_material{};
   std::vector<std::array<int, 3>> triangle{};  // of nodes
+  std::vector<int> triangle_material{};        // of each; empty: all of 0
   double thickness = 1e-3;                     // m
-  int surface_material = 0;
   int materials = 1;
   std::vector<ContactLaw> law{ContactLaw{}};
   std::vector<std::array<int, 2>> apart{};
@@ -62,11 +64,16 @@ struct Contact {
   /// Of the material of collider, node or triangle k, each behind the ones before.
   int material(std::size_t k) const {
     if (k < collider.size()) return collider[k].material;
-    return k - collider.size() < node.size() ? node_material[k - collider.size()] : surface_material;
+    if (k -= collider.size(); k < node.size()) return node_material[k];
+    return triangle_material.empty() ? 0 : triangle_material[k - node.size()];
   }
+  /// Of two materials.
+  const ContactLaw& of_materials(int first, int second) const {
+    return law[static_cast<std::size_t>(first) * materials + second];
+  }
+  /// Of two colliders, nodes or triangles.
   const ContactLaw& between(std::size_t first, std::size_t second) const {
-    const auto row = static_cast<std::size_t>(material(first));
-    return law[row * materials + material(second)];
+    return of_materials(material(first), material(second));
   }
 };
 

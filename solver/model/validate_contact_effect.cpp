@@ -1,5 +1,6 @@
 #include "validate_contact_effect.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "validate.h"
@@ -68,32 +69,53 @@ void validate_collider(const EffectCheck& check, const Collider& collider, std::
           text(collider.surface_velocity), "finite numbers, m/s");
 }
 
+void material_index(const EffectCheck& check, const Contact& effect, int material, std::size_t i,
+                    std::string_view field) {
+  REQUIRE(material >= 0 && material < effect.materials, check.at(i, field), text(material),
+          "a material from 0 to " + text(effect.materials - 1));
+}
+
+/// A node's material is that of all of its triangles.
+void validate_triangle_materials(const EffectCheck& check, const Contact& effect) {
+  constexpr auto field = "triangle_material";
+  if (effect.triangle_material.empty()) return;
+  check.same_size(effect.triangle.size(), effect.triangle_material, field);
+  std::vector<std::size_t> first(static_cast<std::size_t>(check.scene.nodes()), effect.triangle.size());
+  for (std::size_t i = 0; i < effect.triangle.size(); ++i) {
+    const int material = effect.triangle_material[i];
+    material_index(check, effect, material, i, field);
+    for (const int node : effect.triangle[i]) {
+      std::size_t& known = first[static_cast<std::size_t>(node)];
+      known = std::min(known, i);
+      REQUIRE(material == effect.triangle_material[known], check.at(i, field), text(material),
+              text(effect.triangle_material[known]) + ", that of triangle " + text(known) +
+                  ", which has node " + text(node) + ", too");
+    }
+  }
+}
+
 }  // namespace
 
 void validate(const EffectCheck& check, const Contact& effect) {
   check.only_one<Contact>();
-  const auto material_index = [&](int material, std::size_t i, std::string_view field) {
-    REQUIRE(material >= 0 && material < effect.materials, check.at(i, field), text(material),
-            "a material from 0 to " + text(effect.materials - 1));
-  };
   for (std::size_t i = 0; i < effect.collider.size(); ++i) {
     validate_collider(check, effect.collider[i], i);
-    material_index(effect.collider[i].material, i, "collider material");
+    material_index(check, effect, effect.collider[i].material, i, "collider material");
   }
   check.same_size(effect.node.size(), effect.radius, "radius");
   check.same_size(effect.node.size(), effect.node_material, "node_material");
   check.node_indices(effect.node);
   check.not_negative(effect.radius, "radius");
   for (std::size_t i = 0; i < effect.node.size(); ++i)
-    material_index(effect.node_material[i], i, "node_material");
+    material_index(check, effect, effect.node_material[i], i, "node_material");
   check.node_indices(effect.triangle);
+  validate_triangle_materials(check, effect);
   REQUIRE(effect.thickness >= 0 && std::isfinite(effect.thickness), check.name + " thickness",
           text(effect.thickness), "a finite number >= 0, m");
   const bool surfaces_alone = effect.collider.empty() && effect.node.empty();
   REQUIRE(effect.thickness > 0 || effect.triangle.empty() || surfaces_alone, check.name + " thickness",
           text(effect.thickness),
           "a number > 0, m, where surfaces touch bodies or nodes: a point has no side");
-  material_index(effect.surface_material, 0, "surface_material");
   validate_laws(check, effect);
   for (std::size_t i = 0; i < effect.apart.size(); ++i)
     for (const int body : effect.apart[i]) check.body_index(body, i);

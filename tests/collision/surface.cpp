@@ -129,6 +129,45 @@ TEST_CASE("what surfaces pass on straight ways is told by the side from which it
   CHECK(wrong == 0);
 }
 
+// Of a contact that asks for more than its features were apart, the rest takes energy.
+TEST_CASE("what surfaces pass asks for little more than it began with, or is stated where it met") {
+  const Kind kind = GENERATE(Kind::node_triangle, Kind::edge_edge);
+  const std::vector<std::array<int, 3>> triangles =
+      kind == Kind::node_triangle ? std::vector<std::array<int, 3>>{{0, 4, 5}, {1, 2, 3}}
+                                  : std::vector<std::array<int, 3>>{{0, 1, 4}, {2, 3, 5}};
+  constexpr double thickness = 0.3, lifted = 0.1 * thickness, rounding = 1e-8;
+  Random random(43);
+  int met = 0, lets = 0, wrong = 0;
+  for (int number = 0; number < 3000; ++number) {
+    Points from(3, 6), to(3, 6);
+    for (int k = 0; k < 4; ++k) {
+      from.col(k) = random.vector();
+      to.col(k) = random.vector();
+    }
+    for (const int k : {4, 5}) from.col(k) = to.col(k) = Vec3(100 * k, 0, 0);
+    std::vector<PassedContact> found;
+    SurfaceSearch(triangles, thickness).find_passed(1, from, to, 1e-9, found);
+    for (const auto& [contact, target] : found) {
+      if (contact.kind != kind) continue;
+      const double before = touching(contact, from).gap;
+      ++(contact.met ? met : lets);
+      if (before < target - (contact.met ? rounding : lifted)) ++wrong;
+      if (!contact.met) continue;
+      // They touch by the points and along the normal of the contact where these are so far apart on the way.
+      const double end = touching(contact, to).gap, share = (before - target) / (before - end);
+      const Points there = from + share * (to - from);
+      const SurfaceTouching nearest = nearest_touching(contact, places(contact, there));
+      if (!(share >= -rounding && share <= 1) || std::abs(nearest.gap - target) > rounding ||
+          (nearest.normal - contact.toward).norm() > 1e-5)
+        ++wrong;
+    }
+  }
+  INFO("met " << met << ", asked where they end " << lets);
+  CHECK(met > 100);
+  CHECK(lets > 100);
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("surfaces come no nearer than their reach tells") {
   Random random(67);
   const auto way = [&](const Points& x, double course, double beside) {

@@ -217,6 +217,62 @@ TEST_CASE("contacts: a triangle of a surface that flies through another, unless 
   }
 }
 
+TEST_CASE("contacts: each surface slides on the ground by its own material") {
+  constexpr double thickness = 0.01, speed = 1;  // m, m/s
+  const std::array<double, 2> friction{0.2, 0.4};
+  pbdcheck::BodyScene build({.friction = 0}, weight_per_kg);
+  build.ground();
+  build.materials(3, {.friction = 0});
+  for (const int k : {0, 1}) build.law(0, k + 1, {.friction = friction[k]});
+  Scene scene = build.finish();
+  auto& contact = std::get<Contact>(scene.effects.back());
+  contact.thickness = thickness;
+  contact.triangle_material = {1, 2};
+  for (const double shift : {0.0, 2.0}) {
+    auto& nodes = contact.triangle.emplace_back();
+    for (const std::size_t k : {0, 1, 2}) {
+      const Vec3 place(shift + (k == 1 ? 1 : 0), k == 2 ? 1 : 0, thickness / 2);
+      nodes[k] = add_node(scene, place, 1, Vec3(speed, 0, 0));
+    }
+  }
+  Step step(scene);
+  for (const std::size_t k : {0, 1})
+    for (const int node : contact.triangle[k]) step.end.v(0, node) -= Step::h * friction[k] * weight_per_kg;
+  step.move();
+  for (const std::size_t k : {0, 1})
+    for (const int node : contact.triangle[k])
+      step.contacts.push_back({.collider = {1 + node, 0},
+                               .point = step.end.x.col(node),
+                               .normal = Vec3::UnitZ(),
+                               .force = weight_per_kg * Vec3(-friction[k], 0, 1),
+                               .gap = 0});
+  CHECK(refuted(step).empty());
+  std::get<Contact>(step.scene.effects.back()).triangle_material = {1, 1};
+  CHECK(refuted(step) == Names{"friction"});
+}
+
+TEST_CASE("contacts: surfaces in each other are judged where the law of their two materials is hard") {
+  constexpr double fall = 10;  // m/s
+  for (const bool hard : {true, false}) {
+    Scene scene;
+    Contact contact;
+    contact.thickness = 0.01;
+    for (const Vec3& x : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)}) add_node(scene, x, infinity);
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.1, 0, 1), Vec3(-0.1, 0, 1)})
+      add_node(scene, x + Vec3(0, 0, 0.5 * Step::h * fall), 1, Vec3(0, 0, -fall));
+    contact.triangle = {{0, 1, 2}, {3, 4, 5}};
+    contact.triangle_material = {0, 1};
+    contact.materials = 2;
+    const ContactLaw of_both{.compliance = hard ? 0 : 1e-3}, of_each{.compliance = hard ? 1e-3 : 0};
+    contact.law = {of_each, of_both, of_both, of_each};
+    scene.effects.emplace_back(contact);
+    Step step(scene);
+    step.move();
+    CHECK(refuted(step) == (hard ? Names{"depth"} : Names{}));
+    CHECK(step.judge().left_out.contains("depth: where shapes give way") == !hard);
+  }
+}
+
 TEST_CASE("contacts: a box's edge that comes down across a cylinder's rim is deep by what it went on") {
   // The edge leads along (-1, 2, 1) through the rim's (radius, 0, half), whose tangent is y: n is across
   // both.

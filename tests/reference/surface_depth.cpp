@@ -63,6 +63,13 @@ TEST_CASE("surfaces: what lies in a triangle's plane but for rounding does not g
                      [](const auto& each) { return each.kind == Pair::through && each.node[0] == 3; }));
 }
 
+TEST_CASE("surfaces: a sheet that is pressed together in its plane touches itself beside its creases alone") {
+  const TriangleMesh mesh = grid_sheet({10, 1}, {0.2 * 10 * thickness, 0.5});
+  const auto found = surface_overlaps(mesh.triangles, mesh.x, thickness, 0);
+  REQUIRE(!found.empty());
+  CHECK(std::all_of(found.begin(), found.end(), [](const auto& each) { return each.crease; }));
+}
+
 TEST_CASE("surfaces: a sheet is in itself nowhere, however it lies, but where its crease is sharp") {
   TriangleMesh mesh = grid_sheet({10, 10}, {0.6, 0.5});
   for (int draw = 0; draw < 50; ++draw) {  // other roundings of what lies in one plane

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "body_scenes.h"
+#include "contact_runs.h"
+#include "pressed_surfaces.h"
 #include "scenes/contacts.h"
 #include "step/step.h"
 
@@ -47,4 +49,13 @@ TEST_CASE("two boxes that begin in each other edge to edge part by the recovery 
   const double energy = test::kinetic_energy(scene, state);
   CHECK(energy > 0);
   CHECK(energy <= recovery * recovery / 4);
+}
+
+TEST_CASE("surfaces in each other part by a tenth of their thickness in a step") {
+  using namespace pbd::test;
+  PressedSurfaces pressed(GENERATE(Pressing::node, Pressing::edge), {.friction = 0.3});
+  pressed.sink();
+  const State end = run(pressed.scene, contact_method("direct"), PressedSurfaces::h, 1);
+  for (const int node : pressed.nodes)
+    CHECK((Vec3(end.v.col(node)) - pressed.after_sinking()).norm() <= 1e-9);
 }

@@ -2,6 +2,7 @@
 #include "contact_runs.h"
 #include "error.h"
 #include "scenes/contacts.h"
+#include "validate.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -62,6 +63,30 @@ TEST_CASE("shapes, frames and laws that are none are refused by what they are an
     for (const std::string& part : parts)
       CHECK_THROWS_WITH(Workspace(scene, Method{}), Catch::Contains(part));
   }
+}
+
+TEST_CASE("materials of triangles are one each, known ones, and one where they share a node") {
+  Scene scene;
+  Contact contact;
+  contact.materials = 2;
+  contact.law.assign(4, ContactLaw{});
+  for (int i = 0; i < 7; ++i) add_node(scene, Vec3(i, i % 2, 0), 1);
+  contact.triangle = {{0, 1, 2}, {4, 5, 6}, {1, 2, 3}};
+  const auto with = [&](const std::vector<int>& materials) {
+    contact.triangle_material = materials;
+    scene.effects = {contact};
+    return scene;
+  };
+  for (const std::vector<int>& materials : {std::vector<int>{}, {0, 0, 0}, {1, 0, 1}})
+    CHECK_NOTHROW(validate(with(materials)));
+  const std::vector<std::pair<std::vector<int>, std::vector<std::string>>> mistakes{
+      {{0, 0}, {"triangle_material", "got 2 entries", "3"}},
+      {{0, 2, 0}, {"triangle_material[1]", "got 2", "from 0 to 1"}},
+      {{0, -1, 0}, {"triangle_material[1]", "got -1"}},
+      {{0, 0, 1}, {"triangle_material[2]", "got 1", "0, that of triangle 0, which has node 1, too"}},
+  };
+  for (const auto& [materials, parts] : mistakes)
+    for (const std::string& part : parts) CHECK_THROWS_WITH(validate(with(materials)), Catch::Contains(part));
 }
 
 TEST_CASE("a body's own centre does not touch its shape") {

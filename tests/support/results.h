@@ -22,6 +22,15 @@ inline std::vector<std::vector<std::string>> rows_of(const std::filesystem::path
   return rows;
 }
 
+/// The numbers of a data array of a frame for ParaView.
+inline std::vector<double> array_of(const std::string& frame, const std::string& name) {
+  const std::size_t begin = frame.find('>', frame.find("Name=\"" + name + "\"")) + 1;
+  std::istringstream in(frame.substr(begin, frame.find("</DataArray>", begin) - begin));
+  std::vector<double> numbers;
+  for (double number; in >> number;) numbers.push_back(number);
+  return numbers;
+}
+
 inline nlohmann::json record_of(const std::filesystem::path& directory) {
   return nlohmann::json::parse(read_text(directory / "run.json"));
 }

@@ -96,7 +96,7 @@ void frictionless_is_cheap(Context& context, Table& table) {
 }  // namespace
 
 void effects_cost(Context& context) {
-  context.begin(3 + 9 + 23 + 6);
+  context.begin(3 + 9 + 32 + 6);
   Table costs = context.table("costs", {"scene", "effect", "rows", "bytes", "wall_s", "wall_s_per_step"});
   costs_per_effect(context, costs);
   effects_absent(context);

@@ -1,5 +1,5 @@
-// What accuracy at the end of a motion costs: integrator, outer iteration, relaxation, law of friction, step
-// and tolerance, beside an ODE, a closed form or a far finer run.
+// What accuracy at the end of a motion costs in time and memory: integrator, outer iteration, relaxation, law
+// of friction, step and tolerance, beside an ODE, a closed form or a far finer run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ class Runs {
     const Method& m = setting.method;
     Trajectory found;
     std::string status = "skipped";
-    double error = std::nan(""), energy = error;
+    double error = std::nan(""), energy = error, memory = error;
     found.wall_s = error;
     if (skipped.empty()) try {
         found = timed_trajectory(scene_.file, scene_.duration, setting,
@@ -133,7 +133,10 @@ class Runs {
         error = end_error(scene_.file.scene, found, truth_.end);
         energy = energy_error(scene_.file.scene, found, truth_.end);
         status = status_cell(found.status);
-        if (found.status != Status::ok) skipped = "a looser tolerance was not reached";
+        if (found.status == Status::ok)
+          memory = step_memory_mb(scene_.file, scene_.duration, setting, found.end);
+        else
+          skipped = "a looser tolerance was not reached";
       } catch (const SetupError& error) {
         found.reason = skipped = error.what();
       }
@@ -147,7 +150,7 @@ class Runs {
     add(method_cells(scene_.file.scene, m));
     add({std::int64_t{setting.by_count ? m.max_outer * m.max_sweeps : 0}});
     add(work_cells(found));
-    add({error, truth_.error_bar, energy, found.penetration_m, truth_.method, status, found.reason});
+    add({memory, error, truth_.error_bar, energy, found.penetration_m, truth_.method, status, found.reason});
     table_.row(cells);
     return error;
   }
@@ -177,12 +180,11 @@ double order_error(const Way& way, const MovingScene& scene, const std::vector<d
 void trajectories(Context& context) {
   const auto scenes = moving_scenes(context.full());
   context.begin(std::ssize(scenes));
-  Table table =
-      context.table("runs", {"scene",      "duration_s",  "step_s",       "integrator",    "outer",
-                             "relaxation", "friction",    "tolerance",    "count",         "outer_iterations",
-                             "sweeps",     "row_updates", "missed_steps", "bytes",         "wall_s",
-                             "error",      "error_bar",   "energy_error", "penetration_m", "truth",
-                             "status",     "reason"});
+  Table table = context.table(
+      "runs", {"scene",        "duration_s",    "step_s", "integrator",       "outer",  "relaxation",
+               "friction",     "tolerance",     "count",  "outer_iterations", "sweeps", "row_updates",
+               "missed_steps", "bytes",         "wall_s", "memory_mb",        "error",  "error_bar",
+               "energy_error", "penetration_m", "truth",  "status",           "reason"});
   Worst bars, orders;
   for (const MovingScene& scene : scenes) {
     Runs runs(scene, table);

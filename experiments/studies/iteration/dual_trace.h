@@ -11,17 +11,21 @@ namespace pbdcheck {
 
 inline constexpr double dual_certain = 1e-12;  // natural residual that a judge is asked for
 
-/// One linearised step of h seconds. p* and u* are NaN if no solution was found.
+/// One linearised step of h seconds. p* and u* are NaN if no solution was found. Beside contacts rows of
+/// other units may stand; the problem is then the equilibrated one, the rows' impulses `scale` times the
+/// problem's.
 struct DualCase {
   std::string scene;
   pbd::reference::FrictionLaw law;
   double h;
   LinearStep step;
   pbd::reference::ConeProblem problem;
-  Eigen::VectorXd impulse{}, velocity{};  // p*, N s; u*, m/s
+  Eigen::VectorXd scale{};
+  Eigen::VectorXd impulse{}, velocity{};  // p*, N s; u*, m/s; of the problem
 };
 
-/// The contacts of a scene's first step; solved by `cone_interior_point`.
+/// The rows of a scene's first step, each contact with friction, all others without bounds; solved by
+/// `cone_interior_point`, from whose problem those others are eliminated.
 DualCase dual_case(std::string name, const pbd::Scene& scene, double h, pbd::reference::FrictionLaw law);
 
 /// A planted problem, as if of a step of h seconds.
@@ -41,7 +45,9 @@ struct DualSample {
 class DualTrace {
  public:
   explicit DualTrace(const DualCase& of);
-  void add(std::int64_t sweep, const Eigen::VectorXd& impulse);
+  void add(std::int64_t sweep, const Eigen::VectorXd& impulse);  // of the rows
+
+  std::int64_t rises() const;
 
   /// True if there is nothing left to see: solved as well as p* is, or not finite.
   bool done() const;

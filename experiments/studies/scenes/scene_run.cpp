@@ -51,7 +51,9 @@ struct SceneRun {
 class Pictures {
  public:
   Pictures(const std::filesystem::path& directory, const ScenePlan& plan)
-      : nodes_(directory, "simulation", "frame", node_cells(plan.file.scene)),
+      : scene_(plan.file.scene),
+        h_(plan.h),
+        nodes_(directory, "simulation", "frame", node_cells(plan.file.scene)),
         contacts_(directory, "contacts", "contacts", VtkCells{}),
         surfaces_(plan.file.scene, plan.file.bodies),
         steps_(steps_of(plan)),
@@ -61,8 +63,8 @@ class Pictures {
   }
   void add(std::int64_t step, const State& state, const std::vector<ContactForce>& contacts) {
     if (step % every_ != 0 && step != steps_) return;
-    nodes_.add_frame(state.time, state.x, state.v);
-    contacts_.add_contacts(state.time, contacts);
+    nodes_.add_frame(scene_, state);
+    contacts_.add_contacts(state.time, h_, contacts);
     if (!bodies_) return;
     Points x, v;
     surfaces_.place(state, x, v);
@@ -75,6 +77,8 @@ class Pictures {
   }
 
  private:
+  const Scene& scene_;
+  double h_;  // s
   VtkSeries nodes_, contacts_;
   BodySurfaces surfaces_;
   std::int64_t steps_, every_;

@@ -38,6 +38,9 @@ TEST_CASE("the settings that are advised bring a spring to the error asked of it
   CHECK(advice["error"] <= std::stod(asked));
   CHECK(advice["ms_per_s"] > 0);
   CHECK(advice["margin"] >= 1);
+#if !defined(__SANITIZE_ADDRESS__)  // whose allocator tells nothing
+  CHECK(advice["memory_mb"] > 0);
+#endif
   CHECK(advice["duration_s"] == 1);
   REQUIRE(run_program(simulate_as_advised(spring, advice, folder.path)).exit_code == 0);
   const auto rows = rows_of(folder.path / "probes.csv");
@@ -102,6 +105,7 @@ TEST_CASE("where there is no time for a truth, what is needed is told in that ti
   CHECK(ran.exit_code == 1);
   const auto advice = nlohmann::json::parse(ran.out);
   CHECK(advice["settings"].is_null());
+  CHECK(advice["memory_mb"].is_null());
   CHECK(advice["tried"] == 0);
   CHECK(advice["spent_s"] < 10);  // an iteration of the probe and one of the truth above the second
   REQUIRE(advice["needed_s"].is_number());
@@ -121,7 +125,8 @@ TEST_CASE("where no setting meets the error, the nearest is told and the exit co
   CHECK(advice["cannot_tell"].size() >= 2);
   const auto told = run_program({"advise", scenes / "spring.toml", "--error", "1e-13", "--seconds", "0.5"});
   CHECK(told.exit_code == 1);
-  CHECK_THAT(told.out, Catch::StartsWith("No setting of ") && Catch::Contains("the nearest has"));
+  CHECK_THAT(told.out, Catch::StartsWith("No setting of ") && Catch::Contains("the nearest has") &&
+                           Catch::Contains(" MB\n"));
 }
 
 TEST_CASE("advice states steps by count where the scene does, and keeps its law of friction") {

@@ -91,7 +91,7 @@ TEST_CASE("an interrupted simulation exits with 3 and leaves complete files of w
   CHECK(rows_of(folder.path / "probes.csv").size() == record["report"]["steps"].get<std::size_t>() + 2);
 }
 
-TEST_CASE("VTK frames hold the scene's cells and the collection names every frame") {
+TEST_CASE("VTK frames hold the scene's cells and energies, and the collection names every frame") {
   const TemporaryFolder folder;
   const auto ran = run_program({"simulate", scenes / "cantilever.toml", "--set", "step.duration_s=0.03",
                                 "--export", "vtk", "-o", folder.path});
@@ -99,6 +99,12 @@ TEST_CASE("VTK frames hold the scene's cells and the collection names every fram
   const auto frame = read_text(folder.path / "frames" / "frame_000003.vtu");
   CHECK_THAT(frame, Catch::Contains("NumberOfPoints=\"81\" NumberOfCells=\"192\""));
   CHECK_THAT(frame, Catch::Contains("Name=\"velocity\""));
+  CHECK_THAT(frame, Catch::Contains("<FieldData>"));
+  const auto probes = rows_of(folder.path / "probes.csv");
+  for (const std::size_t column : {5, 6, 7}) {
+    const std::string name = probes[0].at(column);
+    CHECK(array_of(frame, name.substr(0, name.size() - 2)) == std::vector{std::stod(probes[4][column])});
+  }
   CHECK_THAT(read_text(folder.path / "simulation.pvd"), Catch::Contains("frames/frame_000003.vtu"));
 }
 

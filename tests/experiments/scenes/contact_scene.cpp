@@ -5,7 +5,7 @@
 #include "harness/contact_sums.h"
 
 #include "harness/probes.h"
-#include "program.h"
+#include "results.h"
 #include "scenes/contacts.h"
 #include "scenes/scene_file.h"
 
@@ -142,7 +142,10 @@ size_m = [1, 1, 1]
 density_kg_m3 = 1
 young_pa = 1
 poisson = 0
-contact = { material = "silk", surface = true }
+contact = { material = "wool", surface = true }
+[[contact.pair]]
+materials = ["silk", "wool"]
+friction = 0.25
 )");
   const auto* contact = contact_of(file.scene);
   REQUIRE(contact != nullptr);
@@ -154,14 +157,19 @@ contact = { material = "silk", surface = true }
         std::vector<double>{0, 0.25, 0.25, 0.5, 0.5, 0.5, 0.5, 0});
   CHECK(contact->node_material[2] == 0);
   CHECK(contact->node_material[3] == 1);
-  CHECK(contact->surface_material == 1);
   CHECK(contact->triangle.size() == 2 + 6 * 2 * 4);
+  std::vector<int> of_silk_and_wool(2, 1);
+  of_silk_and_wool.resize(contact->triangle.size(), 2);
+  CHECK(contact->triangle_material == of_silk_and_wool);
+  const std::size_t cloth = contact->node.size(), solid = cloth + 2;
+  CHECK(contact->between(cloth, solid).friction == 0.25);
+  CHECK(contact->between(solid, solid).friction == 0.5);
   for (const auto& triangle : contact->triangle)
     for (const int node : triangle)
       CHECK(((node >= 11 && node < 15) || (node >= 42 && node < 69 && node != 55)));
   CHECK(contact->thickness == 0.02);
   CHECK(contact->recovery == pbd::infinity);
-  CHECK(contact->law.size() == 4);
+  CHECK(contact->law.size() == 9);
   CHECK(contact->law[0].friction == 0.5);
 }
 
@@ -237,8 +245,12 @@ TEST_CASE("the cloth meets the ball, and both are written for ParaView") {
   const Run run(file, 24);
   const std::string touching = read_text(folder.path / "frames" / "contacts_000024.vtu");
   CHECK_THAT(touching, Catch::Contains(fmt::format("NumberOfPoints=\"{}\"", run.contacts)));
-  for (const auto* name : {"force", "normal", "slip", "gap"})
+  for (const auto* name : {"force", "impulse", "normal", "slip", "gap"})
     CHECK_THAT(touching, Catch::Contains(fmt::format("Name=\"{}\"", name)));
+  const auto force = array_of(touching, "force"), impulse = array_of(touching, "impulse");
+  REQUIRE(force.size() == 3 * run.contacts);
+  REQUIRE(impulse.size() == force.size());
+  for (std::size_t i = 0; i < force.size(); ++i) CHECK(impulse[i] == Approx(0.005 * force[i]).margin(1e-15));
   CHECK(std::abs(run.number(5) - gravity) <= 1e-3);  // of 1 kg at rest, whatever presses it from above
   CHECK(run.state.x(2, 84) >= 0.2 + 0.005 - 1e-4);   // the cloth's middle node stays above the ball
 }

@@ -124,9 +124,6 @@ const std::vector<Mistake> contact_mistakes{
     {contact(cloth_and_body("surface = 1\n")), {"scene.toml:26: cloth.0.contact.surface", "true or false"}},
     {contact(cloth_and_body("node = 1\nnodes = [2]\n")),
      {"scene.toml:27: cloth.0.contact.nodes", "both node, nodes"}},
-    {contact(cloth_and_body("surface = true\nmaterial = \"silk\"\n") +
-             cloth_and_body("surface = true\nmaterial = \"wool\"\n")),
-     {"scene.toml:34: cloth.1.contact.material", "a surface of another material", "one material"}},
     {contact("[[probe]]\nkind = \"contact\"\n"),
      {"scene.toml:22: probe.0.kind", "`contact`", "did you mean `contacts`?"}},
     {probe(""), {"scene.toml:21: probe.0.body", "got nothing"}},

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "harness/probes.h"
 #include "read_scene.h"
 #include "step/step.h"
 
@@ -74,6 +75,47 @@ velocity_m_s = [{5}, {6}, {7}]
   const auto [boosted, boosted_x] = flown({30, -20, 50});
   CHECK(std::abs(boosted - iterations) <= steps);  // where rounding decides whether a step has arrived
   CHECK((boosted_x - x).cwiseAbs().maxCoeff() < 1e-6 * 0.4);  // of their size, as the tolerance
+}
+
+// They fold and come over each other's borders from beside: what is asked of that must not take energy.
+TEST_CASE("soft blocks that are thrown at each other gain no energy") {
+  const SceneFile file = read(R"([[solid]]
+cells = [3, 3, 3]
+size_m = [0.2, 0.2, 0.2]
+translation_m = [-0.1, -0.1, -0.1]
+velocity_m_s = [9.428416, 0, 0]
+rotation_rad = [0.1942, 0.0921, -0.2039]
+density_kg_m3 = 1000
+young_pa = 9172
+poisson = 0.3
+contact = { surface = true }
+[[solid]]
+cells = [3, 3, 3]
+size_m = [0.2, 0.2, 0.2]
+translation_m = [0.25, -0.0275, -0.0206]
+rotation_rad = [0.0207, -0.1722, -0.25]
+velocity_m_s = [-4.288891, 0, 0]
+density_kg_m3 = 1000
+young_pa = 4623
+poisson = 0.3
+contact = { surface = true }
+[contact]
+friction = 0.8
+thickness_m = 0.0071
+[method]
+tolerance = 1e-4
+)");
+  pbd::Workspace workspace(file.scene, file.method);
+  pbd::State state = file.scene.initial;
+  const double start = total_energy(file.scene, state);
+  double energy = start;
+  for (int k = 0; k < 20; ++k) {
+    const pbd::Report report = step(workspace, 1e-3, state);
+    const double after = total_energy(file.scene, state);
+    INFO("step " << k << " " << report.reason);
+    CHECK(after <= energy + file.method.tolerance * start);
+    energy = after;
+  }
 }
 
 TEST_CASE("a soft block that is pressed flat on the ground is solved at every step") {

@@ -62,18 +62,20 @@ def tellable(runs, accuracy):
     return list(bars.index[UNTOLD * bars <= accuracy])
 
 
+ENERGY_GATE = "energy above the start's"
 SCENE_GATES = (  # what must hold of a scene: column, name, bound
     ("missed_steps", "steps that miss their tolerance", 0), ("refuted_steps", "refuted steps", 0), ("overlap_share", "overlap", 1e-2),
     ("overlap_share_at_end", "overlap at the end", 1e-3), ("bilateral_error_m", "bilateral error", 1e-3),
-    ("excess_share", "energy above the start's", 1e-6), ("rest_share", "rest at the end", 1e-6))
+    ("excess_share", ENERGY_GATE, 1e-6), ("rest_share", "rest at the end", 1e-6))
 
 
 def scene_gates(frame):
-    """A row for each scene, step and gate: `gate`, `measured`, `bound` and whether it `holds`."""
+    """A row for each scene, step and gate: `gate`, `measured`, `bound` and whether it `holds`; none of the energy of what is driven."""
     frame = frame.assign(missed_steps=frame["steps"] - frame["steps_ok"])
-    gates = pd.concat([frame[["scene", "step_s"]].assign(gate=gate, measured=frame[column], bound=bound)
+    gates = pd.concat([frame[["scene", "step_s", "driven"]].assign(gate=gate, measured=frame[column], bound=bound)
                        for column, gate, bound in SCENE_GATES], ignore_index=True)
-    return gates.assign(holds=gates["measured"] <= gates["bound"])
+    works = gates["gate"].eq(ENERGY_GATE) & gates["driven"].eq(1)
+    return gates[~works].drop(columns="driven").assign(holds=gates["measured"] <= gates["bound"])
 
 
 def cost_ratios(frame):

@@ -5,7 +5,7 @@ MAP = (" integrator outer relaxation memory predicted_contraction iterations err
 METHOD = "scene step_s integrator outer relaxation friction outer_iterations sweeps row_updates wall_s error status reason"
 ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error_solve error_reference status reason"
 SCENES = ("scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations sweeps frame_wall_s "
-          "overlap_share overlap_share_at_end bilateral_error_m excess_share rest_share judged_steps refuted_steps status reason")
+          "overlap_share overlap_share_at_end bilateral_error_m driven excess_share rest_share judged_steps refuted_steps status reason")
 FRAMES = ("scene nodes step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
           "nearest_error_of_scale reference reference_status reference_reason reference_residual reference_wall_s")
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"

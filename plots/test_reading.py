@@ -186,7 +186,7 @@ class Failures(unittest.TestCase):
     def test_a_gate_of_a_scene_holds_up_to_its_bound(self):
         frame = reading.pd.DataFrame({"scene": ["a", "b"], "step_s": 0.01, "steps": 10, "steps_ok": [10, 9], "refuted_steps": 0,
                                       "overlap_share": [1e-2, 2e-2], "overlap_share_at_end": 0.0, "bilateral_error_m": [0.0, math.nan],
-                                      "excess_share": [1e-6, 2e-6], "rest_share": 0.0})
+                                      "driven": [0, 0], "excess_share": [1e-6, 2e-6], "rest_share": 0.0})
         found = selecting.scene_gates(frame)
         self.assertEqual(len(found), 2 * len(selecting.SCENE_GATES))
         self.assertTrue(found["holds"][found["scene"] == "a"].all())

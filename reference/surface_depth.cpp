@@ -10,6 +10,10 @@ namespace {
 
 using Pair = SurfaceOverlap::Kind;
 
+bool has(const std::array<int, 3>& triangle, int node) {
+  return std::find(triangle.begin(), triangle.end(), node) != triangle.end();
+}
+
 std::size_t count_of(Pair kind) {
   if (kind == Pair::through) return 5;
   return kind == Pair::node_edge ? 3 : 4;
@@ -87,22 +91,25 @@ class Overlaps {
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 
-  /// True where the surface comes nearer to a node than by an edge: by a triangle of the edge, or of the end
-  /// that is nearest.
+  /// True where the surface comes nearer to a node than by an edge, or to that place of the edge than by the
+  /// node: by a triangle of the edge, or of the end that is nearest, or of the node.
   bool triangle_is_nearer(const SurfaceOverlap& found) const {
     constexpr double rounding = 1e-9;
-    const auto& [node, from, to, rest, last] = found.node;
-    const auto distance = [&](int k) { return (x_.col(node) - x_.col(k)).norm(); };
-    const double to_edge = thickness_ - found.depth, enough = (1 + rounding) * to_edge;
-    const bool by_from = distance(from) <= enough, by_to = distance(to) <= enough;
+    const int node = found.node[0], from = found.node[1], to = found.node[2];
+    const Vec3 x = x_.col(node), first = x_.col(from), along = x_.col(to) - first;
+    const double share = std::clamp((x - first).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const Vec3 nearest = first + share * along;
+    const double to_edge = (x - nearest).norm(), nearer = (1 - rounding) * to_edge;
     return std::any_of(triangles_.begin(), triangles_.end(), [&](const std::array<int, 3>& triangle) {
-      const auto has = [&](int k) {
-        return std::find(triangle.begin(), triangle.end(), k) != triangle.end();
-      };
-      const bool about = by_from ? has(from) : by_to ? has(to) : has(from) && has(to);
-      if (!about || has(node)) return false;
       const auto& [a, b, c] = triangle;
-      return distance_of_triangle(x_.col(node), {x_.col(a), x_.col(b), x_.col(c)}) < (1 - rounding) * to_edge;
+      const auto distance = [&](const Vec3& of) {
+        return distance_of_triangle(of, {x_.col(a), x_.col(b), x_.col(c)});
+      };
+      if (has(triangle, node))
+        return !has(triangle, from) && !has(triangle, to) && distance(nearest) < nearer;
+      const bool about =
+          (has(triangle, from) || share > 1 - rounding) && (has(triangle, to) || share < rounding);
+      return about && distance(x) < nearer;
     });
   }
 

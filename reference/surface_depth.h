@@ -1,8 +1,8 @@
 // Deformable surfaces in each other, by brute force over their nodes, edges and triangles. They keep
-// `thickness` apart: a node that is nearer to a triangle that it is over, or to an edge whose triangles are
-// no nearer, and two edges that are nearer where they cross, are as deep as that lacks. An edge that goes
-// through a triangle is as deep as it has to move to be out of it, and the thickness more. Features with a
-// common node are no pair.
+// `thickness` apart: a node that is nearer to a triangle that it is over, or to an edge where no triangle of
+// both is nearer, and two edges that are nearer where they cross, are as deep as that lacks. An edge that
+// goes through a triangle is as deep as it has to move to be out of it, and the thickness more. Features with
+// a common node are no pair.
 #pragma once
 
 #include <span>

@@ -56,6 +56,20 @@ TEST_CASE("surfaces: by nodes over triangles, edges that cross, nodes beside edg
   CHECK(beside({0.2, 0.2, 0.5}, {0.3, 0.3, thickness}, {0.2, 0.2, 2}).empty());
 }
 
+TEST_CASE("surfaces: a node beside an edge counts where no triangle of both is nearer") {
+  constexpr double gap = 0.004;  // m
+  // A corner that is beside the edge by half the gap: of its triangle two edges cross that one.
+  const auto found = beside({-gap / 2, 0.3, gap}, {1, 0.2, gap}, {1, 0.5, gap});
+  const auto by_node = [](const auto& each) { return each.kind == Pair::node_edge && each.node[0] == 3; };
+  CHECK(std::none_of(found.begin(), found.end(), by_node));
+  CHECK(std::any_of(found.begin(), found.end(), [&](const auto& each) {
+    return each.kind == Pair::edges && std::abs(each.depth - (thickness - gap)) <= 1e-15;
+  }));
+  // The same corner of a triangle that rises away.
+  const auto away = beside({-gap / 2, 0.3, gap}, {-1, 0.2, 1}, {-1, 0.5, 1});
+  CHECK(std::any_of(away.begin(), away.end(), by_node));
+}
+
 TEST_CASE("surfaces: what lies in a triangle's plane but for rounding does not go through it") {
   const auto found = beside({0.2, 0.3, 1e-17}, {0.4, 0.3, -1e-17}, {3, 3, 0.5});
   CHECK(!found.empty());  // its nodes are on the triangle

@@ -1,5 +1,5 @@
-// The scene files with contact, each by its own method, step and duration: does what must hold of hard cases
-// hold of them?
+// The scene files with contact, and mechanisms, each by its own method, step and duration: does what must
+// hold of hard cases hold of them?
 #include <array>
 
 #include "studies/experiments.h"
@@ -8,9 +8,9 @@
 namespace pbdcheck {
 namespace {
 
-/// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them, and
-/// none begins with an overlap that parts.
-constexpr std::array<std::string_view, 15> scene_names{"incline",
+/// Files of experiments/scenes that are in no other experiment as a whole; none begins with an overlap that
+/// parts. Nothing does work on the first ones.
+constexpr std::array<std::string_view, 17> scene_names{"incline",
                                                        "stack",
                                                        "dominoes",
                                                        "boxes_at_edges",
@@ -24,7 +24,10 @@ constexpr std::array<std::string_view, 15> scene_names{"incline",
                                                        "soft_block_on_box_on_cloth",
                                                        "strip_over_cylinder",
                                                        "ragdoll",
+                                                       "mass_on_bar",
+                                                       "house_of_soft_cards",
                                                        "boxes_1000"};
+constexpr std::array<std::string_view, 3> driven_names{"capstan", "conveyor", "cable_arm"};
 constexpr double quick_pile = 0.5;  // s, until the lowest boxes strike the ground and those above strike them
 
 }  // namespace
@@ -34,6 +37,10 @@ void contact_scenes(Context& context) {
   for (const std::string_view name : scene_names) {
     plans.push_back(plan_of(name));
     if (name == "boxes_1000" && !context.full()) plans.back().duration = quick_pile;
+  }
+  for (const std::string_view name : driven_names) {
+    plans.push_back(plan_of(name));
+    plans.back().driven = true;
   }
   if (context.full()) add_shorter(plans, 2);
   SceneStudy study(context, plans);

@@ -185,13 +185,29 @@ std::vector<std::string> series_columns() {
 
 SceneStudy::SceneStudy(Context& context, const std::vector<ScenePlan>& plans)
     : context_(context),
-      table_(context.table("scenes",
-                           {"scene",        "step_s",        "duration_s",           "bodies",
-                            "nodes",        "elements",      "most_contacts",        "most_rows",
-                            "steps",        "steps_ok",      "outer_iterations",     "sweeps",
-                            "frame_wall_s", "overlap_share", "overlap_share_at_end", "bilateral_error_m",
-                            "excess_share", "rest_share",    "judged_steps",         "refuted_steps",
-                            "status",       "reason"})) {
+      table_(context.table("scenes", {"scene",
+                                      "step_s",
+                                      "duration_s",
+                                      "bodies",
+                                      "nodes",
+                                      "elements",
+                                      "most_contacts",
+                                      "most_rows",
+                                      "steps",
+                                      "steps_ok",
+                                      "outer_iterations",
+                                      "sweeps",
+                                      "frame_wall_s",
+                                      "overlap_share",
+                                      "overlap_share_at_end",
+                                      "bilateral_error_m",
+                                      "driven",
+                                      "excess_share",
+                                      "rest_share",
+                                      "judged_steps",
+                                      "refuted_steps",
+                                      "status",
+                                      "reason"})) {
   std::int64_t units = 0;
   for (const ScenePlan& plan : plans) units += steps_of(plan) / shown;
   context.begin(units);
@@ -226,6 +242,7 @@ void SceneStudy::run(const ScenePlan& plan, Table* series) {
               overlap,
               overlap_at_end,
               run.bilateral.value(),
+              std::int64_t{plan.driven},
               excess,
               rest,
               run.checks.judged(),
@@ -240,7 +257,7 @@ void SceneStudy::run(const ScenePlan& plan, Table* series) {
   overlap_.add(overlap, plan.name);
   overlap_at_end_.add(overlap_at_end, plan.name);
   bilateral_.add(run.bilateral.value(), plan.name);
-  excess_.add(excess, plan.name);
+  if (!plan.driven) excess_.add(excess, plan.name);
   rest_.add(rest, plan.name);
 }
 

@@ -17,8 +17,9 @@ namespace pbdcheck {
 struct ScenePlan {
   std::string_view name;
   SceneFile file;
-  double h, duration;  // s
-  bool pictured;       // its frames are written, for plots/render.py
+  double h, duration;   // s
+  bool pictured;        // its frames are written, for plots/render.py
+  bool driven = false;  // something does work on it
 };
 
 /// The file of experiments/scenes by this name, at its own step and duration, with pictures.
@@ -47,7 +48,8 @@ class SceneStudy {
   /// scenes.
   void conclude(std::string_view experiment, std::string_view scenes);
 
-  /// Largest energy above the start's over m g L, L the longest edge of the box about the scene; kinetic
+  /// Largest energy above the start's over m g L, L the longest edge of the box about the scene, of what is
+  /// not driven; kinetic
   /// energy at the end over m g and a body's least size. Each of the scene with most.
   const Worst& excess() const { return excess_; }
   const Worst& rest() const { return rest_; }

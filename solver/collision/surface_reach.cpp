@@ -61,4 +61,11 @@ double SurfaceReach::of(const std::array<int, 4>& nodes) const {
   return 2 * most + (course_[piece_[nodes[3]]] - course_[piece_[nodes[0]]]).norm();
 }
 
+double SurfaceReach::most() const {
+  double beside = 0, apart = 0;
+  for (const double own : beside_) beside = std::max(beside, own);
+  for (const Vec3& course : course_) apart = std::max(apart, (course - mean_).norm());
+  return 2 * (beside + apart);
+}
+
 }  // namespace pbd

@@ -46,6 +46,8 @@ class SurfaceReach {
   /// m, by which the gap of a contact of these nodes may fall, the first and the last of which are of its two
   /// sides.
   double of(const std::array<int, 4>& nodes) const;
+  /// m, no less than that of any nodes.
+  double most() const;
 
  private:
   std::vector<int> nodes_;

@@ -1,6 +1,7 @@
 #include "collision/surface_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pbd {
 namespace {
@@ -105,10 +106,8 @@ int SurfaceSearch::end_of(const SurfaceContact& contact, const SurfaceTouching& 
   return -touching.weight[3] >= 1 - close ? contact.node[3] : -1;
 }
 
-/// A node that is nearest to an edge, within the thickness and what they move by (m).
-std::optional<SurfaceSearch::Beside> SurfaceSearch::beside(const Point& point, int edge, const Points& x,
-                                                           double moved) const {
-  const int node = point.node;
+/// Of a node and an edge, if there is a triangle about that which the node may touch.
+std::optional<SurfaceContact> SurfaceSearch::of_edge(const Point& point, int edge) const {
   const auto& [c, d] = edges_[static_cast<std::size_t>(edge)];
   const auto others = across(edge);
   if (std::none_of(others.begin(), others.end(), [&, c = c, d = d](int third) {
@@ -116,13 +115,65 @@ std::optional<SurfaceSearch::Beside> SurfaceSearch::beside(const Point& point, i
       }))
     return std::nullopt;
   SurfaceContact contact = point.contact(SurfaceContact::Kind::node_edge, half_);
-  contact.node = {node, node, c, d};
-  const SurfaceTouching found = touching(contact, x);
-  if (found.gap >= moved || !away_from(contact, edge, found, x, moved)) return std::nullopt;
-  contact.toward = found.normal;
-  const int end = end_of(contact, found);
-  if (end < 0) return Beside{contact};
-  return Beside{contact, {std::min(node, end), std::max(node, end)}};
+  contact.node = {point.node, point.node, c, d};
+  return contact;
+}
+
+/// A node that is nearest to an edge, within the thickness and what they move by (m).
+std::optional<SurfaceSearch::Beside> SurfaceSearch::beside(const Point& point, int edge, const Points& x,
+                                                           double moved) const {
+  auto contact = of_edge(point, edge);
+  if (!contact) return std::nullopt;
+  const SurfaceTouching found = touching(*contact, x);
+  if (found.gap >= moved || !away_from(*contact, edge, found, x, moved)) return std::nullopt;
+  contact->toward = found.normal;
+  const int end = end_of(*contact, found);
+  if (end < 0) return Beside{*contact};
+  return Beside{*contact, {std::min(point.node, end), std::max(point.node, end)}};
+}
+
+/// m, of the node that went farthest beside the mean of all from where it was last looked; infinite if it
+/// never was.
+double SurfaceSearch::moved_since_clear(const Points& x) const {
+  if (clear_at_.cols() != x.cols()) return infinity;
+  Vec3 course = Vec3::Zero();
+  for (const int node : nodes_)
+    course += (x.col(node) - clear_at_.col(node)) / static_cast<double>(nodes_.size());
+  double most = 0;
+  for (const int node : nodes_)
+    most = std::max(most, (x.col(node) - clear_at_.col(node) - course).squaredNorm());
+  return std::sqrt(most);
+}
+
+/// Looks up to half of the least height of a triangle: a node is no farther from the far side of its own.
+void SurfaceSearch::look_for_clearance(int threads, const Points& x) {
+  double height = infinity;
+  for (const auto& [a, b, c] : triangles_) {
+    const Vec3 u = x.col(b) - x.col(a), v = x.col(c) - x.col(a);
+    height = std::min(height, u.cross(v).norm() / std::max({u.norm(), v.norm(), (v - u).norm()}));
+  }
+  clear_at_ = x;
+  clear_gap_ = 0;
+  looked_ = height / 2 - 2 * half_;
+  if (!(looked_ > 0)) return;
+  const auto around = [&](const auto& nodes, double margin) {
+    AxisBox box;
+    for (const int node : nodes) box.extend(Vec3(x.col(node)));
+    const Vec3 reach = Vec3::Constant(margin + looked_ / 2);
+    return AxisBox(box.min() - reach, box.max() + reach);
+  };
+  search(
+      threads, around,
+      [&](const SurfaceContact& contact) -> std::optional<PassedContact> {
+        if (nearest_touching(contact, places(contact, x)).gap < looked_) return PassedContact{contact};
+        return std::nullopt;
+      },
+      [&](const Point& point, int edge) -> std::optional<Beside> {
+        const auto contact = of_edge(point, edge);
+        if (contact && touching(*contact, x).gap < looked_) return Beside{*contact};
+        return std::nullopt;
+      });
+  if (met_.empty() && beside_.empty()) clear_gap_ = (1 - way_rounding) * looked_;
 }
 
 /// Brings together what the tasks found. Two nodes touch once, whichever edges end there.
@@ -144,6 +195,8 @@ void SurfaceSearch::gather() {
 void SurfaceSearch::find(int threads, const Points& x, const SurfaceReach& reach,
                          std::vector<SurfaceContact>& out) {
   if (!searches()) return;
+  const double moved = moved_since_clear(x);
+  if (clear_gap_ > 2 * moved + reach.most()) return;
   search(
       threads, [&](const auto& nodes, double margin) { return reach.box(nodes, x, margin); },
       [&](const SurfaceContact& contact) { return near_by(contact, x, reach); },
@@ -153,6 +206,8 @@ void SurfaceSearch::find(int threads, const Points& x, const SurfaceReach& reach
       });
   for (const PassedContact& each : met_) out.push_back(each.contact);
   for (const Beside& each : beside_) out.push_back(each.contact);
+  constexpr double worth = 0.25;  // of what was looked up to: before, much is as it was
+  if (met_.empty() && beside_.empty() && moved > worth * looked_) look_for_clearance(threads, x);
 }
 
 }  // namespace pbd

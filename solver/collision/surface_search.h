@@ -31,7 +31,8 @@ struct PassedContact {
 
 /// Finds what may touch: surfaces each other and themselves at a distance of `thickness`, if they `touch` at
 /// all, and spheres surfaces at half of it. Keeps triangles' edges and scratch from step to step. What is
-/// found, and in which order, does not depend on the number of threads.
+/// found, and in which order, does not depend on the number of threads. Where nothing is found it looks how
+/// far apart all is, and does not search again before nodes have gone that far beside their mean course.
 class SurfaceSearch {
  public:
   SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, double thickness, bool touch = true,
@@ -92,6 +93,9 @@ class SurfaceSearch {
   void look_at_edges(std::size_t begin, std::size_t end, Look&& look, std::vector<PassedContact>& out) const;
   void gather();
 
+  void look_for_clearance(int threads, const Points& x);
+  double moved_since_clear(const Points& x) const;
+  std::optional<SurfaceContact> of_edge(const Point& point, int edge) const;
   std::optional<Beside> beside(const Point& point, int edge, const Points& x, double moved) const;
   bool away_from(const SurfaceContact& contact, int edge, const SurfaceTouching& touching, const Points& x,
                  double moved) const;
@@ -122,6 +126,9 @@ class SurfaceSearch {
   std::vector<PassedContact> met_;
   std::vector<Beside> beside_;
   std::vector<std::pair<std::array<int, 2>, std::size_t>> ends_;  // of `beside_`, with their positions
+  Points clear_at_;       // m, where it was looked how far apart all is
+  double looked_ = 0;     // m, up to which gap
+  double clear_gap_ = 0;  // m, that no pair had less than there; 0 if one had less than `looked_`
 };
 
 template <class Box, class Look, class LookBeside>

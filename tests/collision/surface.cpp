@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "contact_shapes.h"
+#include "mesh.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -275,4 +276,42 @@ TEST_CASE("threads find what one finds, in its order") {
                        return same(a.contact, b.contact) && a.target == b.target;
                      }));
   }
+}
+
+// What was found to be far apart is not searched again before it may have come near.
+TEST_CASE("what was far apart is found where it comes near as by a first search") {
+  constexpr int cells = 4, steps = 200;
+  constexpr double thickness = 0.01;
+  TriangleMesh sheet = grid_sheet({cells, cells}, {0.4, 0.4});
+  const auto nodes = static_cast<int>(sheet.x.cols());
+  std::vector<std::array<int, 3>> triangles = sheet.triangles;
+  for (const auto& [a, b, c] : sheet.triangles) triangles.push_back({a + nodes, b + nodes, c + nodes});
+  Random random(71);
+  Points x(3, 2 * nodes);
+  x.leftCols(nodes) = sheet.x;
+  x.rightCols(nodes) = sheet.x.colwise() + Vec3(0.03, 0.02, 0.3);
+  SurfaceSearch knows(triangles, thickness);
+  SurfaceReach reach(triangles, knows.nodes());
+  int none = 0, some = 0, wrong = 0;
+  for (int k = 0; k < steps; ++k) {
+    Points to = x.colwise() + random.vector();
+    to.rightCols(nodes).row(2).array() -= 0.003;  // it comes, passes and leaves
+    for (int node = 0; node < 2 * nodes; ++node) to.col(node) += 3e-4 * random.vector();
+    reach.set_out(x, to, to, 0);
+    const auto found = [&](SurfaceSearch& search) {
+      std::pair<std::vector<SurfaceContact>, std::vector<PassedContact>> both;
+      search.find(1, x, reach, both.first);
+      search.find_passed(1, x, to, 1e-6, both.second);
+      return both;
+    };
+    SurfaceSearch first(triangles, thickness);
+    const auto [near, passed] = found(knows);
+    const auto [near_first, passed_first] = found(first);
+    ++(near.empty() && passed.empty() ? none : some);
+    wrong += near.size() != near_first.size() || passed.size() != passed_first.size();
+    x = to;
+  }
+  CHECK(none > steps / 4);
+  CHECK(some > steps / 20);
+  CHECK(wrong == 0);
 }

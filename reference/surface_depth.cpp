@@ -101,9 +101,9 @@ class Overlaps {
     const Vec3 nearest = first + share * along;
     const double to_edge = (x - nearest).norm(), nearer = (1 - rounding) * to_edge;
     return std::any_of(triangles_.begin(), triangles_.end(), [&](const std::array<int, 3>& triangle) {
-      const auto& [a, b, c] = triangle;
+      const auto corner = [&](std::size_t k) -> Vec3 { return x_.col(triangle[k]); };
       const auto distance = [&](const Vec3& of) {
-        return distance_of_triangle(of, {x_.col(a), x_.col(b), x_.col(c)});
+        return distance_of_triangle(of, {corner(0), corner(1), corner(2)});
       };
       if (has(triangle, node))
         return !has(triangle, from) && !has(triangle, to) && distance(nearest) < nearer;

@@ -3,6 +3,8 @@
 // both is nearer, and two edges that are nearer where they cross, are as deep as that lacks. An edge that
 // goes through a triangle is as deep as it has to move to be out of it, and the thickness more. Features with
 // a common node are no pair.
+//
+// Limit: what is nearer may be a crease, of which no depth is told.
 #pragma once
 
 #include <span>

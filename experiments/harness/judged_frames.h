@@ -20,7 +20,8 @@ struct JudgedScene {
   std::vector<std::string> settings{};
 };
 
-/// The cow that touches the ground: the judge takes minutes a frame with all of its surface.
+/// The setting by which the cow touches the ground with its nodes: with all of its surface the judge takes
+/// minutes a frame.
 inline constexpr std::string_view cow_of_nodes = "solid.0.contact={ radius_m = 0 }";
 
 /// What the judge makes of the sampled steps of some runs.

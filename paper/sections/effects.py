@@ -37,7 +37,7 @@ def absent_text(absent):
         told += f" The same scene measured against itself differs by {number(change[there['control'].index].abs().max())} %."
     if len(there["never touches"]):
         told += (" A step that does little else changes by " + listed(there["never touches"], change, "{effect} that {case}") + ": how far all went since "
-                 "it was seen to be far apart. A surface that may touch itself is searched in each step.")
+                 "it was seen to be far apart.")
     if len(there["idle"]):
         told += (" What is listed without a consequence changes it by " + listed(there["idle"], change, "`{effect}` with {case}") +
                  ". A limit has a row, which each sweep visits; damping 0 is a damper, and the torque of equal moments is solved for.")

@@ -56,12 +56,14 @@ NodePlaces places(const SurfaceContact& contact, const Points& x);
 SurfaceTouching touching(const SurfaceContact& contact, const NodePlaces& x);
 SurfaceTouching touching(const SurfaceContact& contact, const Points& x);
 
-/// Of the nearest points of a node and a triangle, or of two edges, themselves: without a normal where these
-/// are one.
+/// Of the nearest points of a node and a triangle, of a node and an edge, or of two edges, themselves:
+/// without a normal where edges or a node and an edge have a point in common.
 SurfaceTouching nearest_touching(const SurfaceContact& contact, const NodePlaces& x);
 
-/// Of the thickness: surfaces are pushed apart by no more in a step. Where they crumple, what was beside a
-/// triangle and near comes over it; to be out of it at once would take energy that nothing has.
+/// Of the thickness at which features touch: in a step surfaces that overlap part by no more, and what came
+/// over each other from beside is not pushed farther along the normal that it has at the end. Where surfaces
+/// crumple, what was beside a triangle and near comes over it; to be out of it at once would take energy that
+/// nothing has. A tenth takes a hundredth of that.
 inline constexpr double parted = 0.1;
 
 /// Of a feature: what lies between two that meet is on both.

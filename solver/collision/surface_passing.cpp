@@ -84,8 +84,8 @@ double begun(const SurfaceContact& contact, const NodePlaces& from) {
 /// to be so.
 void meet_on_way(SurfaceContact& contact, const NodePlaces& from, const NodePlaces& to, double near,
                  double begun) {
-  constexpr double nearest = 1.0 / 64;
-  constexpr int halvings = 30;  // of a way: to a billionth
+  constexpr double nearest = 1.0 / 64;  // what grazes in less of the way is not looked for
+  constexpr int halvings = 30;          // to a billionth of the way
   const auto is_apart = [&](double share) {
     return !(nearest_touching(contact, on_way(from, to, share)).gap < begun);
   };
@@ -128,6 +128,7 @@ std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& fr
     crossings += before;
     near = std::min(near, t);
   });
+  if (crossings == 0) near = 1;
   const double ends = crossings != 0 ? crossings : volume.at(1);
   contact.side = ends < 0 ? -1 : 1;
   const SurfaceTouching end = touching(contact, to);

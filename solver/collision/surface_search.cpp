@@ -139,13 +139,15 @@ double SurfaceSearch::moved_since_clear(const Points& x) const {
   Vec3 course = Vec3::Zero();
   for (const int node : nodes_)
     course += (x.col(node) - clear_at_.col(node)) / static_cast<double>(nodes_.size());
+  if (!course.allFinite()) return infinity;
   double most = 0;
   for (const int node : nodes_)
     most = std::max(most, (x.col(node) - clear_at_.col(node) - course).squaredNorm());
   return std::sqrt(most);
 }
 
-/// Looks up to half of the least height of a triangle: a node is no farther from the far side of its own.
+/// A node is not looked at beside its own triangle, but beside the one across that one's far side, which is
+/// as far as its height: half of the least height leaves a regular sheet clear, with room for its strains.
 void SurfaceSearch::look_for_clearance(int threads, const Points& x) {
   double height = infinity;
   for (const auto& [a, b, c] : triangles_) {
@@ -155,7 +157,7 @@ void SurfaceSearch::look_for_clearance(int threads, const Points& x) {
   clear_at_ = x;
   clear_gap_ = 0;
   looked_ = height / 2 - 2 * half_;
-  if (!(looked_ > 0)) return;
+  if (!(looked_ > 0 && looked_ < infinity)) return;
   const auto around = [&](const auto& nodes, double margin) {
     AxisBox box;
     for (const int node : nodes) box.extend(Vec3(x.col(node)));
@@ -206,7 +208,7 @@ void SurfaceSearch::find(int threads, const Points& x, const SurfaceReach& reach
       });
   for (const PassedContact& each : met_) out.push_back(each.contact);
   for (const Beside& each : beside_) out.push_back(each.contact);
-  constexpr double worth = 0.25;  // of what was looked up to: before, much is as it was
+  constexpr double worth = 0.25;  // of what was looked up to: what was near before that moves on by as much
   if (met_.empty() && beside_.empty() && moved > worth * looked_) look_for_clearance(threads, x);
 }
 

@@ -32,7 +32,8 @@ struct PassedContact {
 /// Finds what may touch: surfaces each other and themselves at a distance of `thickness`, if they `touch` at
 /// all, and spheres surfaces at half of it. Keeps triangles' edges and scratch from step to step. What is
 /// found, and in which order, does not depend on the number of threads. Where nothing is found it looks how
-/// far apart all is, and does not search again before nodes have gone that far beside their mean course.
+/// far apart all is, and does not search again before nodes may have gone half as far beside their mean
+/// course.
 class SurfaceSearch {
  public:
   SurfaceSearch(const std::vector<std::array<int, 3>>& triangles, double thickness, bool touch = true,

@@ -43,6 +43,7 @@ struct ActiveContact {
   TriangleFeature triangle;
   bool of_surfaces = false;  // then `surface` is it, and there are no features
   SurfaceContact surface;
+  bool between_surfaces = false;           // of triangles' nodes and edges alone, of no sphere
   std::shared_ptr<const Meeting> meeting;  // of what has met on the way: of `features` the key alone counts
   Vec3 reference = Vec3::UnitX();          // the tangents are seen from this direction
   double gap = 0;                          // m, where it was made linear

@@ -38,8 +38,7 @@ double ContactRows::target_of(const StepBegin& begin, const Shifts& shifts, cons
   constexpr double recovered =
       0.1;  // a step, of what missed steps left: at once it would take a hundred times the energy
   double target = std::min(0.0, std::max(gap, gap + shift + effect_.recovery * begin.map.d));
-  if (contact.of_surfaces && contact.surface.radius == 0)
-    target = std::min(target, gap + parted * contact.surface.thickness);
+  if (contact.between_surfaces) target = std::min(target, gap + parted * contact.surface.thickness);
   if (!recovering_ || gap >= target) return target;
   const double forced = std::abs((block.jacobian[i] * block.gather(shifts.forced, i))[0]);
   return std::min(target, (1 - recovered) * gap + forced);

@@ -59,6 +59,7 @@ ActiveContact ContactSearch::of_surfaces(const SurfaceContact& found, Eigen::Ind
   contact.carrier = {-1, -1};
   contact.features.point_a = contact.features.point_b = Vec3::Zero();
   contact.surface = found;
+  contact.between_surfaces = side_[static_cast<std::size_t>(found.node[0])] >= first_triangle();
   contact.law = effect_.between(side(found.node[0]), side(found.node[3]));
   const bool triangle = found.kind == SurfaceContact::Kind::node_triangle;
   contact.collider = {found.node[0], found.node[triangle ? 1 : 2]};

@@ -243,7 +243,9 @@ bool ContactSearch::see_passed(const Points& start, const Points& end, const Con
     };
     if (std::any_of(late_surfaces_.begin(), late_surfaces_.end(), same_late)) continue;
     if (!is_left(found.contact) && std::any_of(surface_contacts_.begin(), surface_contacts_.end(), same)) {
-      const bool called = !beside_features(found.contact, touching(found.contact, end));
+      SurfaceContact stated = found.contact;
+      stated.met.reset();
+      const bool called = !beside_features(stated, touching(stated, end));
       if (called || has_rows(found.contact, contacts)) continue;
       left_surfaces_.insert(found.contact.features());
     }

@@ -23,7 +23,7 @@ struct EffectCost {
 };
 
 /// How the bodies and nodes of a contact stood to each other where they met on the way of a step, in the
-/// world; of a triangle nothing.
+/// world; of a triangle and of surfaces nothing.
 struct MetOnWay {
   std::array<Vec3, 2> arm{Vec3::Zero(), Vec3::Zero()};  // m, from a and b to where they touched
   std::array<Eigen::Matrix3d, 2> rotation{Eigen::Matrix3d::Identity(),
@@ -31,7 +31,7 @@ struct MetOnWay {
 };
 
 /// What a contact does at the end of a step, in the world: `force` acts on a, its opposite on b. What has met
-/// on the way was pushed there, and `gap` goes on from there by the bodies' rates.
+/// on the way was pushed there, and `gap` goes on from there by the rates of bodies and surfaces' nodes.
 struct ContactForce {
   std::array<int, 2> collider;  // a and b: colliders, then the effect's nodes, then (surfaces) the scene's
   Vec3 point;                   // m

@@ -308,7 +308,12 @@ TEST_CASE("what was far apart is found where it comes near as by a first search"
     const auto [near, passed] = found(knows);
     const auto [near_first, passed_first] = found(first);
     ++(near.empty() && passed.empty() ? none : some);
-    wrong += near.size() != near_first.size() || passed.size() != passed_first.size();
+    const auto same = [](const SurfaceContact& a, const SurfaceContact& b) { return a.same_features(b); };
+    const auto same_passed = [&](const PassedContact& a, const PassedContact& b) {
+      return same(a.contact, b.contact) && a.target == b.target;
+    };
+    wrong += !std::equal(near.begin(), near.end(), near_first.begin(), near_first.end(), same) ||
+             !std::equal(passed.begin(), passed.end(), passed_first.begin(), passed_first.end(), same_passed);
     x = to;
   }
   CHECK(none > steps / 4);

@@ -59,3 +59,15 @@ TEST_CASE("surfaces in each other part by a tenth of their thickness in a step")
   for (const int node : pressed.nodes)
     CHECK((Vec3(end.v.col(node)) - pressed.after_sinking()).norm() <= 1e-9);
 }
+
+TEST_CASE("a sphere in a surface parts within the step, be it of radius 0") {
+  using namespace pbd::test;
+  const double radius = GENERATE(0.0, 0.05), deep = PressedSurfaces::thickness / 5;
+  PressedSurfaces pressed(Pressing::sphere, {.friction = 0.3});
+  std::get<Contact>(pressed.scene.effects[1]).radius = {radius};
+  pressed.scene.initial.x(2, pressed.nodes[0]) = radius + PressedSurfaces::thickness / 2 - deep;
+  const State end = run(pressed.scene, contact_method("direct"), PressedSurfaces::h, 1);
+  const double up = deep / PressedSurfaces::h;
+  const Vec3 expected(0, PressedSurfaces::speed - 0.3 * (up + pbdcheck::gravity * PressedSurfaces::h), up);
+  CHECK((Vec3(end.v.col(pressed.nodes[0])) - expected).norm() <= 1e-9);
+}

@@ -24,7 +24,7 @@ using namespace pbd;
 enum class Presence { control, empty, apart, idle, used };
 constexpr std::array<std::string_view, 5> presence_names{"control", "empty", "never touches", "idle", "used"};
 
-/// A scene with an effect that nothing uses, and the same one without it.
+/// A scene with an effect, which nothing uses unless it is `used`, and the same one without it.
 struct Added {
   std::string effect, state;
   Presence presence;

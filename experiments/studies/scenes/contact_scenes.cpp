@@ -8,8 +8,8 @@
 namespace pbdcheck {
 namespace {
 
-/// Files of experiments/scenes that are in no other experiment as a whole; none begins with an overlap that
-/// parts. Nothing does work on the first ones.
+/// Files of experiments/scenes that are in no other experiment as a whole; nothing does work on them, and
+/// none begins with an overlap that parts.
 constexpr std::array<std::string_view, 17> scene_names{"incline",
                                                        "stack",
                                                        "dominoes",
@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 17> scene_names{"incline",
                                                        "mass_on_bar",
                                                        "house_of_soft_cards",
                                                        "boxes_1000"};
+/// Those that something does work on: a pull, a belt, a hook that is led.
 constexpr std::array<std::string_view, 3> driven_names{"capstan", "conveyor", "cable_arm"};
 constexpr double quick_pile = 0.5;  // s, until the lowest boxes strike the ground and those above strike them
 
@@ -50,9 +51,10 @@ void contact_scenes(Context& context) {
   // step, and as much as reference/step_energy.h allows.
   const std::string quantity = owned("largest excess over m g L", study.excess());
   context.verdict(Basis::robustness, "contact_scenes.energy",
-                  "energy stays below a hundredth above the start's", quantity, study.excess().value(), 1e-2);
+                  "energy of what nothing drives stays below a hundredth above the start's", quantity,
+                  study.excess().value(), 1e-2);
   context.verdict(Basis::goal, "contact_scenes.energy_gain",
-                  "energy never rises above the start's: nothing does work on the scenes", quantity,
+                  "energy of what nothing drives never rises above the start's", quantity,
                   study.excess().value(), 1e-6);
 }
 

@@ -30,7 +30,8 @@ void judge_small_versions(Context& context) {
   frames.close();
   context.verdict(
       Basis::goal, "figure_1.judged",
-      "each sampled step of the small versions ends within 1e-6 of a solution that the judge finds",
+      "each sampled step of the small versions that says ok and that the judge knows ends within 1e-6 of a "
+      "solution that it finds",
       sampled.quantity(), sampled.nearest.value(), 1e-6);
 }
 

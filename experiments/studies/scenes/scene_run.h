@@ -48,9 +48,9 @@ class SceneStudy {
   /// scenes.
   void conclude(std::string_view experiment, std::string_view scenes);
 
-  /// Largest energy above the start's over m g L, L the longest edge of the box about the scene, of what is
-  /// not driven; kinetic
-  /// energy at the end over m g and a body's least size. Each of the scene with most.
+  /// Of what is not driven the largest energy above the start's over m g L, L the longest edge of the box
+  /// about the scene; kinetic energy at the end over m g and a body's least size. Each of the scene with
+  /// most.
   const Worst& excess() const { return excess_; }
   const Worst& rest() const { return rest_; }
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 SCENES = Path(__file__).resolve().parent.parent / "experiments" / "scenes"
-TRIANGLE, TETRAHEDRON = 5, 10  # VTK's types of cells
+LINE, TRIANGLE, TETRAHEDRON = 3, 5, 10  # VTK's types of cells
 COLORS = ((0.33, 0.53, 0.76), (0.89, 0.58, 0.27), (0.42, 0.67, 0.45), (0.80, 0.42, 0.42), (0.60, 0.52, 0.75))
 CLOTH, COW, HELD, GROUND = (0.80, 0.74, 0.62), (0.72, 0.55, 0.42), (0.72, 0.72, 0.70), (0.90, 0.90, 0.88)
 
@@ -76,6 +76,13 @@ class Carried:
         return np.einsum("nk,nkj->nj", self.weights, nodes[self.cells])
 
 
+def skin(tetrahedra):
+    """Triangles that one tetrahedron alone has."""
+    faces = np.concatenate([np.delete(tetrahedra, k, axis=1) for k in range(4)])
+    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[first[count == 1]]
+
+
 def connected(triangles, count):
     """The number of its component for each node; components are counted along the nodes."""
     label = np.arange(count)
@@ -114,16 +121,19 @@ class Frames:
         self.held = [body.get("held") == "fixed" for body in stated if body.get("shape") != "half_space"
                      for _ in range(int(np.prod(body.get("copies", [1]))))]
         self.patches = list(self.colored())
+        cells, none = read_cells(self.nodes[0][1]), np.empty((0, 2), dtype=int)
+        self.links = none if {TRIANGLE, TETRAHEDRON} & cells.keys() else cells.get(LINE, none)
 
     def colored(self):
         """What is drawn: (whether it is of bodies, colour, triangles, whether their edges are seen)."""
         cells = read_cells(self.nodes[0][1])
         if self.carried:
             yield False, COW, self.carried.triangles, False
-        elif TRIANGLE in cells:
-            label = connected(cells[TRIANGLE], cells[TRIANGLE].max() + 1)[cells[TRIANGLE][:, 0]]
+        elif {TRIANGLE, TETRAHEDRON} & cells.keys():
+            triangles = cells[TRIANGLE] if TRIANGLE in cells else skin(cells[TETRAHEDRON])
+            label = connected(triangles, triangles.max() + 1)[triangles[:, 0]]
             for k in np.unique(label):
-                yield False, COLORS[-1 - k % len(COLORS)] if TETRAHEDRON in cells else CLOTH, cells[TRIANGLE][label == k], True
+                yield False, COLORS[-1 - k % len(COLORS)] if TETRAHEDRON in cells else CLOTH, triangles[label == k], True
         if self.bodies:
             triangles = read_cells(self.bodies[0][1])[TRIANGLE]
             label = connected(triangles, triangles.max() + 1)[triangles[:, 0]]
@@ -139,6 +149,10 @@ class Frames:
         if self.bodies:
             x[True] = read_points(self.bodies[k][1])
         return [(x[of_bodies], triangles, color, edges) for of_bodies, color, triangles, edges in self.patches if len(triangles)]
+
+    def ropes(self, k):
+        """Of frame k: (x, links), none where a surface is drawn of the nodes."""
+        return read_points(self.nodes[k][1]), self.links
 
     def forces(self, k):
         """Points of contacts of frame k that press, and their forces (N) on the upper one of both."""

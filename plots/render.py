@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from frames import GROUND, SCENES, Frames
+from frames import CLOTH, GROUND, SCENES, Frames
 
 SIZE = (640, 400)  # pixels
 ANGLE = 28  # degrees, that the camera sees from bottom to top
@@ -71,6 +71,21 @@ def surface(x, triangles, color, edges=False):
     made.GetProperty().SetEdgeVisibility(edges)
     made.GetProperty().SetEdgeColor(*(0.6 * np.array(color)))
     return made
+
+
+def tubes(x, links, radius):
+    """One for each link."""
+    from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonDataModel import vtkCellArray
+    from vtkmodules.vtkFiltersCore import vtkTubeFilter
+    data, lines, tube = mesh(x, np.empty((0, 3), dtype=int)), vtkCellArray(), vtkTubeFilter()
+    rows = np.column_stack([np.full(len(links), 2), links]).astype(np.int64).ravel()
+    lines.SetCells(len(links), numpy_to_vtkIdTypeArray(rows, deep=True))
+    data.SetLines(lines)
+    tube.SetInputData(data)
+    tube.SetRadius(radius)
+    tube.SetNumberOfSides(8)
+    return actor(tube, CLOTH)
 
 
 def plane(point, normal, reach):
@@ -158,15 +173,19 @@ def draw(stage, folder, with_forces):
     """Writes instant_<k>.png at SHARES of the time and animation.webp, which plays at the pace of the simulation."""
     frames = Frames(folder)
     shown = [frames.surfaces(k) for k in range(len(frames.times))]
-    points = np.concatenate([x[np.unique(triangles)] for surfaces in shown for x, triangles, *_ in surfaces])
+    ropes = [frames.ropes(k) for k in range(len(frames.times))]
+    points = np.concatenate([*(x[np.unique(triangles)] for surfaces in shown for x, triangles, *_ in surfaces),
+                             *(x[np.unique(links)] for x, links in ropes)])
     reach = stage.look(SIDES.get(frames.scene, SIDE), points)
     ground = [plane(point, normal, 3 * reach) for point, normal in frames.grounds]
-    pictures = [stage.picture([*ground, *(surface(*each) for each in surfaces)]) for surfaces in shown]
+    scene = [[*ground, *(surface(*each) for each in surfaces), *([tubes(*rope, 0.004 * reach)] if len(rope[1]) else [])]
+             for surfaces, rope in zip(shown, ropes)]
+    pictures = [stage.picture(actors) for actors in scene]
     for number, share in enumerate(SHARES):
         k = int(np.argmin(np.abs(np.array(frames.times) - share * frames.times[-1])))
         place, force = frames.forces(k)
         over = [arrows(place, force, 0.2 * reach)] if with_forces and len(force) else []
-        picture = stage.picture([*ground, *(surface(*each) for each in shown[k])], over) if over else pictures[k]
+        picture = stage.picture(scene[k], over) if over else pictures[k]
         picture.save(folder / f"instant_{number}.png")
     milliseconds = [*(int(round(1000 * step)) for step in np.diff(frames.times)), 1000]
     pictures[0].save(folder / "animation.webp", save_all=True, append_images=pictures[1:], duration=milliseconds, loop=0, quality=70)

@@ -71,6 +71,16 @@ class FramesTest(unittest.TestCase):
         grey = [triangles for _, triangles, color, _ in Frames(folder).surfaces(0) if color == HELD]
         self.assertEqual([len(triangles) for triangles in grey], [16])
 
+    def test_ropes_are_links_and_solids_their_skin(self):
+        folder = self.directory / "contact_scenes" / "conveyor"
+        write(folder, "simulation", [(0, CORNERS, [(0, 1), (1, 2)], 3, [(0, 0, 0)])])
+        frames = Frames(folder)
+        self.assertEqual((frames.ropes(0)[1].tolist(), frames.surfaces(0)), ([[0, 1], [1, 2]], []))
+        write(folder, "simulation", [(0, CORNERS, [(0, 1, 2, 3)], 10, [(0, 0, 0)])])
+        frames = Frames(folder)
+        ((_, triangles, *_),) = frames.surfaces(0)
+        self.assertEqual((len(frames.ropes(0)[1]), sorted(map(sorted, triangles.tolist()))), (0, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]))
+
     def test_components(self):
         self.assertEqual(connected(np.array([(0, 1, 2), (5, 4, 3), (2, 6, 1)]), 7).tolist(), [0, 0, 0, 1, 1, 1, 0])
 

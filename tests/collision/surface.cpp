@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "contact_shapes.h"
-#include "mesh.h"
+#include "surface_features.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -17,20 +17,6 @@ Points random_points(Random& random) {
   Points x(3, 4);
   for (int k = 0; k < 4; ++k) x.col(k) = random.vector();
   return x;
-}
-
-/// That the contact's points lie within its features.
-bool within(const SurfaceTouching& t, Kind kind) {
-  const auto& w = t.weight;
-  return kind != Kind::node_triangle ? w[0] >= 0 && w[1] >= 0 && w[2] <= 0 && w[3] <= 0
-                                     : w[1] <= 0 && w[2] <= 0 && w[3] <= 0;
-}
-
-double distance(const Points& x, Kind kind) {
-  const auto at = [&](int k) -> Vec3 { return x.col(k); };
-  if (kind == Kind::node_edge) return between_segments({at(0), at(0)}, {at(2), at(3)});
-  return kind == Kind::edge_edge ? between_segments({at(0), at(1)}, {at(2), at(3)})
-                                 : to_triangle(at(0), at(1), at(2), at(3));
 }
 
 }  // namespace
@@ -83,90 +69,6 @@ TEST_CASE("edges that are parallel have no normal, and are no contact but by the
   CHECK(std::none_of(found.begin(), found.end(), [](const SurfaceContact& contact) {
     return contact.kind == SurfaceContact::Kind::edge_edge && contact.node == std::array{0, 1, 2, 3};
   }));
-}
-
-TEST_CASE("what surfaces pass on straight ways is told by the side from which it came") {
-  const Kind kind = GENERATE(Kind::node_triangle, Kind::edge_edge);
-  const bool triangle = kind == Kind::node_triangle;
-  const std::vector<std::array<int, 3>> triangles =
-      triangle ? std::vector<std::array<int, 3>>{{0, 4, 5}, {1, 2, 3}}
-               : std::vector<std::array<int, 3>>{{0, 1, 4}, {2, 3, 5}};
-  Random random(41);
-  int passed = 0, wrong = 0;
-  for (int number = 0; number < 3000; ++number) {
-    Points from(3, 6), to(3, 6);
-    for (int k = 0; k < 4; ++k) {
-      from.col(k) = random.vector();
-      to.col(k) = random.vector();
-    }
-    for (const int k : {4, 5}) from.col(k) = to.col(k) = Vec3(100 * k, 0, 0);
-    // By steps: how often the sign changes where the nearest points lie on both.
-    SurfaceContact contact{.node = {0, 1, 2, 3}, .kind = kind};
-    constexpr int steps = 4000;
-    const auto side_at = [&](int k) { return touching(contact, from + double(k) / steps * (to - from)); };
-    int net = 0;
-    SurfaceTouching before = side_at(0);
-    bool grazes = false;
-    for (int k = 1; k <= steps; ++k) {
-      const SurfaceTouching after = side_at(k);
-      if ((before.gap < 0) != (after.gap < 0)) {
-        const bool on_before = within(before, kind), on_after = within(after, kind);
-        grazes = grazes || on_before != on_after || std::abs(after.gap - before.gap) > 0.1;
-        if (on_before) net += before.gap < 0 ? -1 : 1;
-      }
-      before = after;
-    }
-    if (grazes) continue;
-    std::vector<PassedContact> found;
-    SurfaceSearch(triangles, 0).find_passed(1, from, to, 1e-9, found);
-    const auto told = std::find_if(found.begin(), found.end(), [&](const PassedContact& each) {
-      return each.contact.kind == kind && each.contact.node == contact.node;
-    });
-    const bool ends_there = net != 0 && (side_at(steps).gap < 0) != (net < 0);
-    passed += ends_there;
-    wrong += (told != found.end()) != ends_there || (ends_there && told->contact.side * net < 0);
-  }
-  CHECK(passed > 100);
-  CHECK(wrong == 0);
-}
-
-// Of a contact that asks for more than its features were apart, the rest takes energy.
-TEST_CASE("what surfaces pass asks for little more than it began with, or is stated where it met") {
-  const Kind kind = GENERATE(Kind::node_triangle, Kind::edge_edge);
-  const std::vector<std::array<int, 3>> triangles =
-      kind == Kind::node_triangle ? std::vector<std::array<int, 3>>{{0, 4, 5}, {1, 2, 3}}
-                                  : std::vector<std::array<int, 3>>{{0, 1, 4}, {2, 3, 5}};
-  constexpr double thickness = 0.3, lifted = 0.1 * thickness, rounding = 1e-8;
-  Random random(43);
-  int met = 0, lets = 0, wrong = 0;
-  for (int number = 0; number < 3000; ++number) {
-    Points from(3, 6), to(3, 6);
-    for (int k = 0; k < 4; ++k) {
-      from.col(k) = random.vector();
-      to.col(k) = random.vector();
-    }
-    for (const int k : {4, 5}) from.col(k) = to.col(k) = Vec3(100 * k, 0, 0);
-    std::vector<PassedContact> found;
-    SurfaceSearch(triangles, thickness).find_passed(1, from, to, 1e-9, found);
-    for (const auto& [contact, target] : found) {
-      if (contact.kind != kind) continue;
-      const double before = touching(contact, from).gap;
-      ++(contact.met ? met : lets);
-      if (before < target - (contact.met ? rounding : lifted)) ++wrong;
-      if (!contact.met) continue;
-      // They touch by the points and along the normal of the contact where these are so far apart on the way.
-      const double end = touching(contact, to).gap, share = (before - target) / (before - end);
-      const Points there = from + share * (to - from);
-      const SurfaceTouching nearest = nearest_touching(contact, places(contact, there));
-      if (!(share >= -rounding && share <= 1) || std::abs(nearest.gap - target) > rounding ||
-          (nearest.normal - contact.toward).norm() > 1e-5)
-        ++wrong;
-    }
-  }
-  INFO("met " << met << ", asked where they end " << lets);
-  CHECK(met > 100);
-  CHECK(lets > 100);
-  CHECK(wrong == 0);
 }
 
 TEST_CASE("surfaces come no nearer than their reach tells") {
@@ -276,50 +178,4 @@ TEST_CASE("threads find what one finds, in its order") {
                        return same(a.contact, b.contact) && a.target == b.target;
                      }));
   }
-}
-
-// What was found to be far apart is not searched again before it may have come near.
-TEST_CASE("what was far apart is found where it comes near as by a first search") {
-  constexpr int cells = 4, steps = 200;
-  double down = GENERATE(0.003, 0.2);  // m a step
-  constexpr double thickness = 0.01;
-  TriangleMesh sheet = grid_sheet({cells, cells}, {0.4, 0.4});
-  const auto nodes = static_cast<int>(sheet.x.cols());
-  std::vector<std::array<int, 3>> triangles = sheet.triangles;
-  for (const auto& [a, b, c] : sheet.triangles) triangles.push_back({a + nodes, b + nodes, c + nodes});
-  Random random(71);
-  Points x(3, 2 * nodes);
-  x.leftCols(nodes) = sheet.x;
-  x.rightCols(nodes) = sheet.x.colwise() + Vec3(0.03, 0.02, 0.3);
-  SurfaceSearch knows(triangles, thickness);
-  SurfaceReach reach(triangles, knows.nodes());
-  int none = 0, some = 0, wrong = 0;
-  for (int k = 0; k < steps; ++k) {
-    Points to = x.colwise() + random.vector();
-    to.rightCols(nodes).row(2).array() -= down;  // it comes, passes, leaves and comes back
-    const double above = to(2, nodes) - to(2, 0);
-    if (std::abs(above) > 0.3) down = std::copysign(down, above);
-    for (int node = 0; node < 2 * nodes; ++node) to.col(node) += 3e-4 * random.vector();
-    reach.set_out(x, to, to, 0);
-    const auto found = [&](SurfaceSearch& search) {
-      std::pair<std::vector<SurfaceContact>, std::vector<PassedContact>> both;
-      search.find(1, x, reach, both.first);
-      search.find_passed(1, x, to, 1e-6, both.second);
-      return both;
-    };
-    SurfaceSearch first(triangles, thickness);
-    const auto [near, passed] = found(knows);
-    const auto [near_first, passed_first] = found(first);
-    ++(near.empty() && passed.empty() ? none : some);
-    const auto same = [](const SurfaceContact& a, const SurfaceContact& b) { return a.same_features(b); };
-    const auto same_passed = [&](const PassedContact& a, const PassedContact& b) {
-      return same(a.contact, b.contact) && a.target == b.target;
-    };
-    wrong += !std::equal(near.begin(), near.end(), near_first.begin(), near_first.end(), same) ||
-             !std::equal(passed.begin(), passed.end(), passed_first.begin(), passed_first.end(), same_passed);
-    x = to;
-  }
-  CHECK(none > steps / 4);
-  CHECK(some > steps / 20);
-  CHECK(wrong == 0);
 }

@@ -94,6 +94,19 @@ bool drawn(std::size_t k, std::size_t count) {
   return k < 20 || k + 1 == count || k % (k / 20) == 0;
 }
 
+std::string law_of(const DualCase& of) {
+  return std::string(friction_law_names[static_cast<std::size_t>(of.law)]);
+}
+
+/// f(sample, status, reason) for each sample that is drawn.
+template <class F>
+void each_drawn(const DualTrace& run, F&& f) {
+  const bool reached = run.samples.back().residual <= dual_solved;
+  for (std::size_t k = 0; k < run.samples.size(); ++k)
+    if (drawn(k, run.samples.size()))
+      f(run.samples[k], reached ? "ok" : "not_converged", reached ? "" : "sweeps spent");
+}
+
 class DualTables {
  public:
   explicit DualTables(Context& context)
@@ -108,14 +121,10 @@ class DualTables {
                                                    "natural_residual", "error", "status", "reason"})) {}
 
   void trace(const DualCase& of, std::string_view name, const DualTrace& run) {
-    const bool reached = run.samples.back().residual <= dual_solved;
-    for (std::size_t k = 0; k < run.samples.size(); ++k) {
-      const DualSample& now = run.samples[k];
-      if (drawn(k, run.samples.size()))
-        traces_.row({of.scene, std::string(friction_law_names[static_cast<std::size_t>(of.law)]),
-                     std::string(name), now.sweep, now.residual, now.error, now.penetration,
-                     reached ? "ok" : "not_converged", reached ? "" : "sweeps spent"});
-    }
+    each_drawn(run, [&](const DualSample& now, const char* status, const char* reason) {
+      traces_.row({of.scene, law_of(of), std::string(name), now.sweep, now.residual, now.error,
+                   now.penetration, status, reason});
+    });
   }
 
   /// The exponent is fitted from sweep `first` on.
@@ -147,15 +156,10 @@ class DualTables {
   }
 
   void deformable(const DualCase& of, std::string_view name, const DualTrace& run) {
-    const bool reached = run.samples.back().residual <= dual_solved;
-    for (std::size_t k = 0; k < run.samples.size(); ++k) {
-      const DualSample& now = run.samples[k];
-      if (drawn(k, run.samples.size()))
-        deformables_.row({of.scene, std::string(friction_law_names[static_cast<std::size_t>(of.law)]),
-                          std::string(name), std::int64_t{of.problem.contacts()},
-                          std::int64_t{of.problem.rows()}, now.sweep, now.residual, now.error,
-                          reached ? "ok" : "not_converged", reached ? "" : "sweeps spent"});
-    }
+    each_drawn(run, [&](const DualSample& now, const char* status, const char* reason) {
+      deformables_.row({of.scene, law_of(of), std::string(name), std::int64_t{of.problem.contacts()},
+                        std::int64_t{of.problem.rows()}, now.sweep, now.residual, now.error, status, reason});
+    });
     // The step of jacobi rests on an estimate; gauss_seidel minimises block by block, whatever the rows.
     if (of.law == FrictionLaw::cone && name == "gauss_seidel")
       all_rises[std::string(name)].add(static_cast<double>(run.rises()));

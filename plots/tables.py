@@ -7,7 +7,8 @@ ORDER_ERRORS = "scene integrator alpha outer relaxation step_s error order error
 SCENES = ("scene step_s duration_s bodies nodes elements most_contacts most_rows steps steps_ok outer_iterations sweeps frame_wall_s "
           "overlap_share overlap_share_at_end bilateral_error_m driven excess_share rest_share judged_steps refuted_steps status reason")
 FRAMES = ("scene nodes step_s step time_s tolerance status reason error error_of_scale nearest_start nearest_error_m "
-          "nearest_error_of_scale reference reference_status reference_reason reference_residual reference_wall_s")
+          "nearest_error_of_scale reference reference_status reference_reason reference_residual reference_wall_s "
+          "claim_residual")
 ORDERS = "scene integrator alpha outer relaxation order order_expected levels step_s error behaviour status reason"
 SCHEME = "scene family integrator outer relaxation direction_blend stabilisation "  # of constraints' directions
 CONES = ("family number contacts condition law relaxation tolerance natural_residual gap feasibility error_m_per_s "

@@ -18,6 +18,7 @@ class Cones {
       : law_(law), solver_(solver), work_(std::move(work)) {}
 
   bool spent() const { return work_.spent(); }
+  FrictionLaw law() const { return law_; }
 
   Vector solve(const ConeProblem& problem, const Vector& last);
 

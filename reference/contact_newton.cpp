@@ -21,9 +21,7 @@ FrictionLaw law_of(Friction friction) {
                    "coulomb, cone: the laws that the judges of contact know");
 }
 
-constexpr double allowed = 1e-9;  // of the displacement, or of the largest balanced force
-
-/// What corrections and gaps are measured by, m: the displacement, or if that is more what is `allowed` of it
+/// What corrections and gaps are measured by, m: the displacement, or if that is more what is allowed of it
 /// to know the rounding of positions, and of what forces that balance each other make of them.
 double scale_of(const ContactStep& own, const Vector& velocity, const Vector& gamma) {
   Vector magnitude = system_at(own.step, velocity, gamma).magnitude;
@@ -33,7 +31,8 @@ double scale_of(const ContactStep& own, const Vector& velocity, const Vector& ga
   const double by_forces =
       h * h * magnitude.cwiseProduct(model.radius).cwiseQuotient(model.inertia).maxCoeff();
   const double places = own.step.end(velocity).x.cwiseAbs().maxCoeff();
-  return std::max(displacement_of(own.step, velocity), step_rounding * std::max(places, by_forces) / allowed);
+  return std::max(displacement_of(own.step, velocity),
+                  step_rounding * std::max(places, by_forces) / allowed_residual);
 }
 
 /// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
@@ -52,15 +51,15 @@ struct StepSearch {
   Cones cones;
   Vector velocity, gamma;
   bool features_kept = false;
+  bool came_near = false;  // from then on features are those of the iterates alone
   int iterations = 0;
   double correction = infinity;  // of the displacement
 
   /// Newton until its corrections are at rounding.
   bool run() {
     constexpr int most = 60;
-    constexpr double near = 1e-3, converged = allowed, rounding = 1e-14;
+    constexpr double near = 1e-3, converged = allowed_residual, rounding = 1e-14;
     double previous = infinity;
-    bool came_near = false;  // from then on features are those of the iterates alone
     for (; iterations < most; ++iterations) {
       came_near = came_near || correction < near;
       step.find_contacts(velocity, features_kept || !came_near);
@@ -83,6 +82,55 @@ struct StepSearch {
       previous = correction;
     }
     return false;
+  }
+
+  /// What is left of the equations, of their scales, by the features that are there now.
+  void measure(ContactJudgement& j) {
+    report(step.step, velocity, gamma, j);
+    const RigidSystem system = system_at(step.step, velocity, gamma);
+    Vector magnitude = system.magnitude;
+    const Vector force = system.force(gamma) - step.push(velocity, magnitude);
+    const Vector per_length = step.step.model.radius.cwiseInverse();
+    j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
+                 std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
+    j.contacts = static_cast<int>(std::count_if(step.contacts.begin(), step.contacts.end(),
+                                                [](const JudgedContact& each) { return each.force[0] > 0; }));
+    j.all = step.contacts;
+    j.law = larger(step.law_residual(cones.law(), velocity), step.bounds_residual(system, gamma));
+    // What rests is measured by what it would do without contacts.
+    const double scale = std::max(scale_of(step, velocity, gamma), step.free_displacement());
+    step.find_contacts(velocity, features_kept);  // others may be in each other by now
+    j.law = larger(j.law, step.law_residual(cones.law(), velocity)) * step.step.h / scale;
+  }
+
+  /// What is in others where it ends; empty if nothing is.
+  std::string overlap() const {
+    Findings deep;
+    depths_of(step, scene, velocity, deep);
+    if (deep.refuted.empty()) return {};
+    std::ostringstream text;
+    text << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
+    return text.str();
+  }
+
+  /// Begins where somebody claims that the step ends.
+  void take(const StepClaim& claim) {
+    RigidStep ended = step.step;
+    ended.start = claim.end;
+    velocity = ended.start_velocity();
+    if (Vector told; gather_forces(claim, step.step.model, told) && told.allFinite()) gamma = told;
+    came_near = !features_kept;
+    step.find_contacts(velocity, features_kept);
+    step.take_forces(claim.contacts, velocity);
+  }
+
+  /// What is left of the equations where it begins, of their scales; infinite if shapes are in each other.
+  double residual_here() const {
+    StepSearch here = *this;
+    here.step.collide(velocity);
+    ContactJudgement j;
+    here.measure(j);
+    return here.overlap().empty() ? larger(larger(j.residual, j.infeasible), j.law) : infinity;
   }
 
   /// Whether shapes are in each other where it ends, and part by ways that it did not know.
@@ -122,50 +170,29 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   search.velocity = own.step.start_velocity();
   search.gamma.setZero(own.step.model.rows());
   search.features_kept = start.features_kept;
-  if (const StepClaim* near = start.near; near != nullptr) {
-    RigidStep ended = own.step;
-    ended.start = near->end;
-    search.velocity = ended.start_velocity();
-    if (Vector told; gather_forces(*near, own.step.model, told) && told.allFinite()) search.gamma = told;
-    own.find_contacts(search.velocity, true);
-    own.take_forces(near->contacts, search.velocity);
+  ContactJudgement j;
+  if (start.near != nullptr) {
+    search.take(*start.near);
+    j.claim_residual = search.residual_here();
   }
   const bool converged = search.run();
-  ContactJudgement j;
-  report(own.step, search.velocity, search.gamma, j);
-  const RigidSystem system = system_at(own.step, search.velocity, search.gamma);
-  Vector magnitude = system.magnitude;
-  const Vector force = system.force(search.gamma) - own.push(search.velocity, magnitude);
-  const Vector per_length = own.step.model.radius.cwiseInverse();
-  j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
-               std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
-  j.contacts = static_cast<int>(std::count_if(own.contacts.begin(), own.contacts.end(),
-                                              [](const JudgedContact& each) { return each.force[0] > 0; }));
-  j.all = own.contacts;
-  j.law = larger(own.law_residual(law, search.velocity), own.bounds_residual(system, search.gamma));
-  const double scale = scale_of(own, search.velocity, search.gamma);
-  own.find_contacts(search.velocity, start.features_kept);  // others may be in each other by now
-  j.law = larger(j.law, own.law_residual(law, search.velocity)) * h / scale;
+  search.measure(j);
   j.correction = search.correction;
   j.iterations = search.iterations;
   j.rank = -1;
   std::ostringstream reason;
-  const auto say = [&reason]() -> std::ostringstream& {
-    if (!reason.str().empty()) reason << ", ";
-    return reason;
-  };
   if (search.cones.spent())
-    say() << "gave up after " << search.iterations << " iterations: " << start.work
-          << " factorisations of the contacts' problem are spent";
+    reason << "gave up after " << search.iterations << " iterations: " << start.work
+           << " factorisations of the contacts' problem are spent";
   else if (!converged)
-    say() << "stopped after " << search.iterations << " iterations, the last correction " << j.correction;
+    reason << "stopped after " << search.iterations << " iterations, the last correction " << j.correction;
+  const auto say = [&reason]() -> std::ostream& { return reason << (reason.str().empty() ? "" : ", "); };
   for (const auto& [name, off] :
        {std::pair{"forces", j.residual}, {"constraints", j.infeasible}, {"contacts", j.law}})
-    if (converged && !(off <= allowed)) say() << name << " off by " << off << ", allowed " << allowed;
-  Findings deep;
-  if (converged) depths_of(own, scene, search.velocity, deep);
-  if (!deep.refuted.empty())
-    say() << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
+    if (converged && !(off <= allowed_residual))
+      say() << name << " off by " << off << ", allowed " << allowed_residual;
+  if (converged)
+    if (const std::string text = search.overlap(); !text.empty()) say() << text;
   j.reason = reason.str();
   j.outcome = j.reason.empty() ? Outcome::ok : Outcome::not_converged;
   j.seconds = clock.seconds();

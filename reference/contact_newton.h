@@ -14,7 +14,9 @@
 // in each other get the features that part them soonest, however these were at the step's start, and it goes
 // on.
 //
-// With a map of ContactStart it is that integrator's step. After the work of ContactStart it gives up.
+// With a map of ContactStart it is that integrator's step. After the work of ContactStart it gives up. Where
+// solutions lie beside each other, Newton's method from what is claimed ends at another one: `claim_residual`
+// tells what the claim leaves as it is.
 //
 // Limits: no damped point joints or attachments, and not the laws box and disc. Overlaps that a missed step
 // has left part as `recovery` says, not by a tenth. Coulomb's law may have several solutions, and where it
@@ -27,7 +29,8 @@ namespace pbd::reference {
 
 struct ContactJudgement : Judgement {
   int contacts = 0;  // that carry a force
-  double law = 0;    // residual of their law, times h over the displacement
+  double law =
+      0;  // residual of their law, times h over the displacement, or the free motion's if that is more
   std::vector<JudgedContact> all{};
 };
 

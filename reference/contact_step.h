@@ -74,6 +74,9 @@ struct ContactStep {
   /// Throws SetupError for what the judge does not know.
   ContactStep(const Scene& scene, const State& state, double h, const std::optional<IntegratorMap>& map = {});
 
+  /// How far a node goes in the free motion, without joints and contacts, m.
+  double free_displacement() const { return (free_end_.x - start_.x).cwiseAbs().maxCoeff(); }
+
   /// A contact's compliance for what `force` is: it acts over s, not h.
   double compliance_of(const JudgedContact& own) const { return own.compliance * step.s() / step.h; }
 

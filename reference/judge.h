@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,10 @@ struct Judgement {
   int rank = 0;            // of the hard constraints' Jacobian; -1 where the judge does not find it
   int iterations = 0;
   double seconds = 0;
+  /// What a claim that a judge of contact started from leaves of its equations: the largest of `residual`,
+  /// `infeasible` and how far a contact is off its law, all of their scales. Infinite where shapes are in
+  /// each other, NaN without a claim.
+  double claim_residual = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Shown every iterate: seconds spent so far (observers excluded) and positions.
@@ -53,6 +58,10 @@ struct NamedJudge {
 
 /// Of scenes without contact: primal_newton and ipopt.
 std::span<const NamedJudge> judges();
+
+/// What a solution may leave of the equations of a judge of contact, of their scales: the largest balanced
+/// force, the displacement, and of contacts' law that of the free motion if it is more.
+inline constexpr double allowed_residual = 1e-9;
 
 /// What a judge of contact spends on a step before it gives up: factorisations of 100 rows, of 0.2 ms each.
 inline constexpr double default_contact_work = 2e4;

@@ -15,19 +15,23 @@ namespace pbdcheck {
 
 std::string SampledSteps::quantity() const {
   std::string text =
-      fmt::format("distance over the step's scale, of {} of {} sampled steps", judged(), sampled);
-  if (judged() > 0) text += fmt::format(" ({})", nearest.owner());
+      fmt::format("distance over the step's scale, of {} of {} sampled steps", compared(), sampled);
+  if (compared() > 0) text += fmt::format(" ({})", nearest.owner());
   if (missed > 0) text += fmt::format("; {} missed their tolerance", missed);
   if (unknown > 0) text += fmt::format("; {} the judge does not know", unknown);
+  if (others > 0)
+    text += fmt::format("; {} fulfil the judge's equations to {:g}, next to no solution that it finds",
+                        others, pbd::reference::allowed_residual);
   return text;
 }
 
 JudgedFrames::JudgedFrames(Context& context, std::string_view table)
     : context_(context),
-      table_(context.table(
-          table, {"scene", "nodes", "step_s", "step", "time_s", "tolerance", "status", "reason", "error",
-                  "error_of_scale", "nearest_start", "nearest_error_m", "nearest_error_of_scale", "reference",
-                  "reference_status", "reference_reason", "reference_residual", "reference_wall_s"})) {}
+      table_(
+          context.table(table, {"scene", "nodes", "step_s", "step", "time_s", "tolerance", "status", "reason",
+                                "error", "error_of_scale", "nearest_start", "nearest_error_m",
+                                "nearest_error_of_scale", "reference", "reference_status", "reference_reason",
+                                "reference_residual", "reference_wall_s", "claim_residual"})) {}
 
 void JudgedFrames::run(const JudgedScene& each, double tolerance, SampledSteps& of_all) {
   constexpr std::int64_t more = 5;
@@ -56,6 +60,8 @@ void JudgedFrames::run(const JudgedScene& each, double tolerance, SampledSteps& 
       ++of_all.missed;
     else if (judged.reference.status == "not_judged")
       ++of_all.unknown;
+    else if (judged.is_another())
+      ++of_all.others;
     else
       of_all.nearest.add(judged.nearest.of_scale, fmt::format("{}, step {}", each.name, k));
     table_.row({std::string(each.name), std::int64_t{file.scene.nodes()}, file.step_s, k, begun.time,
@@ -63,7 +69,7 @@ void JudgedFrames::run(const JudgedScene& each, double tolerance, SampledSteps& 
                 std::string(report.reason), judged.own.relative, judged.own.of_scale,
                 std::string(judge_start_names[static_cast<std::size_t>(judged.start)]), judged.nearest.metres,
                 judged.nearest.of_scale, reference, judged.reference.status, judged.reference.reason,
-                judged.reference.residual, judged.reference.seconds});
+                judged.reference.residual, judged.reference.seconds, judged.residual});
   }
   context_.advance(fmt::format("{} to {:g}", each.name, tolerance));
 }

@@ -32,7 +32,8 @@ Judged judged_of(const pbd::Scene& scene, const pbd::State& state, double h,
           judged.reason,
           judged.iterations,
           judged.seconds,
-          judged.residual};
+          judged.residual,
+          judged.claim_residual};
 }
 
 /// Whether limits or limited forces are among its constraints.

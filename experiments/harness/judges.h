@@ -1,6 +1,7 @@
 // The references, as the program's commands see them.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct Judged {
   int iterations = 0;
   double seconds = 0;
   double residual = 0;
+  double claim_residual = std::nan("");  // reference/judge.h
 };
 
 /// The step of h seconds from `state` by a reference, its contacts by the law `friction`: implicit Euler's,

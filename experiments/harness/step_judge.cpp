@@ -51,7 +51,9 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
   for (const auto& [kept, start] :
        {std::pair{false, JudgeStart::claim}, {true, JudgeStart::claim_and_features_kept}}) {
     if (judged.nearest.of_scale <= claim.tolerance || !knows_contact(reference)) break;
-    const StepDistance other = distance(claim, judge_near(reference, claim, kept, map));
+    const Judged near = judge_near(reference, claim, kept, map);
+    if (start == JudgeStart::claim) judged.residual = near.claim_residual;
+    const StepDistance other = distance(claim, near);
     if (std::isnan(other.of_scale) || other.of_scale >= judged.nearest.of_scale / 2) continue;
     judged.nearest = other;
     judged.start = start;
@@ -67,7 +69,7 @@ StepJudge::StepJudge(const std::filesystem::path& directory, std::string referen
       table_(directory / "judged.csv",
              {"step", "time_s", "step_s", "solver_status", "tolerance", "error", "error_m", "error_of_scale",
               "nearest_start", "nearest_error_m", "nearest_error_of_scale", "reference", "status", "reason",
-              "reference_residual", "reference_iterations", "wall_s"},
+              "reference_residual", "reference_iterations", "wall_s", "claim_residual"},
              &totals_) {}
 
 void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, const pbd::Report& report) {
@@ -75,9 +77,11 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
   const JudgedClaim judged = judge_claim(reference_, claim, map ? &*map : nullptr);
   const double nearest = judged.nearest.of_scale;
   ++judged_;
-  unsolved_ += std::isnan(nearest);
+  unsolved_ += std::isnan(nearest) && !judged.is_another();
   if (report.status != pbd::Status::ok) {
     ++missed_;
+  } else if (judged.is_another()) {
+    ++others_;
   } else if (!std::isnan(nearest)) {
     const bool by_itself = judged.reference.status == "ok";
     ++compared_;
@@ -93,7 +97,7 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
               judged.own.relative, judged.own.metres, judged.own.of_scale,
               std::string(judge_start_names[static_cast<std::size_t>(judged.start)]), judged.nearest.metres,
               nearest, reference_, own.status, own.reason, own.residual, std::int64_t{own.iterations},
-              own.seconds});
+              own.seconds, judged.residual});
 }
 
 std::string StepJudge::text() const {
@@ -105,6 +109,9 @@ std::string StepJudge::text() const {
         "; {} end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance refers to "
         "(step {})",
         compared_ < judged_ ? "the others" : "they", worst_error_m_, worst_error_of_scale_, worst_step_);
+  if (others_ > 0)
+    text += fmt::format("; {} fulfil its equations to {:g} as they are, next to no solution that it finds",
+                        others_, pbd::reference::allowed_residual);
   if (from_claim_alone_ > 0)
     text += fmt::format("; {} of them the reference solved from what is claimed alone", from_claim_alone_);
   if (ambiguous_ > 0) text += fmt::format("; {} at another one than the reference by itself", ambiguous_);

@@ -4,8 +4,10 @@
 // That may be more than the tolerance, which bounds residuals. Where it is, a reference that knows contact
 // starts again from what the solver claims: Coulomb's law may have several solutions, and then it ends next
 // to the solver. And it starts so with the features that are near where the step begins, with which the
-// solver goes on (solver/effects/contact.h), as far as it states the same ones. A distance that is left may
-// be either's fault, or come from how each states what touches.
+// solver goes on (solver/effects/contact.h), as far as it states the same ones. Where solutions lie beside
+// each other a reference ends at another one all the same: then what is claimed may be told a solution by
+// what it leaves of the reference's own equations. A distance that is left else may be either's fault, or
+// come from how each states what touches.
 #pragma once
 
 #include <cmath>
@@ -33,11 +35,22 @@ inline constexpr std::array<std::string_view, 3> judge_start_names{"own", "claim
 inline constexpr std::string_view not_judged_if_met =
     "contacts act that met on the way of the step: the judge knows those where it ends";
 
+/// Of the scale: an end that is nearer to a solution is next to it.
+inline constexpr double next_to_solution = 1e-6;
+
 /// What a reference says of a claim: by itself, and from the start from which it ends nearest to the claim.
 struct JudgedClaim {
   Judged reference;
   StepDistance own, nearest;
   JudgeStart start = JudgeStart::own;
+  /// What the claim leaves of the reference's equations (reference/judge.h); NaN where it did not start from
+  /// it.
+  double residual = std::nan("");
+
+  /// It is a solution as it is, and next to none that the reference finds.
+  bool is_another() const {
+    return !(nearest.of_scale <= next_to_solution) && residual <= pbd::reference::allowed_residual;
+  }
 };
 
 /// `map` is that of another integrator than implicit Euler. Steps in which contacts act that met on the way
@@ -75,7 +88,9 @@ class StepJudge {
   std::int64_t by_features() const { return by_features_; }
   /// That the reference solved from what is claimed alone.
   std::int64_t from_claim_alone() const { return from_claim_alone_; }
-  /// Of steps that both solved, from the nearest solution: m, and a share of the scale; NaN of none.
+  /// That are solutions as they are, and next to none that the reference finds.
+  std::int64_t others() const { return others_; }
+  /// Of other steps that both solved, from the nearest solution: m, and a share of the scale; NaN of none.
   double worst_error_m() const { return worst_error_m_; }
   double worst_error_of_scale() const { return worst_error_of_scale_; }
 
@@ -85,7 +100,7 @@ class StepJudge {
  private:
   std::string reference_;
   std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, compared_ = 0, ambiguous_ = 0,
-               by_features_ = 0, from_claim_alone_ = 0, worst_step_ = 0;
+               by_features_ = 0, from_claim_alone_ = 0, others_ = 0, worst_step_ = 0;
   double worst_error_m_ = std::nan(""), worst_error_of_scale_ = std::nan("");
   pbd::reference::IntegratorMemory memory_;
   TableTotals totals_;

@@ -19,7 +19,7 @@ TEST_CASE("sampled steps that miss their tolerance are counted, and are not comp
              1e-12, spent);
   frames.close();
   CHECK(solved.sampled == 2);
-  CHECK(solved.judged() == 2);
+  CHECK(solved.compared() == 2);
   CHECK(solved.nearest.value() <= 1e-6);  // as `judged_frames` asks at this tolerance
   CHECK(spent.sampled == 2);
   CHECK(spent.missed == 2);

@@ -2,6 +2,7 @@
 #include "harness/step_checks.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "harness/step_judge.h"
 #include "results.h"
@@ -35,6 +36,21 @@ TEST_CASE("what collides with a face is pushed as far off it as it ends, by the 
         "cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report));
     CHECK(judged.nearest.of_scale <= 1e-6);  // as `judged_frames` asks at this tolerance
   }
+}
+
+TEST_CASE("a claim is another solution where it is next to none and leaves what a solution may") {
+  const double none = std::nan(""), left = pbd::reference::allowed_residual;
+  const auto is_another = [](double nearest, double residual) {
+    JudgedClaim judged{{}, {}, {}};
+    judged.nearest.of_scale = nearest;
+    judged.residual = residual;
+    return judged.is_another();
+  };
+  CHECK(is_another(2 * next_to_solution, left));
+  CHECK(is_another(none, left));
+  CHECK_FALSE(is_another(next_to_solution, left));
+  CHECK_FALSE(is_another(2 * next_to_solution, 2 * left));
+  CHECK_FALSE(is_another(2 * next_to_solution, none));
 }
 
 TEST_CASE("no step of a scene that comes with the program is refuted") {

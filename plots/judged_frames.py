@@ -2,19 +2,14 @@
 
 import numpy as np
 
-from common import figure, footnote, on_log, panels, shared_legend
+from common import draw_failed, figure, footnote, on_log, panels, shared_legend
 from finding import finding
+from reading import NEXT_TO_SOLUTION, solves_as_it_is
 from styles import BLACK, BLUE, GREEN, ORANGE
 from wording import counted, number, share
 
 LOOKS = {1e-4: ORANGE, 1e-6: GREEN, 1e-8: BLUE}
 FILLED = "own"  # the judge's own solution; hollow are those it finds from what the solver claims
-NEXT_TO_SOLUTION, ALLOWED_RESIDUAL = 1e-6, 1e-9  # of the scale, as the program's
-
-
-def is_another(frame):
-    """Of each step whether it is a solution as it is, next to none that the judge finds."""
-    return (~(frame["nearest_error_of_scale"] <= NEXT_TO_SOLUTION) & (frame["claim_residual"] <= ALLOWED_RESIDUAL)).to_numpy()
 
 
 @figure("figure_1", "distance", table="frames")
@@ -29,21 +24,22 @@ def distance(frame):
             judged = rows[rows["status"].eq("ok")]
             values = on_log(judged["nearest_error_of_scale"])
             ax.plot(judged["time_s"], values, color=look, linewidth=0.6, label=f"tolerance {number(tolerance)}")
-            another = is_another(judged)
+            as_it_is = solves_as_it_is(judged)
             own = judged["nearest_start"].eq(FILLED).to_numpy()
-            for these, marker, fill in ((own & ~another, ".", "full"), (~own & ~another, "o", "none"), (another, "x", "full")):
+            for these, marker, fill in ((own & ~as_it_is, ".", "full"), (~own & ~as_it_is, "o", "none")):
                 ax.plot(judged["time_s"][these], np.asarray(values)[these], marker, color=look, markersize=4, fillstyle=fill)
+            draw_failed(ax, judged[as_it_is], "time_s", "nearest_error_of_scale", {"color": look, "marker": "o"})
             ax.axhline(tolerance, color=look, linewidth=0.5, linestyle="dotted")
         ax.set(xlabel="time (s)", title=scene.replace("_", " "), yscale="log")
     axes[0].set_ylabel("distance over the scale")
     shared_legend(fig, axes)
     last = frame[np.isclose(frame["tolerance"], frame["tolerance"].min()) & frame["status"].eq("ok")]
     near = int((last["nearest_error_of_scale"] <= NEXT_TO_SOLUTION).sum())
-    others = int(is_another(last).sum())
+    as_they_are = int(solves_as_it_is(last).sum())
     finding(fig, f"{share(near, len(last))} steps solved to {number(frame['tolerance'].min())} end within 1e-6 of a judge's solution"
-            + (f", {others} more fulfil its equations" if others else ""))
+            + (f"; of the others {as_they_are} solve its equations" if as_they_are else ""))
     unknown = int(frame["reference_status"].eq("not_judged").sum())
     footnote(fig, "Dotted: the tolerance. Circles: a solution that the judge finds from what the solver claims."
-             + (" Crosses: none next to it, but the judge's equations hold there to 1e-9." if is_another(frame).any() else "")
+             + (" Crossed: a solution by the judge's equations, to 1e-9, next to none that it finds." if solves_as_it_is(frame).any() else "")
              + (f" Not drawn: {counted(unknown, 'step')} that the judge does not know." if unknown else ""))
     return fig

@@ -191,3 +191,11 @@ def provenance(run):
     commit = run["commit"][:10] + (" (modified)" if run["dirty"] else "")
     return " | ".join([f"pbdcheck {run['version']}", f"commit {commit}", f"tier {run['tier']}", run["compiler"],
                        run["processor"], f"{run['threads']} thread(s)"])
+
+
+NEXT_TO_SOLUTION, ALLOWED_RESIDUAL = 1e-6, 1e-9  # of the scale, and of the judge's equations, as the program has them
+
+
+def solves_as_it_is(frame):
+    """Of each step whether it is a solution by the judge's equations, next to none that the judge finds."""
+    return (~(frame["nearest_error_of_scale"] <= NEXT_TO_SOLUTION) & (frame["claim_residual"] <= ALLOWED_RESIDUAL)).to_numpy()

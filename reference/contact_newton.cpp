@@ -45,13 +45,42 @@ WaysOut depths_of(const ContactStep& own, const Scene& scene, const Vector& velo
   return check_depths(claim, own.contact, 0, overlooked, findings);
 }
 
+/// The largest unbalanced force on a node or a body, of all that act on it and no less than rounding makes of
+/// the largest force of all.
+double force_residual(const RigidModel& model, const Vector& force, const Vector& magnitude) {
+  const Vector per_length = model.radius.cwiseInverse(), all = magnitude.cwiseProduct(per_length);
+  Vector acting(all.size());
+  for (Eigen::Index i = 0; i < all.size(); i += 3)
+    acting.segment<3>(i).setConstant(all.segment<3>(i).maxCoeff());
+  for (const Rotor& rotor : model.rotors)
+    if (const int turn = rotor.unknown, shift = model.nodes.first[static_cast<std::size_t>(rotor.node)];
+        turn >= 0 && shift >= 0) {
+      const double larger_one = std::max(acting[turn], acting[shift]);
+      acting.segment<3>(turn).setConstant(larger_one);
+      acting.segment<3>(shift).setConstant(larger_one);
+    }
+  const double least = std::max(step_rounding / allowed_residual * all.maxCoeff(), 1e-300);
+  return force.cwiseProduct(per_length).cwiseAbs().cwiseQuotient(acting.cwiseMax(least)).maxCoeff();
+}
+
+/// The largest |c + A gamma| of a row without bounds, over the length of its gradient, m.
+double row_residual(const ContactStep& own, const RigidSystem& system, const Vector& gamma) {
+  const RigidModel& model = own.step.model;
+  const Vector ones = Vector::Ones(model.unknowns),
+               squares = squared_rows(scaled(system.jacobian, model.radius.cwiseInverse()), ones);
+  Vector missed = system.gap(gamma).cwiseAbs();
+  for (const BoundedRow& bounded : own.bounded) missed[bounded.row] = 0;
+  for (Eigen::Index row = 0; row < missed.size(); ++row)
+    if (squares[row] > 0) missed[row] /= std::sqrt(squares[row]);
+  return missed.size() > 0 ? missed.maxCoeff() : 0;
+}
+
 struct StepSearch {
   const Scene& scene;
   ContactStep step;
   Cones cones;
   Vector velocity, gamma;
   bool features_kept = false;
-  bool came_near = false;  // from then on features are those of the iterates alone
   int iterations = 0;
   double correction = infinity;  // of the displacement
 
@@ -60,6 +89,7 @@ struct StepSearch {
     constexpr int most = 60;
     constexpr double near = 1e-3, converged = allowed_residual, rounding = 1e-14;
     double previous = infinity;
+    bool came_near = false;  // from then on features are those of the iterates alone
     for (; iterations < most; ++iterations) {
       came_near = came_near || correction < near;
       step.find_contacts(velocity, features_kept || !came_near);
@@ -84,6 +114,11 @@ struct StepSearch {
     return false;
   }
 
+  /// m/s, of contacts and of bounded rows.
+  double law_residual(const RigidSystem& system) const {
+    return larger(step.law_residual(cones.law(), velocity), step.bounds_residual(system, gamma));
+  }
+
   /// What is left of the equations, of their scales, by the features that are there now.
   void measure(ContactJudgement& j) {
     report(step.step, velocity, gamma, j);
@@ -96,9 +131,8 @@ struct StepSearch {
     j.contacts = static_cast<int>(std::count_if(step.contacts.begin(), step.contacts.end(),
                                                 [](const JudgedContact& each) { return each.force[0] > 0; }));
     j.all = step.contacts;
-    j.law = larger(step.law_residual(cones.law(), velocity), step.bounds_residual(system, gamma));
-    // What rests is measured by what it would do without contacts.
-    const double scale = std::max(scale_of(step, velocity, gamma), step.free_displacement());
+    j.law = law_residual(system);
+    const double scale = scale_of(step, velocity, gamma);
     step.find_contacts(velocity, features_kept);  // others may be in each other by now
     j.law = larger(j.law, step.law_residual(cones.law(), velocity)) * step.step.h / scale;
   }
@@ -113,24 +147,28 @@ struct StepSearch {
     return text.str();
   }
 
-  /// Begins where somebody claims that the step ends.
-  void take(const StepClaim& claim) {
+  /// Begins where somebody claims that the step ends, with the forces that are claimed.
+  void take(const StepClaim& claim, bool also_start) {
     RigidStep ended = step.step;
     ended.start = claim.end;
-    velocity = ended.start_velocity();
+    const Vector start = step.step.start_velocity();
+    velocity = start + (ended.start_velocity() - start) / step.step.extension();
     if (Vector told; gather_forces(claim, step.step.model, told) && told.allFinite()) gamma = told;
-    came_near = !features_kept;
-    step.find_contacts(velocity, features_kept);
+    step.find_contacts(velocity, also_start);
     step.take_forces(claim.contacts, velocity);
   }
 
-  /// What is left of the equations where it begins, of their scales; infinite if shapes are in each other.
-  double residual_here() const {
-    StepSearch here = *this;
-    here.step.collide(velocity);
-    ContactJudgement j;
-    here.measure(j);
-    return here.overlap().empty() ? larger(larger(j.residual, j.infeasible), j.law) : infinity;
+  /// What is left of the equations where it is, as Judgement::claim_residual.
+  double left() {
+    if (!velocity.allFinite()) return std::nan("");
+    step.collide(velocity);
+    const RigidSystem system = system_at(step.step, velocity, gamma);
+    Vector magnitude = system.magnitude;
+    const Vector force = system.force(gamma) - step.push(velocity, magnitude);
+    const double missed = std::max(row_residual(step, system, gamma), step.step.h * law_residual(system));
+    const double scale = std::max(scale_of(step, velocity, gamma), step.free_displacement());
+    return overlap().empty() ? std::max(force_residual(step.step.model, force, magnitude), missed / scale)
+                             : infinity;
   }
 
   /// Whether shapes are in each other where it ends, and part by ways that it did not know.
@@ -172,8 +210,10 @@ ContactJudgement contact_newton(const Scene& scene, const State& state, double h
   search.features_kept = start.features_kept;
   ContactJudgement j;
   if (start.near != nullptr) {
-    search.take(*start.near);
-    j.claim_residual = search.residual_here();
+    StepSearch as_claimed = search;
+    as_claimed.take(*start.near, false);
+    j.claim_residual = as_claimed.left();
+    search.take(*start.near, true);
   }
   const bool converged = search.run();
   search.measure(j);

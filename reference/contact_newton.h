@@ -29,8 +29,7 @@ namespace pbd::reference {
 
 struct ContactJudgement : Judgement {
   int contacts = 0;  // that carry a force
-  double law =
-      0;  // residual of their law, times h over the displacement, or the free motion's if that is more
+  double law = 0;    // residual of their law, times h over the displacement
   std::vector<JudgedContact> all{};
 };
 

@@ -41,9 +41,10 @@ struct Judgement {
   int rank = 0;            // of the hard constraints' Jacobian; -1 where the judge does not find it
   int iterations = 0;
   double seconds = 0;
-  /// What a claim that a judge of contact started from leaves of its equations: the largest of `residual`,
-  /// `infeasible` and how far a contact is off its law, all of their scales. Infinite where shapes are in
-  /// each other, NaN without a claim.
+  /// What the velocities and forces of a claim that a judge of contact started from leave of its equations,
+  /// by the features that are there: the largest unbalanced force on a node or a body, of those that act on
+  /// it, and how far a constraint or a contact's law is missed, of the displacement or the free motion's.
+  /// Infinite where shapes are in each other; NaN without a claim or of what is not finite.
   double claim_residual = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -59,8 +60,7 @@ struct NamedJudge {
 /// Of scenes without contact: primal_newton and ipopt.
 std::span<const NamedJudge> judges();
 
-/// What a solution may leave of the equations of a judge of contact, of their scales: the largest balanced
-/// force, the displacement, and of contacts' law that of the free motion if it is more.
+/// What a solution may leave of the equations of a judge of contact, of their scales.
 inline constexpr double allowed_residual = 1e-9;
 
 /// What a judge of contact spends on a step before it gives up: factorisations of 100 rows, of 0.2 ms each.

@@ -35,7 +35,7 @@ nlohmann::ordered_json judged_json(const StepJudge& judge) {
           {"missed", judge.missed()},
           {"from_claim_alone", judge.from_claim_alone()},
           {"another_solution", judge.ambiguous()},
-          {"solutions_as_they_are", judge.others()},
+          {"solutions_as_they_are", judge.as_they_are()},
           {"features_of_the_begin", judge.by_features()},
           {"worst_error_m", judge.worst_error_m()},
           {"worst_error_of_scale", judge.worst_error_of_scale()}};

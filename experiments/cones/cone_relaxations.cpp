@@ -115,13 +115,7 @@ ConeProblem cone_problem(const Rows& rows, const Points& v_free) {
 
 Points moved_by(const Rows& rows, Points v_free, const Eigen::VectorXd& impulse) {
   each_in_order(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index row) {
-    // Not by block.apply: the linker would let the solver sweep by this less optimised instance of it.
-    const typename Block::Jacobian jacobian = block.jacobian[i];
-    const typename Block::Velocities push = jacobian.transpose() * impulse.segment<Block::rows>(row);
-    for (int k = 0; k < Block::nodes; ++k) {
-      const int node = block.node[i][static_cast<std::size_t>(k)];
-      v_free.col(node) += rows.inverse_mass[static_cast<std::size_t>(node)] * push.template segment<3>(3 * k);
-    }
+    block.apply(rows.inverse_mass, i, impulse.segment<Block::rows>(row), v_free);
   });
   return v_free;
 }

@@ -19,9 +19,10 @@ std::string SampledSteps::quantity() const {
   if (compared() > 0) text += fmt::format(" ({})", nearest.owner());
   if (missed > 0) text += fmt::format("; {} missed their tolerance", missed);
   if (unknown > 0) text += fmt::format("; {} the judge does not know", unknown);
-  if (others > 0)
-    text += fmt::format("; {} fulfil the judge's equations to {:g}, next to no solution that it finds",
-                        others, pbd::reference::allowed_residual);
+  if (as_they_are > 0)
+    text += fmt::format("; by the judge's equations, to {:g}, {} {} next to none that it finds",
+                        pbd::reference::allowed_residual, as_they_are,
+                        as_they_are > 1 ? "are solutions" : "is a solution");
   return text;
 }
 
@@ -60,8 +61,8 @@ void JudgedFrames::run(const JudgedScene& each, double tolerance, SampledSteps& 
       ++of_all.missed;
     else if (judged.reference.status == "not_judged")
       ++of_all.unknown;
-    else if (judged.is_another())
-      ++of_all.others;
+    else if (judged.solves_as_it_is())
+      ++of_all.as_they_are;
     else
       of_all.nearest.add(judged.nearest.of_scale, fmt::format("{}, step {}", each.name, k));
     table_.row({std::string(each.name), std::int64_t{file.scene.nodes()}, file.step_s, k, begun.time,

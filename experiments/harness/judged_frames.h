@@ -27,14 +27,14 @@ inline constexpr std::string_view cow_of_nodes = "solid.0.contact={ radius_m = 0
 /// What the judge makes of the sampled steps of some runs.
 struct SampledSteps {
   std::int64_t sampled = 0;
-  std::int64_t missed = 0;   // their tolerance; one that diverged ends its run
-  std::int64_t unknown = 0;  // to the judge, of the others
-  std::int64_t others = 0;   // solutions as they are, next to none that the judge finds
-  Worst nearest;             // of the rest, distance from a solution over the scale; NaN where none was found
+  std::int64_t missed = 0;       // their tolerance; one that diverged ends its run
+  std::int64_t unknown = 0;      // to the judge, of the others
+  std::int64_t as_they_are = 0;  // solutions as they are, next to none that the judge finds
+  Worst nearest;  // of the rest, distance from a solution over the scale; NaN where none was found
 
-  std::int64_t compared() const { return sampled - missed - unknown - others; }
+  std::int64_t compared() const { return sampled - missed - unknown - as_they_are; }
   /// "distance over the step's scale, of 8 of 12 sampled steps (stack, step 3); 2 missed their tolerance; 1
-  /// the judge does not know; 1 fulfils the judge's equations to 1e-9, next to no solution that it finds".
+  /// the judge does not know; by the judge's equations, to 1e-9, 1 is a solution next to none that it finds".
   std::string quantity() const;
 };
 

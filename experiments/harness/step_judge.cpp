@@ -52,7 +52,7 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
        {std::pair{false, JudgeStart::claim}, {true, JudgeStart::claim_and_features_kept}}) {
     if (judged.nearest.of_scale <= claim.tolerance || !knows_contact(reference)) break;
     const Judged near = judge_near(reference, claim, kept, map);
-    if (start == JudgeStart::claim) judged.residual = near.claim_residual;
+    if (!kept) judged.residual = near.claim_residual;
     const StepDistance other = distance(claim, near);
     if (std::isnan(other.of_scale) || other.of_scale >= judged.nearest.of_scale / 2) continue;
     judged.nearest = other;
@@ -77,11 +77,11 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
   const JudgedClaim judged = judge_claim(reference_, claim, map ? &*map : nullptr);
   const double nearest = judged.nearest.of_scale;
   ++judged_;
-  unsolved_ += std::isnan(nearest) && !judged.is_another();
+  unsolved_ += std::isnan(nearest);
   if (report.status != pbd::Status::ok) {
     ++missed_;
-  } else if (judged.is_another()) {
-    ++others_;
+  } else if (judged.solves_as_it_is()) {
+    ++as_they_are_;
   } else if (!std::isnan(nearest)) {
     const bool by_itself = judged.reference.status == "ok";
     ++compared_;
@@ -104,14 +104,15 @@ std::string StepJudge::text() const {
   std::string text = fmt::format("judged: {} steps by {}", judged_, reference_);
   if (unsolved_ > 0) text += fmt::format(", which did not solve, or does not know, {} of them", unsolved_);
   if (missed_ > 0) text += fmt::format("; {} missed their tolerance", missed_);
+  if (as_they_are_ > 0)
+    text += fmt::format("; by its equations, to {:g}, {} {} next to none that it finds",
+                        pbd::reference::allowed_residual, as_they_are_,
+                        as_they_are_ > 1 ? "are solutions" : "is a solution");
   if (compared_ > 0)
     text += fmt::format(
         "; {} end within {:.3g} m of a solution, and within {:.3g} of the scale that the tolerance refers to "
         "(step {})",
         compared_ < judged_ ? "the others" : "they", worst_error_m_, worst_error_of_scale_, worst_step_);
-  if (others_ > 0)
-    text += fmt::format("; {} fulfil its equations to {:g} as they are, next to no solution that it finds",
-                        others_, pbd::reference::allowed_residual);
   if (from_claim_alone_ > 0)
     text += fmt::format("; {} of them the reference solved from what is claimed alone", from_claim_alone_);
   if (ambiguous_ > 0) text += fmt::format("; {} at another one than the reference by itself", ambiguous_);

@@ -48,7 +48,7 @@ struct JudgedClaim {
   double residual = std::nan("");
 
   /// It is a solution as it is, and next to none that the reference finds.
-  bool is_another() const {
+  bool solves_as_it_is() const {
     return !(nearest.of_scale <= next_to_solution) && residual <= pbd::reference::allowed_residual;
   }
 };
@@ -89,7 +89,7 @@ class StepJudge {
   /// That the reference solved from what is claimed alone.
   std::int64_t from_claim_alone() const { return from_claim_alone_; }
   /// That are solutions as they are, and next to none that the reference finds.
-  std::int64_t others() const { return others_; }
+  std::int64_t as_they_are() const { return as_they_are_; }
   /// Of other steps that both solved, from the nearest solution: m, and a share of the scale; NaN of none.
   double worst_error_m() const { return worst_error_m_; }
   double worst_error_of_scale() const { return worst_error_of_scale_; }
@@ -100,7 +100,7 @@ class StepJudge {
  private:
   std::string reference_;
   std::int64_t every_ = 1, judged_ = 0, unsolved_ = 0, missed_ = 0, compared_ = 0, ambiguous_ = 0,
-               by_features_ = 0, from_claim_alone_ = 0, others_ = 0, worst_step_ = 0;
+               by_features_ = 0, from_claim_alone_ = 0, as_they_are_ = 0, worst_step_ = 0;
   double worst_error_m_ = std::nan(""), worst_error_of_scale_ = std::nan("");
   pbd::reference::IntegratorMemory memory_;
   TableTotals totals_;

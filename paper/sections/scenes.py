@@ -1,9 +1,10 @@
 """Scene files as a whole: the paper's three, and those with contact."""
 
 from content import Figure, Section, Table, counted, joined, number, share, span
+from reading import ALLOWED_RESIDUAL, solves_as_it_is
+from reading import NEXT_TO_SOLUTION as NEAR
 from selecting import scene_gates, step_text
 
-NEAR = 1e-6  # of the scale, the goal judged_frames.nearest
 MODELS = (
     "The paper shows three scenes in its first figure and tells no more of them. Here they are 125 boxes that fall on the ground, five "
     "rigid bunnies that fall on a cloth held at its corners, and a flexible cow that falls on the ground. Bunny and cow are surfaces of "
@@ -115,17 +116,21 @@ def judged_frames(results):
 def frames_text(frame):
     ok = frame[frame["status"] == "ok"]
     unknown = ok[ok["reference_status"] == "not_judged"]
+    as_they_are = solves_as_it_is(ok)
     missed, unsolved = len(frame) - len(ok), int(ok["nearest_error_of_scale"].isna().sum()) - len(unknown)
     itself = ok["reference_status"] == "ok"
     other = int(((ok["nearest_start"] != "own") & itself).sum())
     helped = int((ok["nearest_error_of_scale"].notna() & ~itself).sum())
     last = ok[ok["tolerance"] == frame["tolerance"].min()]
-    far = last[~(last["nearest_error_of_scale"] <= NEAR)]
+    far = last[~(last["nearest_error_of_scale"] <= NEAR) & ~solves_as_it_is(last)]
     text = (f"{counted(len(frame), 'step')} were sampled. {missed or 'None'} missed the solver's tolerance. Of the others the judge "
             f"{unknown_text(unknown)}left {unsolved or 'none'} unsolved, solved {helped or 'none'} only from what the solver claims, and found "
             f"{other or 'none'} beside another solution of its own: Coulomb's law may have several. ")
+    if as_they_are.any():
+        text += (f"{int(as_they_are.sum())} end next to no solution that it finds, and are solutions by its own equations, to "
+                 f"{number(ALLOWED_RESIDUAL)}: where solutions lie beside each other its way leads to another one. ")
     if far.empty:
-        return text + f"At the least tolerance every step ends within {number(NEAR)} of a solution."
+        return text + f"At the least tolerance every {'other ' if as_they_are.any() else ''}step ends within {number(NEAR)} of a solution."
     known = far[far["nearest_error_of_scale"].notna()]
     text += (f"At the least tolerance {len(far)} of {counted(len(last), 'step')} {'are' if len(far) > 1 else 'is'} not seen to end within "
              f"{number(NEAR)} of a solution")

@@ -40,17 +40,17 @@ TEST_CASE("what collides with a face is pushed as far off it as it ends, by the 
 
 TEST_CASE("a claim is another solution where it is next to none and leaves what a solution may") {
   const double none = std::nan(""), left = pbd::reference::allowed_residual;
-  const auto is_another = [](double nearest, double residual) {
+  const auto solves = [](double nearest, double residual) {
     JudgedClaim judged{{}, {}, {}};
     judged.nearest.of_scale = nearest;
     judged.residual = residual;
-    return judged.is_another();
+    return judged.solves_as_it_is();
   };
-  CHECK(is_another(2 * next_to_solution, left));
-  CHECK(is_another(none, left));
-  CHECK_FALSE(is_another(next_to_solution, left));
-  CHECK_FALSE(is_another(2 * next_to_solution, 2 * left));
-  CHECK_FALSE(is_another(2 * next_to_solution, none));
+  CHECK(solves(2 * next_to_solution, left));
+  CHECK(solves(none, left));
+  CHECK_FALSE(solves(next_to_solution, left));
+  CHECK_FALSE(solves(2 * next_to_solution, 2 * left));
+  CHECK_FALSE(solves(2 * next_to_solution, none));
 }
 
 TEST_CASE("no step of a scene that comes with the program is refuted") {

@@ -32,9 +32,10 @@ void check_spring(const ClaimedContact& c, const ContactSlack& open, double h, d
 void check_rebound(const StepClaim& claim, const ClaimedContact& c, const ContactSlack& open,
                    const Sides& sides, double slack, Findings& findings) {
   const int a = c.collider[0], b = c.collider[1];
-  if (!is_euler_step(claim) || explicit_forces(claim) || open.law.compliance > 0 || c.met ||
-      std::max(a, b) >= sides.count())
-    return findings.leave_out("rebound: by this integrator, of what gives way, met on the way, on surfaces");
+  const bool damped = open.law.compliance > 0 && open.law.damping > 0;
+  if (!is_euler_step(claim) || explicit_forces(claim) || damped || c.met || std::max(a, b) >= sides.count())
+    return findings.leave_out(
+        "rebound: by this integrator, of what a damper holds, met on the way, on surfaces");
   if (!(open.normal * claim.h > open.impulse) || c.gap <= slack) return;
   const auto approach = [&](const State& state) {
     return c.normal.dot(sides.velocity(c, 0, state) - sides.velocity(c, 1, state));

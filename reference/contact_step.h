@@ -77,8 +77,10 @@ struct ContactStep {
   /// How far a node goes in the free motion, without joints and contacts, m.
   double free_displacement() const { return (free_end_.x - start_.x).cwiseAbs().maxCoeff(); }
 
-  /// A contact's compliance for what `force` is: it acts over s, not h.
-  double compliance_of(const JudgedContact& own) const { return own.compliance * step.s() / step.h; }
+  /// A contact's compliance for what `force` is: it acts over s, not h. What collides does not yield.
+  double compliance_of(const JudgedContact& own) const {
+    return own.collides ? 0 : own.compliance * step.s() / step.h;
+  }
 
   /// Takes the features that are valid at `velocity`, and `also_start` where the step begins; known contacts
   /// keep their forces.

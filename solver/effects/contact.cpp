@@ -36,7 +36,8 @@ void linearise_contact(const RowPlace& place, const Points& start_v, const Activ
   const typename Block::Value rate = rates<Block>(contact, place.at, jacobian, found.gap, place.map,
                                                   block.gather(start_v, i), block.gather(place.v, i));
   block.bias[i] = rate - jacobian * block.gather(place.v, i);
-  block.compliance.set(i, contact.compliance / (place.map.h * place.map.d));
+  const double compliance = contact.restitution > 0 ? 0 : contact.compliance;  // what collides does not yield
+  block.compliance.set(i, compliance / (place.map.h * place.map.d));
   block.bounds[i] = {};
   using Operations = RowOperations<Block::rows, Block::nodes>;
   Operations::invert_diagonal(block, place.inverse_mass, i, jacobian);

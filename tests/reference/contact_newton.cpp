@@ -207,6 +207,16 @@ TEST_CASE("forces of a soft block on the ground balance its momentum, and nothin
   CHECK(j.x.rightCols(scene.nodes() - first).row(2).minCoeff() >= 0.0005 - 1e-12);  // half of 1 mm
 }
 
+TEST_CASE("what collides does not yield") {
+  for (const double compliance : {1e-6, 1e-2})
+    for (const double restitution : {0.5, 1.0}) {
+      BodyScene build({.friction = 0, .restitution = restitution, .compliance = compliance}, 0);
+      build.ground();
+      build.ball(0.1, 1, {.position = {0, 0, 0.1 + judged_step_s / 2}, .velocity = {0, 0, -1}});
+      CHECK(std::abs(judged(build.finish()).v(2, 1) - restitution) <= by_hand);
+    }
+}
+
 TEST_CASE("both cone solvers find the same step, from the state or from what the other claims") {
   BodyScene boxes(ContactLaw{.friction = 0.4}, gravity);
   boxes.ground();

@@ -41,6 +41,19 @@ TEST_CASE(
   CHECK(std::abs(end.x(2, 1) - (radius - deep)) <= deep * motion_left(compliance, mass, h, steps) + 1e-11);
 }
 
+TEST_CASE("what yields is thrown back by its restitution from where it is met, however soft it is") {
+  const double compliance = GENERATE(1e-6, 1e-4, 1e-2), restitution = GENERATE(0.5, 1.0),
+               speed = GENERATE(1.0, 200.0);
+  constexpr double radius = 0.1, h = 0.01;
+  BodyScene build({.friction = 0, .restitution = restitution, .compliance = compliance}, 0);
+  build.ground();
+  const double gap = speed * h / 2;
+  build.ball(radius, 1, {.position = {0, 0, radius + gap}, .velocity = {0, 0, -speed}});
+  const State end = run(build.finish(), contact_method("direct"), h, 1);
+  INFO("compliance " << compliance << ", restitution " << restitution << ", speed " << speed);
+  CHECK(std::abs(end.v(2, 1) - restitution * speed) <= 1e-9 * speed);
+}
+
 TEST_CASE("a cloth laid on a box that yields presses on it by its weight") {
   const double compliance = GENERATE(1e-4, 1e-3), h = GENERATE(1e-2, 2e-3);
   BodyScene build({.friction = 0.5, .compliance = compliance});

@@ -33,6 +33,12 @@ void write_place(const Vec3& y, double radius, int i, const ClosedMesh& mesh, co
   writer.write(on_face(y, radius, at.nearest, direction(mesh, at, y), 0), key, gap);
 }
 
+/// True of an edge within a plane: what crosses it is over its faces.
+bool is_flat(const MeshEdge& edge) {
+  constexpr double rounding = 1e-9;  // of a sine
+  return edge.cosine > 0 && std::abs(edge.sine) <= rounding;
+}
+
 /// True if one of the edges from the node comes nearer to x than `distance`, m.
 bool nearer_beside(const ClosedMesh& mesh, int node, const Vec3& x, double distance) {
   const Vec3 from = mesh.surface.x.col(node), to_x = x - from;
@@ -187,6 +193,7 @@ bool MeshPair::look_away(int i, const Vec3& normal, int j) const {
 void MeshPair::edges() const {
   scratch.met.assign(b.solid.edges.size(), -1);
   for (int i = 0; i < a.edge_count(); ++i) {
+    if (mesh_a != nullptr && is_flat(mesh_a->edge[i])) continue;
     const Vec3 normal =
         mesh_a != nullptr ? Vec3(writer.frame_a.rotation * mesh_a->edge[i].normal) : Vec3::Zero();
     AxisBox box;
@@ -196,7 +203,8 @@ void MeshPair::edges() const {
     b.tree.find(box, [&](int triangle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const int j = b.solid.sides[3 * triangle + k];
-        if (std::exchange(scratch.met[j], i) != i && !look_away(i, normal, j)) crossing(i, j);
+        if (std::exchange(scratch.met[j], i) != i && !is_flat(b.edge[j]) && !look_away(i, normal, j))
+          crossing(i, j);
       }
     });
   }

@@ -54,6 +54,26 @@ TEST_CASE("what yields is thrown back by its restitution from where it is met, h
   CHECK(std::abs(end.v(2, 1) - restitution * speed) <= 1e-9 * speed);
 }
 
+TEST_CASE(
+    "a cube that yields on a flat mesh has a spring at each corner, and none where its edges cross "
+    "diagonals") {
+  const double deep = GENERATE(1e-3, 0.013), turned = GENERATE(0.0, 0.2, 0.7);
+  const bool own_mesh = GENERATE(false, true);
+  constexpr double compliance = 1e-4, h = 0.01, mass = 2, side = 0.6;
+  const Vec3 size = Vec3::Constant(side);
+  BodyScene build({.friction = 0.5, .compliance = compliance}, 0);
+  build.fixed(ClosedMesh(box_surface(Vec3(4, 4, 2))), {Vec3(0, 0, -1)});
+  build.box(
+      size, mass,
+      {Vec3(0.13, -0.07, side / 2 - deep), Eigen::Quaterniond(Eigen::AngleAxisd(turned, Vec3::UnitZ()))});
+  if (own_mesh) build.contact().collider.back().shape = ClosedMesh(box_surface(size));
+  const State end = run(build.finish(), contact_method("direct"), h, 1);
+  INFO("deep " << deep << ", turned " << turned << ", own mesh " << own_mesh);
+  const double expected = 4 * h * deep / (compliance * mass + 4 * h * h);
+  CHECK((Vec3(end.v.col(1)) - expected * Vec3::UnitZ()).norm() <= 1e-9 * expected);
+  CHECK(end.spin.col(1).norm() <= 1e-9 * expected / side);
+}
+
 TEST_CASE("a cloth laid on a box that yields presses on it by its weight") {
   const double compliance = GENERATE(1e-4, 1e-3), h = GENERATE(1e-2, 2e-3);
   BodyScene build({.friction = 0.5, .compliance = compliance});

@@ -114,6 +114,12 @@ struct StepSearch {
     return false;
   }
 
+  /// Forces that nothing balances, and the sum of the absolute contributions to them.
+  Vector unbalanced(const RigidSystem& system, Vector& magnitude) const {
+    magnitude = system.magnitude;
+    return system.force(gamma) - step.push(velocity, magnitude);
+  }
+
   /// m/s, of contacts and of bounded rows.
   double law_residual(const RigidSystem& system) const {
     return larger(step.law_residual(cones.law(), velocity), step.bounds_residual(system, gamma));
@@ -123,8 +129,8 @@ struct StepSearch {
   void measure(ContactJudgement& j) {
     report(step.step, velocity, gamma, j);
     const RigidSystem system = system_at(step.step, velocity, gamma);
-    Vector magnitude = system.magnitude;
-    const Vector force = system.force(gamma) - step.push(velocity, magnitude);
+    Vector magnitude;
+    const Vector force = unbalanced(system, magnitude);
     const Vector per_length = step.step.model.radius.cwiseInverse();
     j.residual = force.cwiseProduct(per_length).cwiseAbs().maxCoeff() /
                  std::max(magnitude.cwiseProduct(per_length).maxCoeff(), 1e-300);
@@ -163,11 +169,11 @@ struct StepSearch {
     if (!velocity.allFinite()) return std::nan("");
     step.collide(velocity);
     const RigidSystem system = system_at(step.step, velocity, gamma);
-    Vector magnitude = system.magnitude;
-    const Vector force = system.force(gamma) - step.push(velocity, magnitude);
-    const double missed = std::max(row_residual(step, system, gamma), step.step.h * law_residual(system));
+    Vector magnitude;
+    const Vector force = unbalanced(system, magnitude);
+    const double missed = larger(row_residual(step, system, gamma), step.step.h * law_residual(system));
     const double scale = std::max(scale_of(step, velocity, gamma), step.free_displacement());
-    return overlap().empty() ? std::max(force_residual(step.step.model, force, magnitude), missed / scale)
+    return overlap().empty() ? larger(force_residual(step.step.model, force, magnitude), missed / scale)
                              : infinity;
   }
 

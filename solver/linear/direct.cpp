@@ -26,8 +26,9 @@ Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   const bool augments = AugmentedLagrangian::applies(rows);
   part_ = SemismoothNewton::name;
   if (newton_.improve(rows, v, residual, augments ? 2 : 3)) return {residual};
-  part_ = AugmentedLagrangian::name;
-  if (augments && augment(rows, v, residual)) return {residual};
+  keep_impulses_and_biases(rows, kept_);
+  start_ = v;
+  if (augments ? augment(rows, v, residual) : idle_ > 0 && advance(rows, v)) return {residual};
   part_ = GaussSeidel::name;
   const int instead = 10 * (1 + idle_);
   for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
@@ -35,18 +36,31 @@ Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   return {residual};
 }
 
+/// Puts back what was kept.
+void Direct::restore(Rows& rows, Points& v) const {
+  restore_impulses_and_biases(kept_, rows);
+  v = start_;
+}
+
 bool Direct::augment(Rows& rows, Points& v, double residual) {
-  keep_impulses_and_biases(rows, kept_);
-  start_ = v;
+  part_ = AugmentedLagrangian::name;
   for (int call = 0; call <= idle_; ++call) {
     further_sweeps_ += augmented_.improve(rows, v);
     if (!(natural_residual(rows, v) < SemismoothNewton::enough_fall * residual)) continue;
     newton_.trust();
     return true;
   }
-  restore_impulses_and_biases(kept_, rows);
-  v = start_;
+  restore(rows, v);
   return false;
+}
+
+/// By a round of the proximal point method. It need not lower the residual, but brings impulses nearer to
+/// those that do.
+bool Direct::advance(Rows& rows, Points& v) {
+  const SemismoothNewton::Round round = newton_.advance(rows, v);
+  further_sweeps_ += round.factorisations;
+  if (!round.solved) restore(rows, v);
+  return round.solved;
 }
 
 }  // namespace pbd

@@ -1,8 +1,9 @@
 // The composition that solves any rows. Without contacts it is `ldlt`. With contacts a sweep is an iteration
 // of `semismooth_newton`; where none of its steps reduces the residual, that of `augmented_lagrangian` may,
-// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. After
-// `most_patience` iterations without a gain it gives the rows up; the step's next ones, a little changed, get
-// one less each time, and all of them again once some are solved.
+// or where that does not apply its round of the proximal point method, or else sweeps of `gauss_seidel`, of
+// the first and the last the more the longer nothing has been gained. After `most_patience` iterations
+// without a gain it gives the rows up; the step's next ones, a little changed, get one less each time, and
+// all of them again once some are solved.
 #pragma once
 
 #include "linear/augmented_lagrangian.h"
@@ -18,8 +19,8 @@ class Direct {
   void begin(Rows& rows, const Points& v, bool fresh);
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
 
-  /// Since `begin`, besides one an iteration: factorisations of the augmented Lagrangian, sweeps of
-  /// Gauss-Seidel.
+  /// Since `begin`, besides one an iteration: factorisations of the augmented Lagrangian and of
+  /// rounds, sweeps of Gauss-Seidel.
   std::int64_t further_sweeps() const { return further_sweeps_; }
 
   /// The name of the part that worked last.
@@ -29,14 +30,16 @@ class Direct {
   static constexpr int most_patience = 10;  // iterations without a gain
 
   bool gave_up() const { return idle_ > patience_; }
+  void restore(Rows& rows, Points& v) const;
   bool augment(Rows& rows, Points& v, double residual);
+  bool advance(Rows& rows, Points& v);
 
   Ldlt ldlt_;
   SemismoothNewton newton_;
   AugmentedLagrangian augmented_;
   std::string_view part_ = Ldlt::name;
   std::vector<double> kept_;  // impulses and biases, and
-  Points start_;              // velocities where the augmented Lagrangian begins
+  Points start_;              // velocities where none of Newton's steps reduces the residual
   double lowest_ = infinity;  // residual since `begin`
   int idle_ = 0;              // iterations since the residual was clearly lower than ever
   int patience_ = most_patience;

@@ -10,6 +10,12 @@
 namespace pbd {
 namespace {
 
+/// About w of constraint i, kg; 0 if it has nothing that it could move.
+template <class Block>
+double weight_of(const Block& block, std::size_t i) {
+  return block.inverse_diagonal[i].trace() / Block::rows;
+}
+
 /// own dp + by_step J dv = right, constraint i's row of the linear system.
 template <class Block>
 struct LinearLaw {
@@ -17,13 +23,13 @@ struct LinearLaw {
   typename Block::Value right;
 };
 
+/// Of constraint i, whose rows miss r.
 template <class Block>
-LinearLaw<Block> linear_law(const Block& block, std::size_t i, const Points& v, double shift) {
+LinearLaw<Block> linear_law(const Block& block, std::size_t i, const typename Block::Value& r, double shift) {
   using Square = typename Block::Square;
   LinearLaw<Block> law{Square::Identity(), Square::Zero(), Block::Value::Zero()};
-  const double weight = block.inverse_diagonal[i].trace() / Block::rows;  // about w
-  if (!(weight > 0)) return law;                                          // nothing that it could move
-  const typename Block::Value r = block.residual(v, i, block.impulse[i]);
+  const double weight = weight_of(block, i);
+  if (!(weight > 0)) return law;
   const typename Block::Value step = -block.by_inverse_diagonal(i, r);
   const auto found = allowed_derivative(block, projected_law(block, i), i, block.impulse[i], step);
   law.by_step = found.by_change;
@@ -54,6 +60,22 @@ bool has_local_contacts(const Rows& rows) {
 
 }  // namespace
 
+/// What constraint i's rows miss, in a round with the term that holds impulses where it began.
+template <class Block>
+typename Block::Value SemismoothNewton::missed(const Block& block, std::size_t i, Eigen::Index first,
+                                               const Points& v) const {
+  typename Block::Value r = block.residual(v, i, block.impulse[i]);
+  const double weight = weight_of(block, i);
+  if (anchor_.size() > 0 && weight > 0)
+    r += shift_ / weight * (block.impulse[i] - anchor_.segment<Block::rows>(first));
+  return r;
+}
+
+double SemismoothNewton::residual(const Rows& rows, const Points& v) const {
+  return natural_residual_of(
+      rows, [&](const auto& block, std::size_t i, Eigen::Index first) { return missed(block, i, first, v); });
+}
+
 void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
   system_.begin(rows);
   const auto impulses = static_cast<int>(row_count(rows));
@@ -61,7 +83,7 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
   const int unknowns = system_.size + (keeps_impulses_ ? impulses : 0);
   right_.setZero(unknowns);
   each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
-    const auto [own, by_step, right] = linear_law(block, i, v, shift_);
+    const auto [own, by_step, right] = linear_law(block, i, missed(block, i, first, v), shift_);
     if (!keeps_impulses_) {
       const typename Block::Square inverse = inverse_of(own);
       system_.add(block, i, inverse * by_step);
@@ -104,7 +126,7 @@ void SemismoothNewton::find_step(const Rows& rows, const Points& v) {
     return;
   }
   each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
-    const auto [own, by_step, right] = linear_law(block, i, v, shift_);
+    const auto [own, by_step, right] = linear_law(block, i, missed(block, i, first, v), shift_);
     step_.segment<Block::rows>(first) =
         inverse_of(own) * (right - by_step * system_.along(block, i, solution_));
   });
@@ -125,7 +147,7 @@ bool SemismoothNewton::descend(Rows& rows, Points& v, double below) {
       block.impulse[i] += change;
       block.apply(rows.inverse_mass, i, change, v);
     });
-    if (natural_residual(rows, v) < below) return true;
+    if (residual(rows, v) < below) return true;
     restore_impulses_and_biases(kept_, rows);
     v = start_;
   }
@@ -144,6 +166,31 @@ bool SemismoothNewton::improve(Rows& rows, Points& v, double residual, int attem
     shift_ = std::min(most_shift, shift_ * change);
   }
   return false;
+}
+
+SemismoothNewton::Round SemismoothNewton::advance(Rows& rows, Points& v) {
+  constexpr int most_iterations = 10;
+  constexpr double solved = 0.1;  // of the residual: the next round begins anew anyway
+  constexpr double smaller = 3, larger = 10, least_part = 1e-7, most_part = 0.1;
+  anchor_.resize(row_count(rows));
+  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
+    anchor_.segment<Block::rows>(first) = block.impulse[i];
+  });
+  shift_ = part_of_round_;
+  const double enough = solved * residual(rows, v);
+  Round round{0, false};
+  while (!round.solved && round.factorisations < most_iterations) {
+    keep_impulses_and_biases(rows, kept_);
+    start_ = v;
+    ++round.factorisations;
+    if (!descend(rows, v, residual(rows, v))) break;
+    round.solved = residual(rows, v) <= enough;
+  }
+  anchor_.resize(0);
+  trust();
+  part_of_round_ =
+      std::clamp(round.solved ? part_of_round_ / smaller : part_of_round_ * larger, least_part, most_part);
+  return round;
 }
 
 Sweep SemismoothNewton::sweep(Rows& rows, Points& v, BlockSeconds) {

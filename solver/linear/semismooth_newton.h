@@ -7,7 +7,9 @@
 // least, a proximal term, which the iteration removes. Where there are more rows than velocities, impulses
 // are eliminated (not those of local problems). Where no step reduces the residual the part grows, and
 // shrinks again where steps succeed (levenberg1944method). (Semismooth Newton: qi1993nonsmooth; for friction
-// alart1991mixed.) It converges from near a solution; from afar it may be exhausted without one.
+// alart1991mixed.) It converges from near a solution; from afar it may be exhausted without one. Where
+// redundant rows contradict each other impulses must change for long, and the residual does not, until one
+// of them ends: a round of the proximal point method (rockafellar1976augmented) changes them by much at once.
 #pragma once
 
 #include "linear/sparse_factor.h"
@@ -22,7 +24,10 @@ class SemismoothNewton {
   static constexpr bool solves_any_rows = false;
   static constexpr double enough_fall = 0.9;  // of the residual, to count as a gain
 
-  void begin(Rows&, const Points&, bool) { trust(); }
+  void begin(Rows&, const Points&, bool) {
+    trust();
+    part_of_round_ = first_part;
+  }
 
   /// One iteration.
   Sweep sweep(Rows& rows, Points& v, BlockSeconds seconds);
@@ -31,25 +36,39 @@ class SemismoothNewton {
   /// changed, where none reduces it.
   bool improve(Rows& rows, Points& v, double residual, int attempts);
 
+  struct Round {
+    int factorisations;
+    bool solved;  // else the impulses are anywhere
+  };
+
+  /// A round of the proximal point method: solves the rows with Sigma, of what the impulses change by alone,
+  /// larger by a part of J W J^T. The next round's part is smaller, or larger where Newton's method fails.
+  Round advance(Rows& rows, Points& v);
+
   /// Takes the least shift again.
   void trust() { shift_ = least_shift; }
 
  private:
   static constexpr double least_shift = 1e-8, most_shift = 1e-2;  // of Sigma, as a part of J W J^T
+  static constexpr double first_part = 1e-3;                      // the same of a round
 
+  template <class Block>
+  typename Block::Value missed(const Block& block, std::size_t i, Eigen::Index first, const Points& v) const;
   void assemble(const Rows& rows, const Points& v);
   void find_step(const Rows& rows, const Points& v);
   bool descend(Rows& rows, Points& v, double below);
+  double residual(const Rows& rows, const Points& v) const;
 
   VelocitySystem system_;
   bool keeps_impulses_ = true;  // as unknowns
   SparseMatrix matrix_;
   SparseLu factor_;
   Eigen::VectorXd right_, solution_, step_;
+  Eigen::VectorXd anchor_;  // N s, where a round begins, one entry a row; empty outside of rounds
   LocalContacts::Pushed pushed_;
   std::vector<double> kept_;  // impulses and biases, and
   Points start_;              // velocities where the iteration begins
-  double shift_ = least_shift;
+  double shift_ = least_shift, part_of_round_ = first_part;
 };
 
 }  // namespace pbd

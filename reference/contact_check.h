@@ -34,6 +34,9 @@
 // something as a step begins.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "step_claim.h"
 
 namespace pbd::reference {
@@ -45,5 +48,10 @@ void check_contacts(const StepClaim& claim, const Contact& contact, double level
 /// is too deep, the direction that parts it soonest.
 WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, double overlooked,
                      Findings& findings);
+
+/// Pairs of colliders and spheres about nodes, by numbers as a claim's, that yield and are in each other
+/// where the step ends by more than `overlooked` times the smaller round radius (depth_check.cpp).
+std::vector<std::array<int, 2>> pressed_pairs(const StepClaim& claim, const Contact& contact,
+                                              double overlooked);
 
 }  // namespace pbd::reference

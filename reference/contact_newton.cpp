@@ -9,6 +9,7 @@
 #include "newton_search.h"
 #include "step_equations.h"
 #include "step_rows.h"
+#include "touching_sides.h"
 
 namespace pbd::reference {
 namespace {
@@ -35,14 +36,31 @@ double scale_of(const ContactStep& own, const Vector& velocity, const Vector& ga
                   step_rounding * std::max(places, by_forces) / allowed_residual);
 }
 
+constexpr double overlooked = 1e-6;  // of a size: edges and sides that are `parallel`, what lies `flat`
+
 /// What of bodies, nodes and triangles is deeper in others than where the step begins, by their support
 /// functions: the features may all have been overlooked.
 WaysOut depths_of(const ContactStep& own, const Scene& scene, const Vector& velocity, Findings& findings) {
   if (own.contact.collider.empty() && own.contact.triangle.empty() && !own.contact.nodes_touch) return {};
   const State end = own.step.end(velocity);
   const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
-  constexpr double overlooked = 1e-6;  // edges and sides that are `parallel`, what lies `flat`
   return check_depths(claim, own.contact, 0, overlooked, findings);
+}
+
+/// What yields and is in each other where the step ends without any contact: its features are known up to a
+/// depth alone. Empty if there is none.
+std::string unknown_features(const ContactStep& own, const Scene& scene, const Vector& velocity) {
+  const State end = own.step.end(velocity);
+  const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
+  for (const auto& sides : pressed_pairs(claim, own.contact, overlooked)) {
+    const auto of_sides = [&](const JudgedContact& each) {
+      return std::is_permutation(sides.begin(), sides.end(), each.pair.surface.begin());
+    };
+    if (std::none_of(own.contacts.begin(), own.contacts.end(), of_sides))
+      return name_of(sides[0], sides[1]) +
+             " yield and are deeper in each other than their features are known";
+  }
+  return {};
 }
 
 /// The largest unbalanced force on a node or a body, of all that act on it and no less than rounding makes of
@@ -143,11 +161,11 @@ struct StepSearch {
     j.law = larger(j.law, step.law_residual(cones.law(), velocity)) * step.step.h / scale;
   }
 
-  /// What is in others where it ends; empty if nothing is.
+  /// What is in others where it ends, or is so by features that are not known; empty if nothing is.
   std::string overlap() const {
     Findings deep;
     depths_of(step, scene, velocity, deep);
-    if (deep.refuted.empty()) return {};
+    if (deep.refuted.empty()) return unknown_features(step, scene, velocity);
     std::ostringstream text;
     text << deep.refuted.front().what << " in each other by " << deep.refuted.front().number;
     return text.str();

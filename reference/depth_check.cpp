@@ -22,8 +22,12 @@ class Depths {
 
   void check_all();
   const WaysOut& refuted() const { return refuted_; }
+  std::vector<std::array<int, 2>> pressed() const;
 
  private:
+  template <class Look>
+  void each_pair(Look&& look) const;
+  bool may_be_deep(int i, int j) const;
   void check(int i, int j);
   void check_triangles();
   void check_surfaces();
@@ -89,11 +93,15 @@ Parting Depths::parting(int i, int j, const State& state, double enough) const {
   return least_parting(a, b, ways);
 }
 
+bool Depths::may_be_deep(int i, int j) const {
+  return !far(i, j, sides_.placed(i, claim_.end), sides_.placed(j, claim_.end)) &&
+         sides_.inverse_mass(i, 1) + sides_.inverse_mass(j, 1) > 0 &&
+         may_touch(claim_.scene, contact_, sides_.side(i), sides_.side(j));
+}
+
 void Depths::check(int i, int j) {
+  if (!may_be_deep(i, j) || leaves_out(sides_.law(i, j))) return;
   const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
-  if (far(i, j, a, b) || !(sides_.inverse_mass(i, 1) + sides_.inverse_mass(j, 1) > 0)) return;
-  if (!may_touch(claim_.scene, contact_, sides_.side(i), sides_.side(j))) return;
-  if (leaves_out(sides_.law(i, j))) return;
   double most = allowed(i, j, 0);
   const bool half_space = is_half_space(*a.shape) || is_half_space(*b.shape);
   if (!(is_convex(*a.shape) && is_convex(*b.shape)) && !half_space) {
@@ -198,11 +206,31 @@ void Depths::check_triangles() {
   }
 }
 
-void Depths::check_all() {
+template <class Look>
+void Depths::each_pair(Look&& look) const {
   const auto colliders = static_cast<int>(contact_.collider.size());
   for (int i = 0; i < (contact_.nodes_touch ? sides_.count() : colliders); ++i)
-    for (int j = i + 1; j < sides_.count(); ++j) check(i, j);
+    for (int j = i + 1; j < sides_.count(); ++j) look(i, j);
+}
+
+void Depths::check_all() {
+  each_pair([&](int i, int j) { check(i, j); });
   check_triangles();
+}
+
+std::vector<std::array<int, 2>> Depths::pressed() const {
+  std::vector<std::array<int, 2>> found;
+  each_pair([&](int i, int j) {
+    if (!(sides_.law(i, j).compliance > 0) || !may_be_deep(i, j)) return;
+    const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
+    const bool convex = is_convex(*a.shape) && is_convex(*b.shape);
+    const double least = allowed(i, j, 0);
+    const double depth = convex || is_half_space(*a.shape) || is_half_space(*b.shape)
+                             ? -parting(i, j, claim_.end, -least).apart
+                             : proved_depth(a, b, least);
+    if (depth > least) found.push_back({i, j});
+  });
+  return found;
 }
 
 }  // namespace
@@ -212,6 +240,12 @@ WaysOut check_depths(const StepClaim& claim, const Contact& contact, double leve
   Depths depths(claim, contact, level, overlooked, findings);
   depths.check_all();
   return depths.refuted();
+}
+
+std::vector<std::array<int, 2>> pressed_pairs(const StepClaim& claim, const Contact& contact,
+                                              double overlooked) {
+  Findings none;
+  return Depths(claim, contact, 0, overlooked, none).pressed();
 }
 
 }  // namespace pbd::reference

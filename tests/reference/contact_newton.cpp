@@ -217,6 +217,25 @@ TEST_CASE("what collides does not yield") {
     }
 }
 
+TEST_CASE("no end is ok where what yields is deeper than the judge knows features of it") {
+  constexpr double radius = 0.1, mass = 1;
+  const auto pressed = [&](double depth) {
+    BodyScene build({.friction = 0, .compliance = depth / (mass * gravity)}, gravity);
+    build.box({1, 1, 0.5}, infinity, {.position = {0, 0, -0.25}});
+    build.ball(radius, mass, {.position = {0, 0, radius - depth}});
+    return build.finish();
+  };
+  const auto shallow = judged(pressed(0.1 * radius));
+  CHECK(shallow.contacts == 1);
+  CHECK(shallow.v.col(1).norm() <= by_hand);
+  for (const double part : {0.3, 0.9, 1.2}) {
+    const Scene scene = pressed(part * radius);
+    const auto j =
+        contact_newton(scene, scene.initial, judged_step_s, Friction::coulomb, cone_interior_point);
+    CHECK((j.outcome != Outcome::ok || j.v.col(1).norm() <= by_hand));
+  }
+}
+
 TEST_CASE("both cone solvers find the same step, from the state or from what the other claims") {
   BodyScene boxes(ContactLaw{.friction = 0.4}, gravity);
   boxes.ground();

@@ -49,9 +49,14 @@ void check_contacts(const StepClaim& claim, const Contact& contact, double level
 WaysOut check_depths(const StepClaim& claim, const Contact& contact, double level, double overlooked,
                      Findings& findings);
 
-/// Pairs of colliders and spheres about nodes, by numbers as a claim's, that yield and are in each other
-/// where the step ends by more than `overlooked` times the smaller round radius (depth_check.cpp).
-std::vector<std::array<int, 2>> pressed_pairs(const StepClaim& claim, const Contact& contact,
-                                              double overlooked);
+/// Two colliders or spheres about nodes, by numbers as a claim's, that yield and are in each other.
+struct PressedPair {
+  std::array<int, 2> sides{};
+  double depth = 0;  // m, where the step ends, at least
+};
+
+/// All that are deeper than `overlooked` times the smaller round radius, by which depths are told too small
+/// (depth_check.cpp).
+std::vector<PressedPair> pressed_pairs(const StepClaim& claim, const Contact& contact, double overlooked);
 
 }  // namespace pbd::reference

@@ -47,18 +47,18 @@ WaysOut depths_of(const ContactStep& own, const Scene& scene, const Vector& velo
   return check_depths(claim, own.contact, 0, overlooked, findings);
 }
 
-/// What yields and is in each other where the step ends without any contact: its features are known up to a
-/// depth alone. Empty if there is none.
+/// What yields and is deeper in each other where the step ends than any of its contacts tells: features are
+/// known up to a depth alone. Empty if nothing is.
 std::string unknown_features(const ContactStep& own, const Scene& scene, const Vector& velocity) {
-  const State end = own.step.end(velocity);
-  const StepClaim claim{.scene = scene, .start = own.step.start, .end = end, .h = own.step.h};
-  for (const auto& sides : pressed_pairs(claim, own.contact, overlooked)) {
-    const auto of_sides = [&](const JudgedContact& each) {
-      return std::is_permutation(sides.begin(), sides.end(), each.pair.surface.begin());
-    };
-    if (std::none_of(own.contacts.begin(), own.contacts.end(), of_sides))
-      return name_of(sides[0], sides[1]) +
-             " yield and are deeper in each other than their features are known";
+  const ContactPose pose = own.pose_at(velocity);
+  const StepClaim claim{.scene = scene, .start = own.step.start, .end = pose.end, .h = own.step.h};
+  for (const auto& [sides, depth] : pressed_pairs(claim, own.contact, overlooked)) {
+    double told = 0;
+    for (const JudgedContact& each : own.contacts)
+      if (std::is_permutation(sides.begin(), sides.end(), each.pair.surface.begin()))
+        told = std::max(told, -nearest(each.pair, pose.at).gap);
+    if (depth > told)
+      return name_of(sides[0], sides[1]) + ": what yields there is deeper than the features that are known";
   }
   return {};
 }

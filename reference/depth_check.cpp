@@ -22,7 +22,7 @@ class Depths {
 
   void check_all();
   const WaysOut& refuted() const { return refuted_; }
-  std::vector<std::array<int, 2>> pressed() const;
+  std::vector<PressedPair> pressed() const;
 
  private:
   template <class Look>
@@ -218,8 +218,8 @@ void Depths::check_all() {
   check_triangles();
 }
 
-std::vector<std::array<int, 2>> Depths::pressed() const {
-  std::vector<std::array<int, 2>> found;
+std::vector<PressedPair> Depths::pressed() const {
+  std::vector<PressedPair> found;
   each_pair([&](int i, int j) {
     if (!(sides_.law(i, j).compliance > 0) || !may_be_deep(i, j)) return;
     const PlacedShape a = sides_.placed(i, claim_.end), b = sides_.placed(j, claim_.end);
@@ -228,7 +228,7 @@ std::vector<std::array<int, 2>> Depths::pressed() const {
     const double depth = convex || is_half_space(*a.shape) || is_half_space(*b.shape)
                              ? -parting(i, j, claim_.end, -least).apart
                              : proved_depth(a, b, least);
-    if (depth > least) found.push_back({i, j});
+    if (depth > least) found.push_back({{i, j}, depth - least});
   });
   return found;
 }
@@ -242,8 +242,7 @@ WaysOut check_depths(const StepClaim& claim, const Contact& contact, double leve
   return depths.refuted();
 }
 
-std::vector<std::array<int, 2>> pressed_pairs(const StepClaim& claim, const Contact& contact,
-                                              double overlooked) {
+std::vector<PressedPair> pressed_pairs(const StepClaim& claim, const Contact& contact, double overlooked) {
   Findings none;
   return Depths(claim, contact, 0, overlooked, none).pressed();
 }

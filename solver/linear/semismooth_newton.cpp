@@ -177,14 +177,16 @@ SemismoothNewton::Round SemismoothNewton::advance(Rows& rows, Points& v) {
     anchor_.segment<Block::rows>(first) = block.impulse[i];
   });
   shift_ = part_of_round_;
-  const double enough = solved * residual(rows, v);
+  double left = residual(rows, v);
+  const double enough = solved * left;
   Round round{0, false};
   while (!round.solved && round.factorisations < most_iterations) {
     keep_impulses_and_biases(rows, kept_);
     start_ = v;
     ++round.factorisations;
-    if (!descend(rows, v, residual(rows, v))) break;
-    round.solved = residual(rows, v) <= enough;
+    if (!descend(rows, v, left)) break;
+    left = residual(rows, v);
+    round.solved = left <= enough;
   }
   anchor_.resize(0);
   trust();

@@ -27,6 +27,7 @@ class SemismoothNewton {
   void begin(Rows&, const Points&, bool) {
     trust();
     part_of_round_ = first_part;
+    anchor_.resize(0);
   }
 
   /// One iteration.

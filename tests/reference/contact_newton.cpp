@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "cone_ipopt.h"
 #include "judged_contact.h"
@@ -219,9 +220,16 @@ TEST_CASE("what collides does not yield") {
 
 TEST_CASE("no end is ok where what yields is deeper than the judge knows features of it") {
   constexpr double radius = 0.1, mass = 1;
-  const auto pressed = [&](double depth) {
+  const auto on_box = [](double depth) {  // of what lies on it
     BodyScene build({.friction = 0, .compliance = depth / (mass * gravity)}, gravity);
     build.box({1, 1, 0.5}, infinity, {.position = {0, 0, -0.25}});
+    return build;
+  };
+  const auto ends = [](const Scene& scene) {
+    return contact_newton(scene, scene.initial, judged_step_s, Friction::coulomb, cone_interior_point);
+  };
+  const auto pressed = [&](double depth) {
+    BodyScene build = on_box(depth);
     build.ball(radius, mass, {.position = {0, 0, radius - depth}});
     return build.finish();
   };
@@ -229,11 +237,20 @@ TEST_CASE("no end is ok where what yields is deeper than the judge knows feature
   CHECK(shallow.contacts == 1);
   CHECK(shallow.v.col(1).norm() <= by_hand);
   for (const double part : {0.3, 0.9, 1.2}) {
-    const Scene scene = pressed(part * radius);
-    const auto j =
-        contact_newton(scene, scene.initial, judged_step_s, Friction::coulomb, cone_interior_point);
+    const auto j = ends(pressed(part * radius));
     CHECK((j.outcome != Outcome::ok || j.v.col(1).norm() <= by_hand));
   }
+  // On a fixed capsule, of which one end is deep and the other one's features do not touch.
+  constexpr double deep = 0.04, apart = 5e-4, round = 0.05, length = 0.4;
+  BodyScene build({.friction = 0, .compliance = deep / (mass * gravity)}, gravity);
+  const double tilt = std::asin((deep + apart) / length);
+  build.fixed(
+      Capsule{round, length},
+      {.position = {0, 0, (deep - apart) / 2 - round},
+       .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2 + tilt, Vec3::UnitY()))});
+  build.box({1, 1, 0.5}, mass, {.position = {0, 0, 0.25}});
+  const auto j = ends(build.finish());
+  CHECK((j.outcome != Outcome::ok || j.v(2, 1) > -0.5 * gravity * judged_step_s));
 }
 
 TEST_CASE("both cone solvers find the same step, from the state or from what the other claims") {

@@ -1,9 +1,9 @@
 // The composition that solves any rows. Without contacts it is `ldlt`. With contacts a sweep is an iteration
 // of `semismooth_newton`; where none of its steps reduces the residual, that of `augmented_lagrangian` may,
-// or where that does not apply its round of the proximal point method, or else sweeps of `gauss_seidel`, of
-// the first and the last the more the longer nothing has been gained. After `most_patience` iterations
-// without a gain it gives the rows up; the step's next ones, a little changed, get one less each time, and
-// all of them again once some are solved.
+// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. After
+// `most_patience` iterations without a gain it gives the rows up; the step's next ones, a little changed, get
+// one less each time, and before sweeps, where the augmented Lagrangian does not apply, a round of the
+// proximal point method. All that ends once some are solved.
 #pragma once
 
 #include "linear/augmented_lagrangian.h"

@@ -28,8 +28,7 @@ Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   if (newton_.improve(rows, v, residual, augments ? 2 : 3)) return {residual};
   keep_impulses_and_biases(rows, kept_);
   start_ = v;
-  if (augments ? augment(rows, v, residual) : patience_ < most_patience && advance(rows, v))
-    return {residual};
+  if (augments ? augment(rows, v, residual) : idle_ > by_sweeps && advance(rows, v)) return {residual};
   part_ = GaussSeidel::name;
   const int instead = 10 * (1 + idle_);
   for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);

@@ -1,9 +1,9 @@
 // The composition that solves any rows. Without contacts it is `ldlt`. With contacts a sweep is an iteration
 // of `semismooth_newton`; where none of its steps reduces the residual, that of `augmented_lagrangian` may,
-// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. After
-// `most_patience` iterations without a gain it gives the rows up; the step's next ones, a little changed, get
-// one less each time, and before sweeps, where the augmented Lagrangian does not apply, a round of the
-// proximal point method. All that ends once some are solved.
+// or else sweeps of `gauss_seidel`, of both the more the longer nothing has been gained. Where the augmented
+// Lagrangian does not apply and sweeps gained nothing, a round of the proximal point method comes before
+// them. After `most_patience` iterations without a gain it gives the rows up; the step's next ones, a little
+// changed, get one less each time, until some are solved.
 #pragma once
 
 #include "linear/augmented_lagrangian.h"
@@ -27,7 +27,9 @@ class Direct {
   std::string_view part() const { return part_; }
 
  private:
-  static constexpr int most_patience = 10;  // iterations without a gain
+  // Iterations without a gain.
+  static constexpr int most_patience = 10;
+  static constexpr int by_sweeps = 2;  // which solve what is planted, where rounds alone may not
 
   bool gave_up() const { return idle_ > patience_; }
   void restore(Rows& rows, Points& v) const;

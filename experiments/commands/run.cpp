@@ -28,6 +28,8 @@ std::vector<Experiment> chosen(const RunOptions& options, const std::vector<Expe
   std::vector<Experiment> list;
   for (const auto& name : options.experiments) {
     require_name("run", name, names);
+    if (std::count(options.experiments.begin(), options.experiments.end(), name) > 1)
+      throw pbd::SetupError("run", name + " more than once", "each experiment once");
     list.push_back(
         known[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
   }

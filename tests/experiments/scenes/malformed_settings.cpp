@@ -46,6 +46,7 @@ TEST_CASE("mistakes on the command line are refused with what is allowed") {
       {{"list", "integratorz"}, {"`integratorz`", "did you mean `integrators`?"}},
       {{"run", "no_such_experiment"}, {"run", "`no_such_experiment`"}},
       {{"run"}, {"nothing to run", "--all"}},
+      {{"run", "incline", "stack", "incline"}, {"incline more than once", "each experiment once"}},
       {{"run", "--all", "--tier", "ful"}, {"--tier", "did you mean `full`?"}},
       {{"run", "--all", "--threads", "0"}, {"--threads", "got `0`"}},
       {{"run", "--all", "--threads", "many"}, {"--threads", "many"}},

@@ -29,7 +29,7 @@ class Direct {
  private:
   // Iterations without a gain.
   static constexpr int most_patience = 10;
-  static constexpr int by_sweeps = 2;  // which solve what is planted, where rounds alone may not
+  static constexpr int by_sweeps = 2;  // before rounds, which at once leave problems of `cone_problems`
 
   bool gave_up() const { return idle_ > patience_; }
   void restore(Rows& rows, Points& v) const;

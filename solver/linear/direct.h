@@ -29,7 +29,7 @@ class Direct {
  private:
   // Iterations without a gain.
   static constexpr int most_patience = 10;
-  static constexpr int by_sweeps = 2;  // before rounds, which at once leave problems of `cone_problems`
+  static constexpr int by_sweeps = 2;  // before rounds: at once, they leave one of `cone_problems` unsolved
 
   bool gave_up() const { return idle_ > patience_; }
   void restore(Rows& rows, Points& v) const;

@@ -20,8 +20,15 @@ class Acceleration {
   bool refuted(StepSystem& system, const Progress& progress, double too_much = 10);
   void note(const StepSystem& system) { anderson_.begin(system.rows, system.at.v); }
 
-  void accelerate(StepSystem& system) {
-    accelerated_ = anderson_.accelerate(system.problem.inverse_mass, system.rows, system.at.v);
+  /// True if it moved v.
+  bool accelerate(StepSystem& system) {
+    return accelerated_ = anderson_.accelerate(system.problem.inverse_mass, system.rows, system.at.v);
+  }
+
+  /// Takes v back to the last image.
+  void reject(StepSystem& system) {
+    anderson_.reject(system.rows, system.at.v);
+    accelerated_ = false;
   }
 
  private:

@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "outer/dual_contacts.h"
 #include "rows/laws.h"
 
 namespace pbd {
 namespace {
-
-/// f(block, i) for every contact: the rows that are not eliminated are no others.
-template <class F>
-void each_contact(Rows& rows, const std::vector<bool>& eliminated, F&& f) {
-  for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
-    if (eliminated[b]) continue;
-    std::visit(
-        [&]<class Block>(Block& block) {
-          if constexpr ((Block::rows == 1 || Block::rows == 3) && !is_local<Block>)
-            for (std::size_t i = 0; i < block.size(); ++i) f(block, i);
-        },
-        rows.blocks[b]);
-  }
-}
 
 template <class Block>
 bool asks(const Block& block, std::size_t i, const Points& v) {

@@ -91,12 +91,12 @@ bool QuasiNewton::outlived(const Progress& progress, double well) {
 }
 
 RowResidual QuasiNewton::evaluate(StepSystem& system) {
-  evaluated_ = descends(system);
-  return potential_.evaluate(system);
+  evaluated_ = true;
+  return sums_ = potential_.evaluate(system);
 }
 
 RowResidual QuasiNewton::refresh(StepSystem& system) {
-  return evaluated_ ? RowResidual{} : evaluate(system);
+  return evaluated_ ? sums_ : evaluate(system);
 }
 
 void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
@@ -104,44 +104,6 @@ void QuasiNewton::iterate(StepSystem& system, Progress& progress) {
     descend(system, progress);
   else
     project(system, progress);
-}
-
-/// One proximal step in the metric: down the gradient, under the rows that are left dual.
-void QuasiNewton::project(StepSystem& system, Progress& progress) {
-  constexpr int patience = 5;  // iterations without a fall of the residual, from which nothing is learnt
-  // What folds has many stationary shapes near it, between which accelerations would leap to and fro.
-  const bool refuted =
-      follows_ ? acceleration_.refuted(system, progress, 1) : acceleration_.refuted(system, progress);
-  if (refuted) evaluate(system);
-  fall_.note(progress.residual());
-  if (fall_.iterations_since > patience) {
-    acceleration_.forget();
-    fall_ = {.lowest = progress.residual()};
-  }
-  acceleration_.note(system);
-  constexpr double well = 0.1;  // Anderson's acceleration makes up for little of what is not convex
-  if (outlived(progress, well)) {
-    potential_.factor_metric(system, MetricShape::convex);
-    pressed_ = !follows_;
-    if (pressed_) acceleration_.forget();  // a sheet's metric changes too often to begin anew with each
-  }
-  const double accuracy = inner_accuracy(system.problem.method, progress);
-  potential_.metric.solve(potential_.gradient, direction_);
-  system.at.v -= direction_;
-  const int most = system.problem.method.max_sweeps;
-  std::int64_t sweeps = 0;
-  if (dual_ == Dual::contacts) {
-    const bool fresh = std::exchange(progress.other_solver, false) || progress.iterations_of_rows == 0;
-    sweeps = contacts_.solve(system.solver, system.rows, potential_.eliminated, potential_.metric, fresh,
-                             {.max_sweeps = most, .absolute = accuracy}, system.at.v);
-    progress.linear_part = part(system.solver);
-  } else {
-    sweeps =
-        hard_rows_.solve(system.rows, potential_.eliminated, potential_.metric, accuracy, most, system.at.v);
-  }
-  progress.sweeps += sweeps;
-  progress.row_updates += sweeps * row_count(system.rows, potential_.eliminated);
-  acceleration_.accelerate(system);
 }
 
 /// Finds the direction at v; returns Newton's decrement, sqrt(-gradient . direction), an estimate of the

@@ -2,7 +2,8 @@
 // (potential.h), L-BFGS in a constant metric, backtracking on phi. Where other rows are left they stay dual:
 // hard ones (hard_rows.h), or contacts alone (metric_contacts.h). v is then the argmin of the potential's
 // model in the metric P under them, accelerated by Anderson's method, which begins anew where its residual
-// does not fall, and of sheets wherever it grows; that is not globalised by a line search, and P knows
+// does not fall, and of sheets wherever it grows. Under contacts backtracking keeps both
+// from doubling their merit (contact_merit.h) while the residual is above a hundredth of the scale. P knows
 // nothing of those rows' geometric stiffness.
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
@@ -21,6 +22,7 @@
 #include <optional>
 
 #include "outer/acceleration.h"
+#include "outer/contact_merit.h"
 #include "outer/free_components.h"
 #include "outer/hard_rows.h"
 #include "outer/lbfgs.h"
@@ -83,6 +85,7 @@ class QuasiNewton {
   bool outlived(const Progress& progress, double well);
   void descend(StepSystem& system, const Progress& progress);
   void project(StepSystem& system, Progress& progress);
+  void search(StepSystem& system);
 
   enum class Dual : std::uint8_t { none, hard_rows, contacts };  // besides what is eliminated
 
@@ -106,7 +109,8 @@ class QuasiNewton {
   Lbfgs lbfgs_;
   Settling settling_;
   double last_residual_ = 0;  // sqrt(J), of the last iteration
-  bool evaluated_ = false;    // the potential and the impulses are those of v
+  bool evaluated_ = false;    // the potential and the rows are those of v
+  RowResidual sums_;          // of the rows there
   double slope_ = 0;          // of the potential along `direction`, J
   Points last_gradient_, direction_, search_from_, zero_;
   Fall fall_;  // of this step's residual, where it descends the primal one
@@ -115,6 +119,9 @@ class QuasiNewton {
   HardRows hard_rows_;
   MetricContacts contacts_;
   Acceleration acceleration_;
+  ContactMerit merit_;
+  ContactMerit::Sliding at_image_, at_accelerated_;
+  Points image_;
 };
 
 }  // namespace pbd

@@ -5,7 +5,7 @@ namespace pbd {
 bool Acceleration::refuted(StepSystem& system, const Progress& progress, double too_much) {
   const double residual = progress.residual();
   const bool refuted = accelerated_ && residual > too_much * last_residual_;
-  if (refuted) anderson_.reject(system.rows, system.at.v);
+  if (refuted) reject(system);
   last_residual_ = residual;
   return refuted;
 }

@@ -15,14 +15,17 @@ class Acceleration {
     accelerated_ = false;
   }
 
-  /// Notes where the next image comes from; true if v has been taken back to the last image, so that all has
-  /// to be linearised again before `note`: where the residual has grown by more than a factor.
+  /// True if v has been taken back to the last image, so that all has to be linearised again before `note`:
+  /// where the residual has grown by more than a factor.
   bool refuted(StepSystem& system, const Progress& progress, double too_much = 10);
+
+  /// The next image comes from here.
   void note(const StepSystem& system) { anderson_.begin(system.rows, system.at.v); }
 
   /// True if it moved v.
   bool accelerate(StepSystem& system) {
-    return accelerated_ = anderson_.accelerate(system.problem.inverse_mass, system.rows, system.at.v);
+    accelerated_ = anderson_.accelerate(system.problem.inverse_mass, system.rows, system.at.v);
+    return accelerated_;
   }
 
   /// Takes v back to the last image.

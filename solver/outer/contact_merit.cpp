@@ -8,10 +8,10 @@
 namespace pbd {
 namespace {
 
-/// max over p from lower to upper of -p u - 1/2 sigma p^2.
-double penalty(double u, double sigma, double lower, double upper) {
-  const double pushed_out = u < 0 ? upper : lower;
-  const double p = sigma > 0 ? std::clamp(-u / sigma, lower, upper) : pushed_out;
+/// max over p from 0 to most of -p u - 1/2 sigma p^2.
+double penalty(double u, double sigma, double most) {
+  if (u >= 0) return 0;  // what is not a number goes on
+  const double p = sigma > 0 ? std::min(-u / sigma, most) : most;
   return -p * u - sigma * p * p / 2;
 }
 
@@ -44,10 +44,9 @@ double ContactMerit::of_contacts(const Rows& rows, const std::vector<bool>& elim
   each_contact(rows, eliminated, [&]<class Block>(const Block& block, std::size_t i) {
     const double normal = block.residual(v, i, Block::Value::Zero())[0];
     const double slides = sliding_[k] + share * (sliding[k] - sliding_[k]);
-    const Bounds& bounds = block.bounds[i];
-    const double lower = std::max(bounds.lower, -most_), upper = std::min(bounds.upper, most_);
-    sum += penalty(in_cone(block) ? normal - slides : normal, block.compliance[i](0, 0), lower, upper);
-    if (!in_cone(block)) sum += normal_[k] * slides;
+    const bool cone = in_cone(block);
+    sum += penalty(cone ? normal - slides : normal, block.compliance[i](0, 0), most_);
+    if (!cone) sum += normal_[k] * slides;
     ++k;
   });
   return sum;

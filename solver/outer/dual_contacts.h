@@ -8,8 +8,8 @@
 namespace pbd {
 
 /// f(block, i) for every contact: the rows that are not eliminated are no others.
-template <class RowsOrConst, class F>
-void each_contact(RowsOrConst& rows, const std::vector<bool>& eliminated, F&& f) {
+template <class AnyRows, class F>
+void each_contact(AnyRows& rows, const std::vector<bool>& eliminated, F&& f) {
   for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
     if (eliminated[b]) continue;
     std::visit(

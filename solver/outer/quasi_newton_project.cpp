@@ -42,14 +42,15 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
   progress.row_updates += sweeps * row_count(system.rows, potential_.eliminated);
   evaluated_ = false;
   constexpr double far = 1e-2;  // of the scale; nearer, the residual is the better judge
-  if (dual_ == Dual::contacts && progress.residual() > far * progress.scale)
+  const bool has_merit = dual_ == Dual::contacts && !system.problem.implicit_gyroscopic;
+  if (has_merit && progress.residual() > far * progress.scale)
     search(system);
   else
     acceleration_.accelerate(system);
 }
 
 /// Goes as the acceleration leads, or to the image, or a part of the way there: to the first of these where
-/// the merit is not double of that where the iteration began. To the image where none is.
+/// the merit is at most twice that at the start, or else to the image. The impulses stay those of the image.
 void QuasiNewton::search(StepSystem& system) {
   constexpr int most_halvings = 5;
   const std::vector<bool>& eliminated = potential_.eliminated;

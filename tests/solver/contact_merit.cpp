@@ -26,8 +26,8 @@ Rows one_contact(Friction law, double compliance) {
   return rows;
 }
 
-/// J, what the contacts add to the potential at v, or a share of the way there, from rest: so much less than
-/// twice the merit at rest a potential has to be not to leap.
+/// J, what the contacts add to the potential at v, or a share of the way there, from rest. By bisection: the
+/// largest potential that is no leap is 2 at_rest less it.
 double added(const Rows& rows, const Points& v, double share = 1) {
   const std::vector<bool> eliminated{false};
   constexpr double at_rest = 10;

@@ -1,4 +1,4 @@
-// Surfaces in contact, whose iterations descend by no line search: of cloth that folds, sheets that meet in
+// Surfaces in contact, whose iterations have no line search: of cloth that folds, sheets that meet in
 // flight and a block that is pressed flat.
 #include <fmt/format.h>
 

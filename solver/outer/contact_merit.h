@@ -6,9 +6,8 @@
 // taken from it instead. The frame in which a contact slides stays that of the linearisation, as the rows'
 // own does; s on the way between two velocities is taken as linear, which it is at most. Where the contacts'
 // problem in the metric is solved exactly, and no gyroscopic torque acts, its solution is downhill in the
-// merit. It is no more than a guard against leaps: where sheets fold, steps that never raise it take more
-// iterations than the budget has (measured on stiff sheets that slide over a border, and on one that falls on
-// its edge), while those that double it lead astray.
+// merit. It is no more than a guard against leaps: steps that double it lead astray, but where sheets fold,
+// steps that never raise it take more iterations than there are.
 #pragma once
 
 #include <vector>

@@ -2,10 +2,10 @@
 // (potential.h), L-BFGS in a constant metric, backtracking on phi. Where other rows are left they stay dual:
 // hard ones (hard_rows.h), or contacts alone (metric_contacts.h). v is then the argmin of the potential's
 // model in the metric P under them, accelerated by Anderson's method, which begins anew where its residual
-// does not fall, and of sheets wherever it grows. Under contacts, without gyroscopic
-// torques, and while the residual is above a hundredth of the scale, an acceleration or a step that doubles a
-// merit (contact_merit.h) is shortened, to 1/32 at most; where that does not help the whole step is taken. P
-// knows nothing of those rows' geometric stiffness.
+// does not fall, and of sheets wherever it grows. P knows nothing of those rows' geometric stiffness. While
+// the residual is above a hundredth of the scale, contacts guard the way by a merit (contact_merit.h), where
+// no gyroscopic torque acts: an acceleration that doubles it is taken back, a step that does is halved, five
+// times at most. Where that does not help the whole step is taken.
 //
 // The metric is that of the rest shapes (of bending, which states none, that of the scene's initial
 // positions) until 30 iterations of a step were not enough: it is then factored anew at the current shape,

@@ -50,7 +50,7 @@ void QuasiNewton::project(StepSystem& system, Progress& progress) {
 }
 
 /// Goes as the acceleration leads, or to the image, or a part of the way there: to the first of these where
-/// the merit is at most twice that at the start, or else to the image. The impulses stay those of the image.
+/// the merit is at most twice that at the start, or else to the image. A part of the way keeps its impulses.
 void QuasiNewton::search(StepSystem& system) {
   constexpr int most_halvings = 5;
   const std::vector<bool>& eliminated = potential_.eliminated;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cylinder_features.h"
+#include "passing.h"
 
 namespace pbd::reference {
 namespace {
@@ -41,10 +42,12 @@ FeaturePair Between::pair_of(const PlacedSurface& a, int kind_a, std::size_t i, 
   return pair;
 }
 
-/// Turns the normal so that the gap was positive where the step began.
-void Between::take_side_of_start(FeaturePair& pair) const {
+/// Turns the normal so that the gap was positive where the step began, or would have been but for what passed
+/// beside the features.
+void Between::take_side(FeaturePair& pair) const {
   const double radii = pair.a.radius + pair.b.radius;
-  if (nearest(pair, start).gap + radii < 0) pair.side = -pair.side;
+  const bool beside = pair.a.rim == 0 && passes_beside(pair, start, at);
+  if ((nearest(pair, start).gap + radii < 0) != beside) pair.side = -pair.side;
 }
 
 /// Whether a pair of features parts surfaces about as soon as any does.
@@ -87,7 +90,7 @@ void Between::points_over_faces(const PlacedSurface& a, int kind, const PlacedSu
     FeaturePair pair = pair_of(a, kind, i, b, feature_kind::face, k);
     if (b.surface.deformable) {
       if (a.surface.deformable && share_corner(pair)) return;
-      take_side_of_start(pair);
+      take_side(pair);
     }
     const Nearest found_at = nearest(pair, at);
     const Vec3 &n = found_at.normal, &x = found_at.on_a;
@@ -116,7 +119,7 @@ void Between::edges_across_edges(const PlacedSurface& a, const PlacedSurface& b)
     for (const auto& weight : found_at.weight)
       if (!(weight[0] >= 0 && weight[1] >= 0)) return;
     if (both_deformable) {
-      take_side_of_start(pair);
+      take_side(pair);
       return add_if(pair, depth);
     }
     for (const double side : {1.0, -1.0}) {

@@ -38,7 +38,7 @@ struct Between {
   void corners_beside(const PlacedSurface& a, const PlacedSurface& b, int kind) const;
 
  private:
-  void take_side_of_start(FeaturePair& pair) const;
+  void take_side(FeaturePair& pair) const;
   bool leads_out(const FeaturePair& pair, const Vec3& normal) const;
   bool came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const;
 };

@@ -34,10 +34,11 @@ Findings StepCheck::judge(const StepClaim& claim) const {
   }
   const double level = level_of(claim, *model_);
   if (is_euler_step(claim)) {
-    check_motion(claim, findings);
+    check_motion(claim, Moved::all, findings);
     check_momentum(claim, *model_, level, findings);
     check_turns(claim, *model_, findings);
   } else {
+    check_motion(claim, Moved::fixed, findings);
     findings.leave_out("motion and momentum: by this integrator or blend of directions");
   }
   if (is_euler_step(claim) && !explicit_forces(claim))

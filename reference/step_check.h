@@ -5,7 +5,7 @@
 //   level       = tolerance scale + rounding (sqrt(J)): both residuals of the step are below it. The scale of
 //               implicit_euler is the judge's own, by states and given forces; of others it is the one told.
 //   motion      x1 - x0 - h v1 (m), and the turn R1 against R0 exp(h w1) (rad); what is fixed keeps its
-//               velocities.
+//               velocities, and goes so by any integrator.
 //   momentum    g = M (v1 - v0) - h (f + J^T gamma + contact forces), of rotations with the torques about
 //               the bodies' centres: |g| in the metric of inverse masses <= level.
 //   constraints r = c + A gamma: sqrt(sum r^T (h^2 J W J^T + A)^-1 r) <= level; of bounded forces what the

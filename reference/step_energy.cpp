@@ -142,7 +142,10 @@ void Energy::add_contact(const ClaimedContact& c, const Sides& sides) {
   const auto& [a, b] = c.collider;
   const double h = claim_.h;
   const ContactSlack open = slack_of(claim_, c, sides, level_);
-  const Vec3 start = sides.velocity(c, 0, claim_.start) - sides.velocity(c, 1, claim_.start);
+  const auto against = [&](const State& state) -> Vec3 {
+    return sides.velocity(c, 0, state) - sides.velocity(c, 1, state);
+  };
+  const Vec3 start = against(claim_.start);
   const double slip = open.slip.norm(), friction = h * open.friction.dot(open.slip);
   for (const std::size_t side : {0, 1})
     if (sides.inverse_mass(c.collider[side], 1) == 0)  // is led
@@ -154,11 +157,15 @@ void Energy::add_contact(const ClaimedContact& c, const Sides& sides) {
   const double overlap =
       std::max(0.0, -separation(sides.placed(a, claim_.start), sides.placed(b, claim_.start), c.normal));
   const double curved = rounded_turns(c, 0, sides) + rounded_turns(c, 1, sides);
-  if (open.law.restitution > 0) {
-    allow(std::max(open.normal, 0.0) * (overlap + curved + h * open.velocity));
-    allow((friction + h * open.friction.dot(start)) / 2);
-  } else {
-    allow(std::max(open.normal, 0.0) * (c.gap + overlap + curved + h * open.velocity));
+  const bool may_collide = open.law.restitution > 0 && c.normal.dot(start) < 0;
+  const double opened = may_collide ? 0 : c.gap;
+  allow(std::max(open.normal, 0.0) * (opened + overlap + curved + h * open.velocity));
+  if (may_collide) {
+    // By the convex law the normal velocity gives back what friction takes along the end's slip.
+    const double taken = claim_.friction == Friction::cone ? 0 : friction;
+    allow((taken + h * open.friction.dot(start)) / 2);
+  } else if (collides) {
+    allow(h * c.force.dot(start - against(claim_.end)) / 2);
   }
 }
 

@@ -18,7 +18,10 @@
 // A collision's normal velocity ends as -e of that at the step's start, e <= 1, so that F_n acts along the
 // mean of both, which does not part the shapes: v1.p - |p|^2_W/2 = p.(v0 + v1)/2. The step's other impulses q
 // may then give back the -q.(v1 - v0)/2 that a collision makes of them: gravity h g v1 is the first order of
-// rebounds. Newton's law with friction may gain what friction does where it turns a slip round.
+// rebounds. So may contacts that do not close where the step begins: a small body that leaves the ground, and
+// is pressed on it by a large one that it meets, throws that off by e of its own speed. Newton's law with
+// friction may gain what friction does where it turns a slip round; the convex law, whose normal velocity
+// gives back what friction takes along the end's slip, all that it does along the slip at the start.
 //
 // Limits: not of steps in which deformable surfaces are pressed (`left_out`), nor of other integrators.
 #pragma once

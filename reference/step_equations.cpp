@@ -38,26 +38,35 @@ RowMatrix metric_of(const RigidModel& model, const Block& block, double h) {
   return n;
 }
 
-void check_motion(const StepClaim& claim, Findings& findings) {
+void check_motion(const StepClaim& claim, Moved what, Findings& findings) {
   const Scene& scene = claim.scene;
-  double held = 0, moved = 0, turned = 0;
-  for (int i = 0; i < scene.nodes(); ++i)
-    if (std::isinf(scene.mass[static_cast<std::size_t>(i)]))
-      held = larger(held, (claim.end.v.col(i) - claim.start.v.col(i)).norm());
-  const Points missed = claim.end.x - claim.start.x - claim.h * claim.end.v;
-  for (int i = 0; i < scene.nodes(); ++i) moved = larger(moved, missed.col(i).norm());
+  double held = 0, moved = 0, turned = 0, size = 0, speed = 0, spin = 0;
+  bool any = what == Moved::all;
+  for (int i = 0; i < scene.nodes(); ++i) {
+    const auto node = static_cast<Eigen::Index>(i);
+    const bool fixed = std::isinf(scene.mass[static_cast<std::size_t>(i)]);
+    if (!fixed && what == Moved::fixed) continue;
+    any = true;
+    const Vec3 from = claim.start.x.col(node), to = claim.end.x.col(node), v = claim.end.v.col(node);
+    if (fixed) held = larger(held, (v - claim.start.v.col(node)).norm());
+    moved = larger(moved, (to - from - claim.h * v).norm());
+    size = larger(size, from.cwiseAbs().maxCoeff() + to.cwiseAbs().maxCoeff());
+    speed = larger(speed, v.cwiseAbs().maxCoeff());
+  }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto body = static_cast<Eigen::Index>(b);
-    if (!scene.bodies[b].inertia.allFinite())
-      held = larger(held, (claim.end.spin.col(body) - claim.start.spin.col(body)).norm());
-    const auto expected = turned_by(claim.start.orientation[b], claim.h * claim.end.spin.col(body));
+    const bool fixed = !scene.bodies[b].inertia.allFinite();
+    if (!fixed && what == Moved::fixed) continue;
+    any = true;
+    const Vec3 w = claim.end.spin.col(body);
+    if (fixed) held = larger(held, (w - claim.start.spin.col(body)).norm());
+    const auto expected = turned_by(claim.start.orientation[b], claim.h * w);
     turned = larger(turned, 2 * (expected.conjugate() * claim.end.orientation[b]).vec().norm());
+    spin = larger(spin, w.cwiseAbs().maxCoeff());
   }
-  const double size = claim.start.x.cwiseAbs().maxCoeff() + claim.end.x.cwiseAbs().maxCoeff();
+  if (!any) return;
   findings.require("motion", "velocities of what is fixed, m/s or rad/s", held, 0);
-  findings.require("motion", "positions, m", moved,
-                   step_rounding * (size + claim.h * claim.end.v.cwiseAbs().maxCoeff()));
-  const double spin = claim.end.spin.cols() > 0 ? claim.end.spin.cwiseAbs().maxCoeff() : 0.0;
+  findings.require("motion", "positions, m", moved, step_rounding * (size + claim.h * speed));
   findings.require("motion", "orientations, rad", turned, step_rounding * (1 + claim.h * spin));
 }
 

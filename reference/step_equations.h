@@ -36,8 +36,11 @@ bool at_jump(const StepModel& model, const Block& block, double value, double si
 /// What both residuals of the step may be at most, sqrt(J).
 double level_of(const StepClaim& claim, const StepModel& model);
 
+/// Whose motion is x1 - x0 = h v1: by these integrators all, by any what has no finite mass.
+enum class Moved : std::uint8_t { all, fixed };
+
 /// Appends what speaks against the step.
-void check_motion(const StepClaim& claim, Findings& findings);
+void check_motion(const StepClaim& claim, Moved what, Findings& findings);
 void check_momentum(const StepClaim& claim, const StepModel& model, double level, Findings& findings);
 void check_constraints(const StepClaim& claim, const StepModel& model, double level, Findings& findings);
 

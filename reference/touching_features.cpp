@@ -7,27 +7,11 @@
 namespace pbd::reference {
 namespace {
 
-using Places = std::array<Vec3, 3>;
-
 /// Weights of a line's ends at the point nearest to `x`.
 void weigh_line(const Places& line, const Vec3& x, std::array<double, 3>& weight) {
   const Vec3 along = line[1] - line[0];
   const double t = along.dot(x - line[0]) / along.squaredNorm();
   weight = {1 - t, t, 0};
-}
-
-/// Of a plane's three corners below or above `x`.
-void weigh_plane(const Places& plane, const Vec3& x, std::array<double, 3>& weight) {
-  const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0], n = u.cross(v), d = x - plane[0];
-  const double area = n.squaredNorm(), s = d.cross(v).dot(n) / area, t = u.cross(d).dot(n) / area;
-  weight = {1 - s - t, s, t};
-}
-
-/// Of two lines that are not parallel.
-void weigh_lines(const Places& a, const Places& b, std::array<std::array<double, 3>, 2>& weight) {
-  const Vec3 u = a[1] - a[0], v = b[1] - b[0], d = b[0] - a[0], n = u.cross(v);
-  const double s = d.cross(v).dot(n) / n.squaredNorm(), t = d.cross(u).dot(n) / n.squaredNorm();
-  weight[0] = {1 - s, s, 0}, weight[1] = {1 - t, t, 0};
 }
 
 Places places_of(const ContactFeature& feature, const Placement& at) {
@@ -100,6 +84,18 @@ void cross_rim(const FeaturePair& pair, const Placement& at, const Places& b, Ne
 }
 
 }  // namespace
+
+void weigh_plane(const Places& plane, const Vec3& x, std::array<double, 3>& weight) {
+  const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0], n = u.cross(v), d = x - plane[0];
+  const double area = n.squaredNorm(), s = d.cross(v).dot(n) / area, t = u.cross(d).dot(n) / area;
+  weight = {1 - s - t, s, t};
+}
+
+void weigh_lines(const Places& a, const Places& b, std::array<std::array<double, 3>, 2>& weight) {
+  const Vec3 u = a[1] - a[0], v = b[1] - b[0], d = b[0] - a[0], n = u.cross(v);
+  const double s = d.cross(v).dot(n) / n.squaredNorm(), t = d.cross(u).dot(n) / n.squaredNorm();
+  weight[0] = {1 - s, s, 0}, weight[1] = {1 - t, t, 0};
+}
 
 Vec3 placed(const Corner& corner, const Placement& at) {
   const Vec3 x = at.x.col(corner.node);

@@ -43,6 +43,14 @@ struct Nearest {
   double crossing = 1;
 };
 
+using Places = std::array<Vec3, 3>;  // m, of as many corners as a feature has
+
+/// Of a plane's three corners below or above `x`.
+void weigh_plane(const Places& plane, const Vec3& x, std::array<double, 3>& weight);
+
+/// Of the ends of two lines that are not parallel, where they are nearest to each other.
+void weigh_lines(const Places& a, const Places& b, std::array<std::array<double, 3>, 2>& weight);
+
 Vec3 placed(const Corner& corner, const Placement& at);
 
 /// A force acts on bodies half way between what touches; on a face at the corner over it; beside a deformable

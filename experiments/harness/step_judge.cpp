@@ -23,6 +23,19 @@ double velocity_distance(const pbd::Scene& scene, const pbd::State& one, const p
   return std::sqrt(squared);
 }
 
+/// True if what has no finite mass or inertia has the velocity with which it began.
+bool keeps_fixed(const pbd::reference::StepClaim& claim) {
+  const pbd::Scene& scene = claim.scene;
+  const pbd::State &start = claim.start, &end = claim.end;
+  for (int i = 0; i < scene.nodes(); ++i)
+    if (std::isinf(scene.mass[static_cast<std::size_t>(i)]) && end.v.col(i) != start.v.col(i)) return false;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto body = static_cast<Eigen::Index>(b);
+    if (!scene.bodies[b].inertia.allFinite() && end.spin.col(body) != start.spin.col(body)) return false;
+  }
+  return true;
+}
+
 StepDistance distance(const pbd::reference::StepClaim& claim, const Judged& judged) {
   if (judged.status != "ok") return {};
   const pbd::Points reached = places(claim.scene, claim.end.x, claim.end.orientation),
@@ -58,6 +71,7 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
     judged.nearest = other;
     judged.start = start;
   }
+  if (!keeps_fixed(claim)) judged.own.of_scale = judged.nearest.of_scale = judged.residual = pbd::infinity;
   return judged;
 }
 

@@ -21,10 +21,7 @@ bool takes_local_contacts(const StepSystem& system) {
 }  // namespace
 
 QuasiNewton::QuasiNewton(StepSystem& system)
-    : components_(system),
-      lbfgs_(system.problem.method.memory),
-      zero_(Points::Zero(3, system.problem.bodies.columns())),
-      acceleration_(system.problem.method.memory) {
+    : components_(system), lbfgs_(system.problem.method.memory), acceleration_(system.problem.method.memory) {
   const auto refuse = [](const char* what, const char* allowed) {
     throw SetupError("outer", std::string("quasi_newton ") + what, allowed);
   };
@@ -121,9 +118,9 @@ double QuasiNewton::find_direction() {
   return std::sqrt(-slope_);
 }
 
-/// Goes where the potential is lowest: the old velocity, the free one or rest. Not above rest, a step gains
-/// no energy but what the given forces bring: 1/2 |v - v_free|^2 + U <= 1/2 |v_free|^2 + U_old. True if it
-/// moved.
+/// Goes where the potential is lowest: the old velocity, the free one or rest of what has a finite mass. Not
+/// above rest, a step gains no energy but what the given forces bring: 1/2 |v - v_free|^2 + U <=
+/// 1/2 |v_free|^2 + U_old. True if it moved.
 bool QuasiNewton::start_low(StepSystem& system) {
   const Problem& problem = system.problem;
   Points& v = system.at.v;
@@ -131,8 +128,11 @@ bool QuasiNewton::start_low(StepSystem& system) {
   last_gradient_ = potential_.gradient;
   double lowest = potential_.value;
   const Points* last = &search_from_;
-  for (const Points* start : {&problem.map.v_free, static_cast<const Points*>(&zero_)}) {
-    if (start == &zero_ && lowest <= squared_mass_norm(problem.inverse_mass, problem.map.v_free) / 2) break;
+  rest_ = problem.map.v_free;
+  for (Eigen::Index column = 0; column < rest_.cols(); ++column)
+    if (problem.inverse_mass[static_cast<std::size_t>(column)] > 0) rest_.col(column).setZero();
+  for (const Points* start : {&problem.map.v_free, static_cast<const Points*>(&rest_)}) {
+    if (start == &rest_ && lowest <= squared_mass_norm(problem.inverse_mass, problem.map.v_free) / 2) break;
     v = *start;
     evaluate(system);
     if (potential_.value < lowest) {
@@ -150,6 +150,7 @@ bool QuasiNewton::start_low(StepSystem& system) {
   v = search_from_;
   potential_.gradient = last_gradient_;
   potential_.value = lowest;
+  evaluated_ = moved;  // else the rows are still those of the last start
   return moved;
 }
 
@@ -165,6 +166,7 @@ void QuasiNewton::descend(StepSystem& system, const Progress& progress) {
   }
   constexpr double well = 0.7;  // L-BFGS learns what the metric leaves out, and a factor would forget it
   if (outlived(progress, well)) {
+    refresh(system);
     potential_.factor_metric(system, MetricShape::tangent);
     pressed_ = !follows_ && dual_ == Dual::contacts;
     lbfgs_.forget();

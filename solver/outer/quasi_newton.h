@@ -113,7 +113,7 @@ class QuasiNewton {
   bool evaluated_ = false;    // the potential and the rows are those of v
   RowResidual sums_;          // of the rows there
   double slope_ = 0;          // of the potential along `direction`, J
-  Points last_gradient_, direction_, search_from_, zero_;
+  Points last_gradient_, direction_, search_from_, rest_;
   Fall fall_;  // of this step's residual, where it descends the primal one
 
   // Where rows are left dual.

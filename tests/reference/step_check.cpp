@@ -41,6 +41,31 @@ Step bounce(double restitution, double after, double beside = 0) {
   return step;
 }
 
+/// A ball of 0.1 kg that leaves the ground at 3 m/s meets one of 10 kg, which leaves at `after`: the small
+/// one stays between them.
+Step pinned(double restitution, double after) {
+  pbdcheck::BodyScene scene(ContactLaw{.friction = 0, .restitution = restitution}, 0);
+  scene.ground();
+  scene.ball(0.1, 0.1, {.position = {0, 0, 0.1}, .velocity = {0, 0, 3}});
+  scene.ball(0.1, 10, {.position = {0, 0, 0.305}});
+  Step step(scene.finish());
+  step.end.v.col(1).z() = 0;
+  step.end.v.col(2).z() = after;
+  step.move();
+  const double upper = 10 * after / h;
+  step.contacts.push_back({.collider = {1, 0},
+                           .point = Vec3::Zero(),
+                           .normal = Vec3::UnitZ(),
+                           .force = {0, 0, upper - 0.1 * 3 / h},
+                           .gap = 0});
+  step.contacts.push_back({.collider = {2, 1},
+                           .point = Vec3(0, 0, 0.2),
+                           .normal = Vec3::UnitZ(),
+                           .force = {0, 0, upper},
+                           .gap = 0.005 + h * after});
+  return step;
+}
+
 /// A mass of 2 kg that leaves its place on a spring of 50 N/m at 1 m/s, damped by T = 1 s, or driven by -1 s:
 /// 2 (v1 - v0) = h gamma, gamma = -50 (h v1 + T v1).
 Step damped_spring(double retardation) {
@@ -78,6 +103,17 @@ TEST_CASE("motion: positions follow the velocities, what is fixed stays") {
   Step lost = free_fall();
   lost.end.v(0, 0) = std::nan("");
   CHECK_FALSE(refuted(lost).empty());
+  for (const auto* integrator : {"newmark", "bdf2", "generalised_alpha", "midpoint"}) {
+    INFO(integrator);
+    Step other = swinging_link();
+    other.integrator = integrator;
+    CHECK(refuted(other).empty());
+    Step pushed = other, left = other;
+    pushed.end.v(1, 0) = 1e-9;
+    CHECK(refuted(pushed) == Names{"motion"});
+    left.end.x(1, 0) = 1e-9;  // without a velocity
+    CHECK(refuted(left).count("motion") == 1);
+  }
 }
 
 TEST_CASE("momentum: speed from nowhere, a force that is another, a spin that nothing gives") {
@@ -123,6 +159,9 @@ TEST_CASE("rebound and energy: collisions end at their speed, and no damping giv
   CHECK(refuted(bounce(1, 1 + 1e-6)) == Names{"energy", "rebound"});
   CHECK(refuted(bounce(1, 1, 100)).empty());  // another ball falls far beside it
   CHECK(refuted(bounce(1, 1.1, 100)) == Names{"energy", "rebound"});
+  // Newton's law lets the large ball leave by 1.5 m/s, which brings it 11.25 J, with 0.45 J where they begin.
+  CHECK(refuted(pinned(0.5, 1.5)).empty());
+  CHECK(refuted(pinned(0.5, 1.6)) == Names{"rebound"});
   CHECK(refuted(damped_spring(1)).empty());
   CHECK(refuted(damped_spring(-1)) == Names{"energy"});
 }

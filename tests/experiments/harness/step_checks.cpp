@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 
 #include "harness/step_judge.h"
 #include "results.h"
@@ -82,6 +83,23 @@ TEST_CASE(
   CHECK_THAT(run("step.duration_s=0.225").out, Catch::Contains("none refuted"));  // after a missed step, too
 }
 
+// Step 32 is one in which lines of the folding cloth's edges pass each other beside these.
+TEST_CASE("a ball that strikes a hanging cloth ends where the judge solves it, folds and all") {
+  SceneFile file = read_scene_file(scenes / "ball_at_cloth.toml", {"method.tolerance=1e-10"});
+  pbd::Workspace workspace = file.workspace();
+  pbd::State state = file.scene.initial;
+  constexpr int judged_step = 32;
+  for (int k = 1; k < judged_step; ++k)
+    REQUIRE(step(workspace, file.step_s, state).status == pbd::Status::ok);
+  const pbd::State begun = state;
+  const pbd::Report report = step(workspace, file.step_s, state);
+  REQUIRE(report.status == pbd::Status::ok);
+  const JudgedClaim judged =
+      judge_claim("cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report));
+  CHECK(judged.reference.status == "ok");
+  CHECK(judged.nearest.of_scale <= 1e-8);
+}
+
 TEST_CASE("a contact force that is another is told with step, number and bound") {
   pbd::Workspace workspace(column(2), method_of("direct"));
   pbd::State state = workspace.scene().initial;
@@ -99,6 +117,76 @@ TEST_CASE("a contact force that is another is told with step, number and bound")
   REQUIRE_FALSE(checks.refuted().empty());
   CHECK(checks.refuted().front().step == 2);
   CHECK_THAT(checks.text(), Catch::StartsWith("refuted: 1 of 3 steps, the first at step 2: momentum off by"));
+}
+
+// By the convex law what slides opens. The cloth's nodes turn round the slip between the cylinder and the
+// ground.
+TEST_CASE("energy that the convex law's opening gives a collision is not held against it") {
+  const TemporaryFolder folder;
+  const auto scene = folder.path / "scene.toml";
+  std::ofstream(scene) << R"(
+[[cloth]]
+cells = [2, 2]
+size_m = [0.6, 0.6]
+area_density_kg_m2 = 0.295
+rotation_rad = [-0.339, 0, 0]
+translation_m = [-0.3, -0.3, 0.25]
+velocity_m_s = [-8.695, -4.724, -24.81]
+links = { stiffness_n_per_m = 5540 }
+contact = { radius_m = 0.0265 }
+
+[[rigid_body]]
+name = "ground"
+shape = "half_space"
+
+[[rigid_body]]
+name = "cylinder"
+shape = "cylinder"
+radius_m = 0.08
+length_m = 0.2
+position_m = [0.0542, -0.107, 0.2]
+velocity_m_s = [-0.2656, -2.01, -1.946]
+mass_kg = 0.122
+
+[contact]
+friction = 0.5
+restitution = 1
+continuous = true
+
+[step]
+step_s = 0.02
+steps = 1
+
+[method]
+friction = "cone"
+)";
+  const auto ran = run_program({"simulate", scene, "--check", "-o", folder.path / "out"});
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Catch::StartsWith("checked: 1 steps by ") && Catch::Contains("none refuted"));
+}
+
+TEST_CASE("a step that moves what is fixed is far from every solution, by any integrator") {
+  const std::string integrator = GENERATE("implicit_euler", "newmark", "bdf2");
+  pbd::Scene scene = column(2);
+  pbd::Method method = method_of("direct");
+  method.integrator = integrator;
+  pbd::Workspace workspace(scene, method);
+  pbd::State state = scene.initial;
+  const pbd::State start = state;
+  constexpr double h = 0.01;
+  const auto report = pbd::step(workspace, h, state);
+  pbd::reference::IntegratorMemory memory(method);
+  const auto judged = [&] {
+    const auto claim = claim_of(scene, workspace, start, state, h, report);
+    const auto map = memory.map_of(claim);
+    return judge_claim("cone_interior_point", claim, map ? &*map : nullptr);
+  };
+  CHECK(judged().nearest.of_scale <= 1e-6);
+  state.v(0, 0) = 1e-9;  // the ground's
+  CHECK(judged().nearest.of_scale == pbd::infinity);
+  CHECK_FALSE(judged().solves_as_it_is());
+  state.v(0, 0) = std::nan("");
+  CHECK(judged().nearest.of_scale == pbd::infinity);
 }
 
 TEST_CASE("a step that missed its tolerance claims nothing") {

@@ -66,6 +66,37 @@ Step pinned(double restitution, double after) {
   return step;
 }
 
+/// A node of 1 kg in the corner of the ground and a smooth wall, which turns its slip of 1 m/s on the ground
+/// round. By the convex law it leaves the ground by c + mu, c = 1 m/s what it comes at, and `more`.
+Step turned_round(double friction, double more) {
+  pbdcheck::BodyScene build(ContactLaw{}, 0);
+  build.materials(2, {.friction = 0, .restitution = 1});
+  build.law(0, 0, {.friction = friction, .restitution = 1});
+  build.ground();
+  build.ground(std::numbers::pi / 2, 1);
+  build.contact().node = {2};
+  build.contact().radius = {0.1};
+  build.contact().node_material = {0};
+  Scene scene = build.finish();
+  add_node(scene, Vec3(0.1, 0, 0.1), 1, Vec3(-1, 0, -1));
+  Step step(scene);
+  step.friction = Friction::cone;
+  const double up = 2 + friction + more;  // N s
+  step.end.v.col(2) = Vec3(1, 0, up - 1);
+  step.move();
+  step.contacts.push_back({.collider = {2, 0},
+                           .point = Vec3(0.1, 0, 0),
+                           .normal = Vec3::UnitZ(),
+                           .force = Vec3(-friction * up, 0, up) / h,
+                           .gap = h * (up - 1)});
+  step.contacts.push_back({.collider = {2, 1},
+                           .point = Vec3(0, 0, 0.1),
+                           .normal = Vec3::UnitX(),
+                           .force = Vec3(2 + friction * up, 0, 0) / h,
+                           .gap = h});
+  return step;
+}
+
 /// A mass of 2 kg that leaves its place on a spring of 50 N/m at 1 m/s, damped by T = 1 s, or driven by -1 s:
 /// 2 (v1 - v0) = h gamma, gamma = -50 (h v1 + T v1).
 Step damped_spring(double retardation) {
@@ -162,6 +193,9 @@ TEST_CASE("rebound and energy: collisions end at their speed, and no damping giv
   // Newton's law lets the large ball leave by 1.5 m/s, which brings it 11.25 J, with 0.45 J where they begin.
   CHECK(refuted(pinned(0.5, 1.5)).empty());
   CHECK(refuted(pinned(0.5, 1.6)) == Names{"rebound"});
+  // That the slip is turned round brings mu (c + mu/2), all that the convex law may.
+  CHECK(refuted(turned_round(0.5, 0)).empty());
+  CHECK(refuted(turned_round(0.5, 1e-4)) == Names{"energy", "rebound"});
   CHECK(refuted(damped_spring(1)).empty());
   CHECK(refuted(damped_spring(-1)) == Names{"energy"});
 }

@@ -23,6 +23,7 @@ struct Step {
   std::vector<reference::ClaimedContact> contacts;
   double scale = 1;
   std::string_view integrator = "implicit_euler";
+  Friction friction = Friction::coulomb;
 
   explicit Step(Scene stated) : scene(std::move(stated)), end(scene.initial) {
     forces.resize(scene.effects.size());
@@ -39,6 +40,7 @@ struct Step {
   reference::Findings judge(double tolerance = 1e-8) const {
     reference::StepClaim claim{.scene = scene, .start = scene.initial, .end = end, .h = h};
     claim.integrator = integrator;
+    claim.friction = friction;
     claim.tolerance = tolerance;
     claim.scale = scale;
     claim.forces = forces;

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "harness/step_judge.h"
 #include "results.h"
@@ -117,52 +116,6 @@ TEST_CASE("a contact force that is another is told with step, number and bound")
   REQUIRE_FALSE(checks.refuted().empty());
   CHECK(checks.refuted().front().step == 2);
   CHECK_THAT(checks.text(), Catch::StartsWith("refuted: 1 of 3 steps, the first at step 2: momentum off by"));
-}
-
-// By the convex law what slides opens. The cloth's nodes turn round the slip between the cylinder and the
-// ground.
-TEST_CASE("energy that the convex law's opening gives a collision is not held against it") {
-  const TemporaryFolder folder;
-  const auto scene = folder.path / "scene.toml";
-  std::ofstream(scene) << R"(
-[[cloth]]
-cells = [2, 2]
-size_m = [0.6, 0.6]
-area_density_kg_m2 = 0.295
-rotation_rad = [-0.339, 0, 0]
-translation_m = [-0.3, -0.3, 0.25]
-velocity_m_s = [-8.695, -4.724, -24.81]
-links = { stiffness_n_per_m = 5540 }
-contact = { radius_m = 0.0265 }
-
-[[rigid_body]]
-name = "ground"
-shape = "half_space"
-
-[[rigid_body]]
-name = "cylinder"
-shape = "cylinder"
-radius_m = 0.08
-length_m = 0.2
-position_m = [0.0542, -0.107, 0.2]
-velocity_m_s = [-0.2656, -2.01, -1.946]
-mass_kg = 0.122
-
-[contact]
-friction = 0.5
-restitution = 1
-continuous = true
-
-[step]
-step_s = 0.02
-steps = 1
-
-[method]
-friction = "cone"
-)";
-  const auto ran = run_program({"simulate", scene, "--check", "-o", folder.path / "out"});
-  CHECK(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Catch::StartsWith("checked: 1 steps by ") && Catch::Contains("none refuted"));
 }
 
 TEST_CASE("a step that moves what is fixed is far from every solution, by any integrator") {

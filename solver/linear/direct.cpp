@@ -14,6 +14,7 @@ void Direct::begin(Rows& rows, const Points& v, bool fresh) {
   patience_ = fresh || !gave_up() ? most_patience : std::max(1, patience_ - 1);
   lowest_ = infinity;
   idle_ = 0;
+  followed_ = false;
   further_sweeps_ = 0;
 }
 
@@ -28,7 +29,9 @@ Sweep Direct::sweep(Rows& rows, Points& v, BlockSeconds seconds) {
   if (newton_.improve(rows, v, residual, augments ? 2 : 3)) return {residual};
   keep_impulses_and_biases(rows, kept_);
   start_ = v;
-  if (augments ? augment(rows, v, residual) : idle_ > by_sweeps && advance(rows, v)) return {residual};
+  if (augments ? augment(rows, v, residual)
+               : idle_ > by_sweeps && (follow_path(rows, v, residual) || advance(rows, v)))
+    return {residual};
   part_ = GaussSeidel::name;
   const int instead = 10 * (1 + idle_);
   for (int sweep = 0; sweep < instead; ++sweep) GaussSeidel{}.sweep(rows, v, nullptr);
@@ -52,6 +55,15 @@ bool Direct::augment(Rows& rows, Points& v, double residual) {
   }
   restore(rows, v);
   return false;
+}
+
+/// By the path of smoothed laws, which leads from anywhere to the same end.
+bool Direct::follow_path(Rows& rows, Points& v, double residual) {
+  if (followed_) return false;
+  followed_ = true;
+  const SemismoothNewton::Round path = newton_.follow_path(rows, v, residual);
+  further_sweeps_ += path.factorisations;
+  return path.solved;
 }
 
 /// By a round of the proximal point method. It need not lower the residual, but brings impulses nearer to

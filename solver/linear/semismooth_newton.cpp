@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "linear/natural_residual.h"
+#include "linear/smoothed_law.h"
 #include "rows/dense.h"
 #include "rows/laws.h"
 
@@ -15,13 +17,6 @@ template <class Block>
 double weight_of(const Block& block, std::size_t i) {
   return block.inverse_diagonal[i].trace() / Block::rows;
 }
-
-/// own dp + by_step J dv = right, constraint i's row of the linear system.
-template <class Block>
-struct LinearLaw {
-  typename Block::Square own, by_step;
-  typename Block::Value right;
-};
 
 /// Of constraint i, whose rows miss r.
 template <class Block>
@@ -58,6 +53,12 @@ bool has_local_contacts(const Rows& rows) {
                      [](const AnyBlock& block) { return std::holds_alternative<LocalContacts>(block); });
 }
 
+template <class Block>
+SmoothedLaw smoothed(const Block& block, std::size_t i, double smoothing, const Points& v) {
+  return smoothed_law(block.law != Friction::cone, block.friction[i], block.delassus[i], smoothing,
+                      block.impulse[i], block.residual(v, i, block.impulse[i]));
+}
+
 }  // namespace
 
 /// What constraint i's rows miss, in a round with the term that holds impulses where it began.
@@ -71,9 +72,32 @@ typename Block::Value SemismoothNewton::missed(const Block& block, std::size_t i
   return r;
 }
 
+template <class Block>
+LinearLaw<Block> SemismoothNewton::law_of(const Block& block, std::size_t i, Eigen::Index first,
+                                          const Points& v) const {
+  if constexpr (Block::rows == 3)
+    if (smoothing_ > 0 && is_smoothed(block, i)) {
+      const auto [missed, by_p, by_r] = smoothed(block, i, smoothing_, v);
+      return {by_p + by_r * typename Block::Square(block.compliance[i]), by_r, -missed};
+    }
+  return linear_law(block, i, missed(block, i, first, v), shift_);
+}
+
 double SemismoothNewton::residual(const Rows& rows, const Points& v) const {
-  return natural_residual_of(
-      rows, [&](const auto& block, std::size_t i, Eigen::Index first) { return missed(block, i, first, v); });
+  if (!(smoothing_ > 0))
+    return natural_residual_of(rows, [&](const auto& block, std::size_t i, Eigen::Index first) {
+      return missed(block, i, first, v);
+    });
+  double squared = 0;
+  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index) {
+    if constexpr (Block::rows == 3)
+      if (is_smoothed(block, i)) {
+        squared += smoothed(block, i, smoothing_, v).missed.squaredNorm();
+        return;
+      }
+    squared += squared_residual(block, i, block.residual(v, i, block.impulse[i]));
+  });
+  return std::sqrt(squared);
 }
 
 void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
@@ -83,7 +107,7 @@ void SemismoothNewton::assemble(const Rows& rows, const Points& v) {
   const int unknowns = system_.size + (keeps_impulses_ ? impulses : 0);
   right_.setZero(unknowns);
   each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
-    const auto [own, by_step, right] = linear_law(block, i, missed(block, i, first, v), shift_);
+    const auto [own, by_step, right] = law_of(block, i, first, v);
     if (!keeps_impulses_) {
       const typename Block::Square inverse = inverse_of(own);
       system_.add(block, i, inverse * by_step);
@@ -126,9 +150,28 @@ void SemismoothNewton::find_step(const Rows& rows, const Points& v) {
     return;
   }
   each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
-    const auto [own, by_step, right] = linear_law(block, i, missed(block, i, first, v), shift_);
+    const auto [own, by_step, right] = law_of(block, i, first, v);
     step_.segment<Block::rows>(first) =
         inverse_of(own) * (right - by_step * system_.along(block, i, solution_));
+  });
+}
+
+/// Solves the linear system for the step; false where it has none.
+bool SemismoothNewton::find_newton_step(const Rows& rows, const Points& v) {
+  assemble(rows, v);
+  if (right_.size() == 0) return false;  // nothing can move
+  if (!factor_.factorise(matrix_)) return false;
+  find_step(rows, v);
+  return true;
+}
+
+/// Goes a part of the step, cut to what bounds and laws allow unless laws are smoothed.
+void SemismoothNewton::take_step(Rows& rows, Points& v, double length) const {
+  each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, Eigen::Index first) {
+    typename Block::Value change = length * step_.segment<Block::rows>(first);
+    if (!(smoothing_ > 0)) change = cut(block, i, block.impulse[i] + change) - block.impulse[i];
+    block.impulse[i] += change;
+    block.apply(rows.inverse_mass, i, change, v);
   });
 }
 
@@ -136,17 +179,9 @@ void SemismoothNewton::find_step(const Rows& rows, const Points& v) {
 /// changed, where none does.
 bool SemismoothNewton::descend(Rows& rows, Points& v, double below) {
   constexpr double shortest = 0.1;  // step: other means gain more than shorter ones
-  assemble(rows, v);
-  if (right_.size() == 0) return false;  // nothing can move
-  if (!factor_.factorise(matrix_)) return false;
-  find_step(rows, v);
+  if (!find_newton_step(rows, v)) return false;
   for (double length = 1; length > shortest; length /= 2) {
-    each_constraint(rows, [&]<class Block>(Block& block, std::size_t i, Eigen::Index first) {
-      const typename Block::Value target = block.impulse[i] + length * step_.segment<Block::rows>(first);
-      const typename Block::Value change = cut(block, i, target) - block.impulse[i];
-      block.impulse[i] += change;
-      block.apply(rows.inverse_mass, i, change, v);
-    });
+    take_step(rows, v, length);
     if (residual(rows, v) < below) return true;
     restore_impulses_and_biases(kept_, rows);
     v = start_;

@@ -10,6 +10,8 @@
 // alart1991mixed.) It converges from near a solution; from afar it may be exhausted without one. Where
 // redundant rows contradict each other impulses must change for long, and the residual does not, until one
 // of them ends: a round of the proximal point method (rockafellar1976augmented) changes them by much at once.
+// Coulomb's law is not monotone, and the residual has minima that are no solutions: a path of smoothed laws
+// leads past them (chen1993noninterior), from afar, whatever the impulses are.
 #pragma once
 
 #include "linear/sparse_factor.h"
@@ -17,6 +19,13 @@
 #include "rows/velocity_system.h"
 
 namespace pbd {
+
+/// own dp + by_step J dv = right, constraint i's row of the linear system.
+template <class Block>
+struct LinearLaw {
+  typename Block::Square own, by_step;
+  typename Block::Value right;
+};
 
 class SemismoothNewton {
  public:
@@ -46,6 +55,10 @@ class SemismoothNewton {
   /// larger by a part of J W J^T. The next round's part is smaller, or larger where Newton's method fails.
   Round advance(Rows& rows, Points& v);
 
+  /// Solves the rows with smoothed laws (smoothed_law.h), less and less smoothed, from where all bounded
+  /// impulses are zero. `solved` where the natural residual ends below that before; else nothing is changed.
+  Round follow_path(Rows& rows, Points& v, double residual_before);
+
   /// Takes the least shift again.
   void trust() { shift_ = least_shift; }
 
@@ -54,9 +67,14 @@ class SemismoothNewton {
   static constexpr double first_part = 1e-3;                      // the same of a round
 
   template <class Block>
+  LinearLaw<Block> law_of(const Block& block, std::size_t i, Eigen::Index first, const Points& v) const;
+  template <class Block>
   typename Block::Value missed(const Block& block, std::size_t i, Eigen::Index first, const Points& v) const;
   void assemble(const Rows& rows, const Points& v);
   void find_step(const Rows& rows, const Points& v);
+  bool find_newton_step(const Rows& rows, const Points& v);
+  void take_step(Rows& rows, Points& v, double length) const;
+  double search(Rows& rows, Points& v, double& left);
   bool descend(Rows& rows, Points& v, double below);
   double residual(const Rows& rows, const Points& v) const;
 
@@ -67,9 +85,12 @@ class SemismoothNewton {
   Eigen::VectorXd right_, solution_, step_;
   Eigen::VectorXd anchor_;  // N s, where a round begins, one entry a row; empty outside of rounds
   LocalContacts::Pushed pushed_;
-  std::vector<double> kept_;  // impulses and biases, and
-  Points start_;              // velocities where the iteration begins
+  std::vector<double> kept_;       // impulses and biases, and
+  Points start_;                   // velocities where the iteration begins
+  std::vector<double> path_kept_;  // likewise before a path
+  Points path_start_;
   double shift_ = least_shift, part_of_round_ = first_part;
+  double smoothing_ = 0;  // sqrt(J), of the laws of friction
 };
 
 }  // namespace pbd

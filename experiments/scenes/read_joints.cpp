@@ -106,7 +106,7 @@ void add_slide(JointTable& table) {
 
 /// The angle is zero at the start. A limit knows it modulo 2 pi, within half a turn of itself.
 void add_angle(JointTable& table) {
-  const Vec3 axis = read_axis(table.keys, "axis"), reference = axis.unitOrthogonal();
+  const Vec3 axis = table.own(0, read_axis(table.keys, "axis")), reference = axis.unitOrthogonal();
   const auto rest = [&] { return table.keys.number_or("rest_angle_rad", 0, Range::finite); };
   for (const auto* limit : {"min_angle_rad", "max_angle_rad"})
     if (table.keys.has(limit) && std::abs(table.keys.number(limit, Range::finite)) >= std::numbers::pi)
@@ -115,8 +115,8 @@ void add_angle(JointTable& table) {
               {"rest_angle_rad", "rate_rad_s", "over_time", "max_torque_n_m"}, rest,
               [&](double angle, const pbd::ForceBounds& bounds) {
                 auto& effect = table.add<pbd::AngleJoint>(table.rotations());
-                effect.axis.push_back(table.own(0, axis));
-                effect.reference.push_back({table.own(0, reference), table.own(1, reference)});
+                effect.axis.push_back(axis);
+                effect.reference.push_back({reference, table.own(1, table.orientation[0] * reference)});
                 effect.rest_angle.push_back(angle);
                 if (const auto course = table.read_rate("rate_rad_s", effect.rate))
                   table.builder.script.angle(effect.rate.size() - 1, *course);

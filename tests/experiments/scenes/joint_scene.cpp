@@ -24,6 +24,28 @@ SceneFile joined_pair(const std::string& joint) {
 
 }  // namespace
 
+// Where the axes of both bodies part, the direction from which the turn is seen tells it, too.
+TEST_CASE("an angle is what it is in a scene that is turned as a whole") {
+  const auto angle_in = [](const Eigen::Quaterniond& turn) {
+    const auto vector = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); };
+    const auto body = [&](const char* name, const Vec3& rotation) {
+      const Eigen::Quaterniond own(Eigen::AngleAxisd(rotation.norm(), rotation.normalized()));
+      const Eigen::AngleAxisd turned(turn * own);
+      return fmt::format(
+          "[[rigid_body]]\nname = \"{}\"\nmass_kg = 1\ninertia_kg_m2 = [1, 2, 2.5]\nrotation_rad = {}\n",
+          name, vector(turned.angle() * turned.axis()));
+    };
+    const SceneFile file = read(body("first", {0.3, 0.2, -0.4}) + body("second", {-1, 2, 0.5}) +
+                                "[[joint]]\nkind = \"angle\"\nbodies = [\"first\", \"second\"]\naxis = " +
+                                vector(turn * Vec3(0.1, 1, 0.3)) + "\n");
+    return std::get<pbd::AngleJoint>(file.scene.effects.back());
+  };
+  const auto base = angle_in(Eigen::Quaterniond::Identity());
+  const auto turned = angle_in(Eigen::Quaterniond(Eigen::AngleAxisd(2, Vec3(1, 2, -2) / 3)));
+  CHECK((turned.axis[0] - base.axis[0]).norm() < 1e-14);
+  for (const std::size_t k : {0, 1}) CHECK((turned.reference[0][k] - base.reference[0][k]).norm() < 1e-14);
+}
+
 TEST_CASE("every joint is met where it starts, by as many equations as its kind has") {
   const std::string at = "point_m = [0.1, 0.5, 2]\n", pair = "points_m = [[1, 2, 2.5], [0.5, 1, 0]]\n";
   const std::string axis = "axis = [1, 2, -2]\n", soft = "compliance_m_per_n = 0.5\n";

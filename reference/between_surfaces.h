@@ -5,8 +5,6 @@
 
 namespace pbd::reference {
 
-inline constexpr double leaning = 0.2, parallel = 1e-3;  // rad
-
 /// Where they are looked for, and which count.
 struct Between {
   const Placement& start;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "between_surfaces.h"
+#include "placed_surface.h"
 
 namespace pbd::reference {
 namespace {
@@ -33,11 +33,14 @@ std::vector<double> sign_changes(const std::array<double, 4>& c) {
     if (const double t = flat[static_cast<std::size_t>(k)]; t > 0 && t < 1) stops.push_back(t);
   std::sort(stops.begin(), stops.end());
   for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+    constexpr int halvings = 60;  // beyond the digits of t
     double low = stops[k], high = stops[k + 1];
     const bool below = value(low) < 0;
     if (below == (value(high) < 0)) continue;
-    for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
+    for (int n = 0; n < halvings; ++n) {
+      const double middle = (low + high) / 2;
       ((value(middle) < 0) == below ? low : high) = middle;
+    }
     found.push_back(high);
   }
   return found;

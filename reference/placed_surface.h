@@ -24,6 +24,8 @@ struct Bounds {
 /// Lengths of no account beside a face, of its sides.
 constexpr double beyond = 1e-4;
 
+constexpr double leaning = 0.2, parallel = 1e-3;  // rad
+
 /// Whether a point is above or below a face of a surface with these corners and normal n, or next to nothing
 /// beside it: of a cylinder's cap by its disc.
 inline bool is_within(const Surface& surface, const std::vector<Vec3>& corners, const Vec3& point,

@@ -39,7 +39,7 @@ Findings StepCheck::judge(const StepClaim& claim) const {
     check_turns(claim, *model_, findings);
   } else {
     check_motion(claim, Moved::fixed, findings);
-    findings.leave_out("motion and momentum: by this integrator or blend of directions");
+    findings.leave_out("motion of what moves, and momentum: by this integrator or blend of directions");
   }
   if (is_euler_step(claim) && !explicit_forces(claim))
     check_energy(claim, *model_, level, findings);

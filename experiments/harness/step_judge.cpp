@@ -24,7 +24,7 @@ double velocity_distance(const pbd::Scene& scene, const pbd::State& one, const p
 }
 
 /// True if what has no finite mass or inertia has the velocity with which it began.
-bool keeps_fixed(const pbd::reference::StepClaim& claim) {
+bool keeps_fixed_velocities(const pbd::reference::StepClaim& claim) {
   const pbd::Scene& scene = claim.scene;
   const pbd::State &start = claim.start, &end = claim.end;
   for (int i = 0; i < scene.nodes(); ++i)
@@ -71,7 +71,8 @@ JudgedClaim judge_claim(const std::string& reference, const pbd::reference::Step
     judged.nearest = other;
     judged.start = start;
   }
-  if (!keeps_fixed(claim)) judged.own.of_scale = judged.nearest.of_scale = judged.residual = pbd::infinity;
+  if (!keeps_fixed_velocities(claim))
+    judged.own.of_scale = judged.nearest.of_scale = judged.residual = pbd::infinity;
   return judged;
 }
 
@@ -103,7 +104,8 @@ void StepJudge::add(std::int64_t step, const pbd::reference::StepClaim& claim, c
     ambiguous_ += by_itself && judged.start == JudgeStart::claim;
     by_features_ += by_itself && judged.start == JudgeStart::claim_and_features_kept;
     if (!(worst_error_of_scale_ >= nearest)) worst_error_of_scale_ = nearest, worst_step_ = step;
-    if (!(worst_error_m_ >= judged.nearest.metres)) worst_error_m_ = judged.nearest.metres;
+    if (const double metres = judged.nearest.metres; !std::isnan(metres) && !(worst_error_m_ >= metres))
+      worst_error_m_ = metres;
   }
   const Judged& own = judged.reference;
   table_.row({step, claim.start.time, claim.h,

@@ -25,7 +25,7 @@ namespace pbdcheck {
 
 /// How far a step ended from a reference's end: the worst node over the largest displacement, m, and the end
 /// velocities' distance as a share of the step's scale: infinite where something without a finite mass or
-/// inertia does not keep its velocity. NaN where the reference found none.
+/// inertia does not keep its velocity, else NaN where the reference found none.
 struct StepDistance {
   double relative = std::nan(""), metres = std::nan(""), of_scale = std::nan("");
 };

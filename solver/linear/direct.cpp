@@ -57,7 +57,7 @@ bool Direct::augment(Rows& rows, Points& v, double residual) {
   return false;
 }
 
-/// By the path of smoothed laws, which leads from anywhere to the same end.
+/// By the path of smoothed laws: once, for its end depends on the rows alone.
 bool Direct::follow_path(Rows& rows, Points& v, double residual) {
   if (followed_) return false;
   followed_ = true;

@@ -29,7 +29,7 @@ class Direct {
  private:
   // Iterations without a gain.
   static constexpr int most_patience = 10;
-  static constexpr int by_sweeps = 2;  // before these, rounds leave one of `cone_problems` unsolved
+  static constexpr int by_sweeps = 2;  // before rounds: earlier ones leave one of `cone_problems` unsolved
 
   bool gave_up() const { return idle_ > patience_; }
   void restore(Rows& rows, Points& v) const;

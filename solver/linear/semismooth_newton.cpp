@@ -78,7 +78,9 @@ LinearLaw<Block> SemismoothNewton::law_of(const Block& block, std::size_t i, Eig
   if constexpr (Block::rows == 3)
     if (smoothing_ > 0 && is_smoothed(block, i)) {
       const auto [missed, by_p, by_r] = smoothed(block, i, smoothing_, v);
-      return {by_p + by_r * typename Block::Square(block.compliance[i]), by_r, -missed};
+      typename Block::Square compliance = block.compliance[i];
+      compliance.diagonal().array() += shift_ / weight_of(block, i);
+      return {by_p + by_r * compliance, by_r, -missed};
     }
   return linear_law(block, i, missed(block, i, first, v), shift_);
 }

@@ -11,7 +11,7 @@
 // redundant rows contradict each other impulses must change for long, and the residual does not, until one
 // of them ends: a round of the proximal point method (rockafellar1976augmented) changes them by much at once.
 // Coulomb's law is not monotone, and the residual has minima that are no solutions: a path of smoothed laws
-// leads past them (chen1993noninterior), from afar, whatever the impulses are.
+// (chen1993noninterior), from where no bounded impulse acts, may lead past them, or end where it turns back.
 #pragma once
 
 #include "linear/sparse_factor.h"
@@ -74,7 +74,7 @@ class SemismoothNewton {
   void find_step(const Rows& rows, const Points& v);
   bool find_newton_step(const Rows& rows, const Points& v);
   void take_step(Rows& rows, Points& v, double length) const;
-  double search(Rows& rows, Points& v, double& left);
+  bool search(Rows& rows, Points& v, double& left, double& length);
   bool descend(Rows& rows, Points& v, double below);
   double residual(const Rows& rows, const Points& v) const;
 

@@ -1,8 +1,8 @@
-// The laws cone and coulomb of friction (rows/laws.h), smoothed by e > 0, whose size is that of a residual
-// (sqrt(J)). With x = (mu p_n, p_t) and z = (r_n/mu, r_t), of coulomb z_n + |z_t|, and one inverse mass, the
-// law asks for x = Q(x - w z), Q the projection on Lorentz's cone {|x_t| <= x_n}; smoothed, Q's eigenvalues
-// l = x_n -+ |x_t| become not max(l, 0) but (l + sqrt(l^2 + 4 e^2))/2, and |z_t| is sqrt(|z_t|^2 + e^2)
-// (chen1993noninterior; hayashi2005combined). Without friction the same of p_n and r_n alone.
+// The laws of friction but for box (rows/laws.h; disc as coulomb), smoothed by e > 0, whose size is that of a
+// residual (sqrt(J)). With x = (mu p_n, p_t) and z = (r_n/mu, r_t), of coulomb z_n + |z_t|, and one inverse
+// mass, the law asks for x = Q(x - w z), Q the projection on Lorentz's cone {|x_t| <= x_n}; smoothed, Q's
+// eigenvalues l = x_n -+ |x_t| become not max(l, 0) but (l + sqrt(l^2 + 4 e^2))/2, and |z_t| is sqrt(|z_t|^2
+// + e^2) (chen1993noninterior; hayashi2005combined). Without friction the same of p_n and r_n alone.
 #pragma once
 
 #include "rows/rows.h"

@@ -4,20 +4,21 @@
 
 namespace pbd {
 
-/// The longest step, of those that are halved, that takes enough of the smoothed residual `left`, which it
-/// lowers; else the shortest. Returns its length.
-double SemismoothNewton::search(Rows& rows, Points& v, double& left) {
+/// Takes the longest step, of those that are halved, that lowers the smoothed residual `left` enough; false
+/// where none does.
+bool SemismoothNewton::search(Rows& rows, Points& v, double& left, double& length) {
   constexpr double shortest = 1e-4, enough = 0.1;  // the second as a share of what the linear laws promise
   keep_impulses_and_biases(rows, kept_);
   start_ = v;
   const double before = left;
-  for (double length = 1;; length /= 2) {
+  for (length = 1; length > shortest; length /= 2) {
     take_step(rows, v, length);
     left = residual(rows, v);
-    if (left <= (1 - enough * length) * before || length <= shortest) return length;
+    if (left <= (1 - enough * length) * before) return true;
     restore_impulses_and_biases(kept_, rows);
     v = start_;
   }
+  return false;
 }
 
 SemismoothNewton::Round SemismoothNewton::follow_path(Rows& rows, Points& v, double residual_before) {
@@ -42,18 +43,22 @@ SemismoothNewton::Round SemismoothNewton::follow_path(Rows& rows, Points& v, dou
   });
   double natural = natural_residual(rows, v);
   smoothing_ = begin * natural;
-  shift_ = least_shift;
+  trust();
   double left = residual(rows, v);
   while (smoothing_ > 0 && !(natural <= enough * residual_before) && round.factorisations < most_iterations &&
          find_newton_step(rows, v)) {
     ++round.factorisations;
-    const double length = search(rows, v, left);
+    double length = 0;
+    if (!search(rows, v, left, length)) break;
     natural = natural_residual(rows, v);
     if (!(left < near * smoothing_)) continue;
     smoothing_ *= length == 1 ? after_whole : after_part;
     left = residual(rows, v);
   }
   smoothing_ = 0;
+  step_.setZero(row_count(rows));
+  take_step(rows, v, 1);  // to what the laws allow
+  natural = natural_residual(rows, v);
   round.solved = natural < enough_fall * residual_before;
   if (round.solved) return round;
   restore_impulses_and_biases(path_kept_, rows);

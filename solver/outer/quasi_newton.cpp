@@ -119,15 +119,15 @@ double QuasiNewton::find_direction() {
 }
 
 /// Goes where the potential is lowest: the old velocity, the free one or rest of what has a finite mass. Not
-/// above rest, a step gains no energy but what the given forces bring: 1/2 |v - v_free|^2 + U <=
-/// 1/2 |v_free|^2 + U_old. True if it moved.
+/// above rest, where nothing is led, a step gains no energy but what the given forces bring: 1/2 |v -
+/// v_free|^2 + U <= 1/2 |v_free|^2 + U_old. True if it moved.
 bool QuasiNewton::start_low(StepSystem& system) {
   const Problem& problem = system.problem;
   Points& v = system.at.v;
   search_from_ = v;
   last_gradient_ = potential_.gradient;
   double lowest = potential_.value;
-  const Points* last = &search_from_;
+  const Points *last = &search_from_, *here = last;  // whose rows these are
   rest_ = problem.map.v_free;
   for (Eigen::Index column = 0; column < rest_.cols(); ++column)
     if (problem.inverse_mass[static_cast<std::size_t>(column)] > 0) rest_.col(column).setZero();
@@ -135,6 +135,7 @@ bool QuasiNewton::start_low(StepSystem& system) {
     if (start == &rest_ && lowest <= squared_mass_norm(problem.inverse_mass, problem.map.v_free) / 2) break;
     v = *start;
     evaluate(system);
+    here = start;
     if (potential_.value < lowest) {
       lowest = potential_.value;
       search_from_ = v;
@@ -143,7 +144,7 @@ bool QuasiNewton::start_low(StepSystem& system) {
     }
   }
   const bool moved = last != &search_from_;
-  if (moved && potential_.value > lowest) {
+  if (moved && here != last) {
     v = search_from_;
     evaluate(system);
   }

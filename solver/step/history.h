@@ -37,7 +37,7 @@ class History {
   /// True if the step begun goes on from the end of one that missed.
   bool after_miss() const { return continued_ && missed_; }
 
-  /// The next step is a start: what a script leads jumps.
+  /// The next step is a start: what a script leads jumps, or no force tells how the last one ended.
   void begin_anew() { h_ = 0; }
 
   /// m/s^2, of the last step begun.

@@ -45,6 +45,7 @@ struct StepRun {
   Report report{};
   double first_of_rows = 0;  // residual, sqrt(J)
   bool looked = false;       // for other rows than these
+  bool slowed = false;       // by no force: the next step begins anew
 
   void begin(double h, const State& state);
   void solve(const Observer& observer);
@@ -197,6 +198,7 @@ void StepRun::restrain() {
   if (report.status != Status::not_converged || !solves_step(w.outer) || !w.history.integrator().contact)
     return;
   if (w.restraint.restrain(w.system, w.history.given_accelerations())) {
+    slowed = true;
     forget(w.outer);
     measure_here();
   }
@@ -215,6 +217,7 @@ void StepRun::hold_back() {
       for (double& each : w.share)
         if (each < 1) each = 0;
     if (!w.restraint.shorten(w.system, w.share)) return;
+    slowed = true;
     forget(w.outer);
     measure_here();
   }
@@ -240,6 +243,7 @@ void StepRun::end(double h, State& state) {
     report.contraction = w.contraction.value();
     pbd::end(w.outer, system);
     w.history.end_step(h, system, report.status != Status::ok && solves_step(w.outer), state);
+    if (slowed) w.history.begin_anew();
   }
   for (Slot& slot : system.slots) slot.count_rows(system.rows);
   report.outer_iterations = progress.outer_iterations;

@@ -1,6 +1,6 @@
 // How features, one of them of a deformable surface, pass each other. Both lines of two edges, or a point and
 // the plane of a face, may pass beside the features themselves: then nothing has gone through, and the side
-// that they had is the other one. Corners, of bodies that turn, too, are taken to go straight.
+// that they had is the other one. Corners are taken to go straight, also those of bodies that turn.
 #pragma once
 
 #include "touching_features.h"

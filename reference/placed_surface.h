@@ -24,7 +24,7 @@ struct Bounds {
 /// Lengths of no account beside a face, of its sides.
 constexpr double beyond = 1e-4;
 
-constexpr double leaning = 0.2, parallel = 1e-3;  // rad
+constexpr double leaning = 0.2, parallel = 1e-3;  // rad, as feature_search.h says
 
 /// Whether a point is above or below a face of a surface with these corners and normal n, or next to nothing
 /// beside it: of a cylinder's cap by its disc.

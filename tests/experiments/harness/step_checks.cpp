@@ -96,7 +96,7 @@ TEST_CASE("a ball that strikes a hanging cloth ends where the judge solves it, f
   const JudgedClaim judged =
       judge_claim("cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report));
   CHECK(judged.reference.status == "ok");
-  CHECK(judged.nearest.of_scale <= 1e-8);
+  CHECK(judged.nearest.of_scale <= 1e-8);  // a hundred times the tolerance, as `judged_frames` asks
 }
 
 TEST_CASE("a contact force that is another is told with step, number and bound") {

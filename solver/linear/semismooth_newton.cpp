@@ -86,18 +86,14 @@ LinearLaw<Block> SemismoothNewton::law_of(const Block& block, std::size_t i, Eig
 }
 
 double SemismoothNewton::residual(const Rows& rows, const Points& v) const {
-  if (!(smoothing_ > 0))
-    return natural_residual_of(rows, [&](const auto& block, std::size_t i, Eigen::Index first) {
-      return missed(block, i, first, v);
-    });
   double squared = 0;
-  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index) {
+  each_constraint(rows, [&]<class Block>(const Block& block, std::size_t i, Eigen::Index first) {
     if constexpr (Block::rows == 3)
-      if (is_smoothed(block, i)) {
+      if (smoothing_ > 0 && is_smoothed(block, i)) {
         squared += smoothed(block, i, smoothing_, v).missed.squaredNorm();
         return;
       }
-    squared += squared_residual(block, i, block.residual(v, i, block.impulse[i]));
+    squared += squared_residual(block, i, missed(block, i, first, v));
   });
   return std::sqrt(squared);
 }

@@ -66,14 +66,16 @@ void Between::add_if(const FeaturePair& pair, double deepest) const {
     found.push_back(pair);
 }
 
-/// True of a point that was below a rigid face's plane, but not below the face: it has slid down a side.
+/// True of a point that was below a rigid face's plane, but not below the face: it has slid down a side. Not
+/// of one that lay in the plane: it has slid over the face.
 bool Between::came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const {
   if (of_face.deformable || of_face.plane) return false;
   std::vector<Vec3> corners;
   for (const int corner : of_face.face[k])
     corners.push_back(placed(of_face.corner[static_cast<std::size_t>(corner)], start));
   const Nearest begun = nearest(pair, start);
-  if (begun.gap + pair.a.radius + pair.b.radius >= 0) return false;
+  const double below = -(begun.gap + pair.a.radius + pair.b.radius);
+  if (below <= beyond * (corners[1] - corners[0]).norm()) return false;
   return !is_within(of_face, corners, begun.on_a, begun.normal);
 }
 

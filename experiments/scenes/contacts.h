@@ -10,7 +10,7 @@ const pbd::Contact* contact_of(const pbd::Scene& scene);
 
 /// Where a body stands, and how it moves.
 struct Placing {
-  pbd::Vec3 position;  // m
+  pbd::Vec3 position = pbd::Vec3::Zero();  // m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   pbd::Vec3 velocity = pbd::Vec3::Zero();  // m/s
   pbd::Vec3 spin = pbd::Vec3::Zero();      // rad/s, own axes

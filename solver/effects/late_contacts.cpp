@@ -233,7 +233,7 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 bool ContactSearch::see_passed(const Points& start, const Points& end, const ContactLists& contacts) {
   if (!surfaces_ || !surfaces_->searches()) return false;
   passed_.clear();
-  const double slack = std::max(overlooked, besides_) * effect_.thickness / 2;
+  const double slack = std::max(overlooked_of_surfaces, besides_) * effect_.thickness / 2;
   surfaces_->find_passed(threads_, start, end, slack, passed_);
   const std::size_t before = late_surfaces_.size();
   for (const PassedContact& found : passed_) {

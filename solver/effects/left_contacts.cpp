@@ -85,21 +85,29 @@ bool ContactSearch::agree(const ActiveContact& one, const ActiveContact& two, co
   return (first.normal - second.normal).norm() <= besides_ && std::abs(first.gap - second.gap) <= slack;
 }
 
-/// A contact of two edges that is stated as a plane, as one of lines, where the shapes at `end` say so and
-/// that is another one there.
-std::optional<ActiveContact> ContactSearch::as_edges(const ActiveContact& contact, const Configuration& start,
-                                                     const Configuration& end) {
+/// True if they agree, and touch at the same place.
+bool ContactSearch::is_same(const ActiveContact& one, const ActiveContact& two, const Configuration& at) {
+  const double slack = beside(one.pair());
+  const Vec3 apart = touching_at(one, at).point_a - touching_at(two, at).point_a;
+  return agree(one, two, at, slack) && apart.norm() <= slack;
+}
+
+/// True of a contact of two edges that is stated as a plane: where they cross goes on without it.
+bool ContactSearch::is_crossing_as_plane(const ActiveContact& contact) {
   const std::uint64_t key = contact.features.key;
-  if (contact.features.kind != ContactPoint::Kind::face || first_of(key).of != Feature::edge ||
-      second_of(key).of != Feature::edge)
-    return std::nullopt;
+  return contact.features.kind == ContactPoint::Kind::face && first_of(key).of == Feature::edge &&
+         second_of(key).of == Feature::edge;
+}
+
+/// A contact as the shapes state it at `end`, if they do.
+std::optional<ActiveContact> ContactSearch::stated_at(const ActiveContact& contact,
+                                                      const Configuration& start, const Configuration& end) {
   const Pair pair{contact.pair()};
-  generate_between(pair, start, end, 1, beside(pair.collider));
+  const double gap = std::max(touching_at(contact, end).gap, 0.0);
+  generate_between(pair, start, end, 1, gap + beside(pair.collider));
   for (const ContactPoint& point : points_.found) {
-    ActiveContact stated = active(point, pair.collider[0], pair.collider[1], points_.triangle);
-    if (stated.features.key != key || stated.features.kind != ContactPoint::Kind::edges) continue;
-    if (agree(contact, stated, end, beside(pair.collider))) return std::nullopt;
-    return stated;
+    const ActiveContact stated = active(point, pair.collider[0], pair.collider[1], points_.triangle);
+    if (stated.features.key == contact.features.key) return stated;
   }
   return std::nullopt;
 }
@@ -214,14 +222,18 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       // However a solver shares the impulses of what touches.
       if (!contact.acts && touching_at(contact, end).gap > contact.target + beside(features.collider))
         continue;
-      if (const auto edges = as_edges(contact, start, end)) {
-        left_.insert(features);
-        dropped_.push_back(features.collider);
-        add_late(*edges, contact.late ? begun(contact.pair(), start).deepest
-                                      : std::min(touching_at(contact, start).gap, 0.0));
-        continue;
+      bool there = true;
+      if (is_crossing_as_plane(contact)) {
+        const auto stated = stated_at(contact, start, end);
+        there = stated.has_value();
+        if (there && !is_same(contact, *stated, end)) {
+          dropped_.push_back(features.collider);
+          add_late(*stated, contact.late ? contact.target : std::min(touching_at(contact, start).gap, 0.0));
+          continue;
+        }
       }
-      if (contact.restitution > 0 || (on_shapes(contact, end) && is_nearest(contact, start, end))) continue;
+      if (contact.restitution > 0 || (there && on_shapes(contact, end) && is_nearest(contact, start, end)))
+        continue;
       if (left.empty() || left.back().front().pair() != features.collider) left.emplace_back();
       left.back().push_back(contact);
     }

@@ -98,3 +98,14 @@ TEST_CASE(
   const Vec3 expected(0, 0, speed / (1 + h * h / (compliance * mass)));
   CHECK((judged(build.finish()).v.col(1) - expected).norm() <= by_hand);
 }
+
+TEST_CASE("corners that slide over a face's side in the face's plane come to lie on it") {
+  BodyScene build({.friction = 0}, gravity);
+  build.fixed(Box{Vec3::Ones()}, {.position = {0, 0, -0.5}});
+  // A plate that overhangs by 0.15 m where the step begins, and lies a little deep, as rounding has it.
+  const double way = 0.2, speed = way / judged_step_s;
+  build.box({0.4, 0.4, 0.1}, 1, {.position = {0.45, 0, 0.05 - 1e-13}, .velocity = {-speed, 0, 0}});
+  const auto end = judged(build.finish());
+  CHECK((end.v.col(1) - Vec3(-speed, 0, 0)).norm() <= by_hand);
+  CHECK(end.spin.col(1).norm() <= by_hand);
+}

@@ -173,7 +173,7 @@ struct Outcome {
       const double depth = -pair.distance(random) / round;
       deepest = larger(deepest, depth);
       // As effects/contact_search.h states, and the step's tolerance.
-      const double allowed = std::max(1e-4, -before / round) + 1e-6;
+      const double allowed = std::max(1e-6, -before / round) + 1e-6;
       if (!(depth <= allowed)) ++deep;
     }
   }

@@ -11,7 +11,7 @@ using namespace pbd::test;
 
 namespace {
 
-constexpr double thickness = 2e-3, h = 0.01;
+constexpr double sheet_thickness = 2e-3, h = 0.01;
 
 /// A loose sheet of 0.2 m that flies at a fixed one of 0.8 m in the plane z = 0.
 Scene flight(TriangleMesh loose, const Points& velocity) {
@@ -19,7 +19,7 @@ Scene flight(TriangleMesh loose, const Points& velocity) {
   target.x.colwise() -= Vec3(0.4, 0.4, 0);
   Scene scene;
   Contact contact;
-  contact.thickness = thickness;
+  contact.thickness = sheet_thickness;
   contact.law[0].friction = 0.3;
   contact.recovery = 0;
   const auto add = [&](const TriangleMesh& mesh) {
@@ -60,7 +60,7 @@ Scene fall(double way, std::mt19937_64& engine) {
 /// That an edge goes through a triangle, or the loose sheet's middle has passed the fixed one.
 bool is_through(const Scene& scene, const State& state) {
   const auto& triangles = std::get<Contact>(scene.effects.back()).triangle;
-  for (const auto& found : reference::surface_overlaps(triangles, state.x, thickness, 0))
+  for (const auto& found : reference::surface_overlaps(triangles, state.x, sheet_thickness, 0))
     if (found.kind == reference::SurfaceOverlap::Kind::through) return true;
   const Vec3 from = scene.initial.x.rightCols(9).rowwise().mean(), to = state.x.rightCols(9).rowwise().mean();
   const Vec3 at = from + from.z() / (from.z() - to.z()) * (to - from);
@@ -91,15 +91,15 @@ TEST_CASE("no deformable surface passes another within a solved step") {
   CHECK(stopped > flights / 5);
 }
 
-// By less than a tenth of the thickness; more would take energy that it has not. The step at height 0.05 and
-// way 0.2 takes about all of `max_outer`: another rounding may miss it.
+// By less than a tenth of the thickness; more would take energy that it has not. The step at height
+// 0.05 and way 0.2 takes about all of `max_outer`: another rounding may miss it.
 TEST_CASE(
     "a sheet that slides over the border of another and too near to its plane is lifted or held there") {
   for (const double height : {0.95, 0.8, 0.5, 0.05, -0.5})
     for (const double way : {0.11, 0.2, 0.3}) {
       if (height < 0.5 && way > 0.2) continue;  // a step that crushes the sheet may miss
       TriangleMesh loose = loose_sheet();
-      loose.x.colwise() += Vec3(-0.6, 0.03, height * thickness);  // 0.1 m beside it
+      loose.x.colwise() += Vec3(-0.6, 0.03, height * sheet_thickness);  // 0.1 m beside it
       const Scene scene = flight(loose, Vec3(way / h, 0, 0).replicate(1, loose.x.cols()));
       Workspace workspace(scene, contact_method("direct"));
       State state = scene.initial;
@@ -107,8 +107,8 @@ TEST_CASE(
       INFO("height " << height << " way " << way << " " << report.reason);
       REQUIRE(report.status == Status::ok);
       const auto& triangles = std::get<Contact>(scene.effects.back()).triangle;
-      const double missed = 1e-3 * thickness;
-      CHECK(reference::surface_overlaps(triangles, state.x, thickness, missed).empty());
+      const double missed = 1e-3 * sheet_thickness;
+      CHECK(reference::surface_overlaps(triangles, state.x, sheet_thickness, missed).empty());
     }
 }
 
@@ -116,10 +116,10 @@ TEST_CASE(
 TEST_CASE("edges that are nearly parallel do not hold triangles that have parted sideways") {
   Scene scene;
   Contact contact;
-  contact.thickness = thickness;
+  contact.thickness = sheet_thickness;
   for (const Vec3& x : {Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 0, -1)}) add_node(scene, x, infinity);
   for (const Vec3& x : {Vec3(-0.4, -0.004, 0), Vec3(0.4, 0.004, 0), Vec3(0, 0, 1)})
-    add_node(scene, x + Vec3(0, 0, thickness + 1e-3), 1, Vec3(0, 5, -1));
+    add_node(scene, x + Vec3(0, 0, sheet_thickness + 1e-3), 1, Vec3(0, 5, -1));
   contact.triangle = {{0, 1, 2}, {3, 4, 5}};
   scene.effects.emplace_back(contact);
   Workspace workspace(scene, contact_method("direct"));

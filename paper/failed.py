@@ -1,10 +1,10 @@
-"""What failed: verdicts with their causes, and solves that are not ok."""
+"""What failed: verdicts, how far they are off, and solves that are not ok."""
 
 import re
 
 import pandas as pd
 
-from content import Section, Table, compared, number, share
+from content import Section, Table, compared, joined, listed, number, share
 from reading import CLASSES, VERDICTS
 from selecting import why
 from tables import SOLVES
@@ -66,17 +66,26 @@ def failures(results, experiments):
 
 
 def cause(results, verdict):
-    """Why a verdict does not hold, as far as the results tell."""
+    """How far off a verdict is, and what the rows of the scene that its quantity names say."""
     if verdict["verdict"] == "not_decided":
         return f"{verdict['reason']}."
-    times = f"{compared(verdict['measured'] / verdict['bound'], 1)[0]} times its bound" if verdict["bound"] > 0 else "above 0"
+    measured, bound, low, high = (verdict[name] for name in ("measured", "bound", "measured_low", "measured_high"))
+    times = f"{compared(measured / bound, 1)[0]} times its bound" if bound > 0 else "above 0"
     if verdict["id"].startswith(TIMED):
+        if low < high and low > bound:
+            return f"A measured time, {times}; all repeats are, from {number(low)} to {number(high)}."
         return f"A measured time, {times}. Other work on the machine slows it; `make bench` repeats the measurement with nothing else running."
-    bad = [frame[frame["status"] != "ok"] for _, frame in results.all_tables(verdict["experiment"]) if "status" in frame]
-    reasons = pd.concat([frame.apply(why, axis=1) for frame in bad if len(frame)]).map(stripped).value_counts() \
-        if any(map(len, bad)) else []
-    told = f"; most rows that are not ok say: {reasons.index[0]}" if len(reasons) else "; every row of its tables is ok"
-    return f"The number is {times}{told}."
+    frames = [frame for _, frame in results.all_tables(verdict["experiment"]) if {"scene", "status"} <= set(frame)]
+    rows = pd.concat([frame[[name in verdict["quantity"] for name in frame["scene"].astype(str)]] for frame in frames]) if frames else []
+    if not len(rows):
+        return f"The number is {times}."
+    scenes = listed(sorted(rows["scene"].unique()))
+    bad = rows[rows["status"] != "ok"]
+    if bad.empty:
+        return f"The number is {times}; every row of {scenes} is ok."
+    reasons = bad.apply(why, axis=1)
+    commonest = reasons.map(stripped).value_counts().index[0]
+    return f"The number is {times}; of {scenes} {share(len(bad), len(rows))} rows are not ok, most often: {reasons[reasons.map(stripped) == commonest].iloc[0]}."
 
 
 def classes_table(verdicts):
@@ -87,18 +96,24 @@ def classes_table(verdicts):
         for name in CLASSES if name in counts.index])
 
 
+def counts_told(bad):
+    """How many verdicts fail, miss a goal and are not decided."""
+    counts = bad["verdict"].value_counts()
+    return joined([f"{counts.get('fails', 0)} fail", f"{counts.get('missed', 0)} miss a goal", f"{counts.get('not_decided', 0)} are not decided"])
+
+
 def failed_section(results, experiments):
     verdicts = all_verdicts(results, experiments)
     bad = verdicts[verdicts["verdict"] != VERDICTS[0]]
     section = Section("What failed", name="failed", paragraphs=[
-        f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold." + (" Some do not, see the tables." if len(bad) else "")])
+        f"{share(len(verdicts) - len(bad), len(verdicts))} verdicts hold" + (f"; {counts_told(bad)}." if len(bad) else ".")])
     if len(verdicts):
         section.tables.append(classes_table(verdicts))
     for word, caption in (("fails", "Verdicts that fail."), ("missed", "Goals that are missed."),
                           ("not_decided", "Times that are not decided: repeats lie on both sides of the bound.")):
         rows = bad[bad["verdict"] == word]
         if len(rows):
-            section.tables.append(Table(caption, ["verdict", "class", "what it says", "measured against bound", "cause", "see"], [
+            section.tables.append(Table(caption, ["verdict", "class", "what it says", "measured against bound", "how far off", "see"], [
                 [f"`{row['id']}`", row["class"], f"{row['statement']} ({row['quantity']})",
                  " against ".join(compared(row["measured"], row["bound"])), cause(results, row),
                  f"`{row['experiment']}`, [#{row['experiment']}]"] for _, row in rows.iterrows()]))

@@ -1,6 +1,7 @@
 """Writes the report of a result folder, as one self-contained HTML file and as PDF, and prints its answers."""
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -12,11 +13,11 @@ import jinja2
 import provenance
 import sections
 from sections.trajectories import choice as method_choice
-from answers import answers, guide
+from answers import answers, guide, summary
 from claims import against, claims_section, findings
 from command import command, replacing
 from content import places
-from failed import failed_section, verdicts_section
+from failed import all_verdicts, failed_section, verdicts_section
 from glossary import glossary_section
 from history import history_section
 from marks import BIBLIOGRAPHY, plain, references, to_latex
@@ -32,6 +33,7 @@ LONGEST = 12  # rows of an experiment's table in the PDF; longer ones are in the
 class Body:
     notice: str
     answers: list
+    summary: str
     choice: list  # the table to choose a method by, none without its results
     limits: str
     guide: list
@@ -59,7 +61,7 @@ def compose(results):
     choice = method_choice(results)
     for number, table in enumerate((*choice, *(table for section in body for table in section.tables)), start=1):
         table.number = number
-    return Body(provenance.notice(results, names), answers(results), choice, provenance.limits(results, names), guide(body), body)
+    return Body(provenance.notice(results, names), answers(results), summary(found, all_verdicts(results, names)), choice, provenance.limits(results, names), guide(body), body)
 
 
 def column_widths(table):
@@ -68,10 +70,22 @@ def column_widths(table):
     longest = [max(len(row[i].replace("`", "")) for row in [table.header, *table.rows]) for i in range(len(table.header))]
     if sum(longest) + 2 * len(longest) <= line - 5:
         return "l" * len(longest)
-    room = line - sum(length + 2 for length in longest if length <= short)
-    wanted = sum(min(length, longest_counted) + 2 for length in longest if length > short)
-    shares = [length if length <= short else room * (min(length, longest_counted) + 2) / wanted - 2 for length in longest]
-    return "".join(rf">{{\raggedright\arraybackslash}}p{{{share / line:.3f}\linewidth}}" for share in shares)
+    narrow = {i: float(length) for i, length in enumerate(longest) if length <= short}
+    while True:  # no column is narrower than its longest word
+        wide = [i for i in range(len(longest)) if i not in narrow]
+        room = line - sum(width + 2 for width in narrow.values())
+        wanted = sum(min(longest[i], longest_counted) + 2 for i in wide)
+        shares = narrow | {i: room * (min(longest[i], longest_counted) + 2) / wanted - 2 for i in wide}
+        tight = {i: least for i in wide if shares[i] < (least := longest_word(table, i))}
+        if not tight or len(tight) == len(wide):
+            return "".join(rf">{{\raggedright\arraybackslash}}p{{{shares[i] / line:.3f}\linewidth}}" for i in range(len(longest)))
+        narrow |= tight
+
+
+def longest_word(table, column):
+    """Of a column of a LaTeX table, in characters of running text; those of code are wider, and code may be broken (marks.to_latex)."""
+    words = [word for row in [table.header, *table.rows] for word in row[column].split()]
+    return max((1.2 * max(map(len, re.split("[_/.`]", word))) if "`" in word else len(word) for word in words), default=0)
 
 
 def write_pdf(body, directory):

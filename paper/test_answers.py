@@ -6,7 +6,9 @@ import unittest
 import numpy as np
 
 import answers
+import claims
 import test_claims
+from failed import all_verdicts
 from results import Results
 from sections.cost import LEVELS
 
@@ -53,11 +55,26 @@ class Answers(unittest.TestCase):
         self.assertEqual(cases_told(marked(("skipped", 0.0), ("ok", 1.0))), every)
 
     def test_cases_that_miss_steps_are_counted(self):
-        def missed(steps_ok):
-            told = self.told({"gates": lambda frame: frame.assign(steps=10, steps_ok=steps_ok, relaxation="direct")})[1]
-            return int(re.search(r"(\d+) of \d+ of those with contact miss", told)[1])
-        self.assertEqual(missed(10), 0)
-        self.assertGreater(missed(9), 0)
+        def missed(status):
+            told = self.told({"gates": lambda frame: frame.assign(status=status)})[1]
+            return int(re.search(r"(\d+) of them miss their tolerance", told)[1])
+        self.assertEqual(missed("ok"), 0)
+        self.assertGreater(missed("not_converged"), 0)
+
+    def test_a_case_without_a_solved_step_does_not_pass(self):
+        def told(reason):
+            def change(frame):
+                first = frame["scene"] == frame["scene"].iloc[0]
+                return frame.assign(status="ok", holds=1.0, reason=np.where(first, reason, ""))
+            return self.told({"gates": change})[1]
+        passed = [int(re.search(r"(\d+) of \d+ hard cases", told(reason))[1]) for reason in ("", "no judged step has status ok")]
+        self.assertLess(passed[1], passed[0])
+
+    def test_a_summary_counts_claims_and_verdicts(self):
+        results = Results(self.directory)
+        told = answers.summary(claims.findings(results), all_verdicts(results, results.experiments()))
+        self.assertIn("Of 32 claims", told)
+        self.assertRegex(told, r"of \d+ verdicts \d+ hold, \d+ fail")
 
     def test_accuracy_costs_the_time_of_the_tightest_over_the_loosest(self):
         def points(frame):

@@ -221,7 +221,7 @@ class Report(unittest.TestCase):
                       ("a.c", "code", "It works", "share", 1.0, 1.0, 1.0, 2.0, "holds", "")])
         sample.write_run(self.directory, "a", holds=1, fails=1)
         section = failed_section(Results(self.directory), ["a"])
-        self.assertIn("1 of 2 verdicts hold. Some do not, see the tables.", section.paragraphs)
+        self.assertIn("1 of 2 verdicts hold; 1 fail, 0 miss a goal and 0 are not decided.", section.paragraphs)
         self.assertEqual([row[0] for row in section.tables[1].rows], ["`a.b`"])
 
     def test_names_with_digits_stay(self):
@@ -234,12 +234,23 @@ class Report(unittest.TestCase):
         self.assertEqual([row[3] for row in failures(Results(self.directory), ["inner_convergence"])], ["2 of 2"])
 
     def test_a_failed_verdict_has_a_cause(self):
-        sample.write(self.directory, "a", "t", "error status reason", [(1.0, "diverged", "far by 3")] * 2)
+        sample.write(self.directory, "a", "t", "scene error status reason",
+                     [("ball", 1.0, "diverged", "far by 3"), ("ball", 1.0, "ok", ""), ("rod", 1.0, "ok", ""), ("box", 1.0, "diverged", "late")])
         sample.write_run(self.directory, "a")
-        verdict = {"experiment": "a", "id": "a.b", "measured": 3.0, "bound": 2.0, "verdict": "fails"}
-        self.assertEqual(cause(Results(self.directory), verdict),
-                         "The number is 1.5 times its bound; most rows that are not ok say: diverged: far by #.")
-        self.assertIn("A measured time, 1.5 times", cause(Results(self.directory), verdict | {"id": "effects.empty.free"}))
+        verdict = {"experiment": "a", "id": "a.b", "quantity": "overlap", "measured": 3.0, "measured_low": 3.0, "measured_high": 3.0, "bound": 2.0,
+                   "verdict": "fails"}
+        for change, told in (
+                ({}, "The number is 1.5 times its bound."),
+                ({"quantity": "overlap (ball)"}, "The number is 1.5 times its bound; of `ball` 1 of 2 rows are not ok, most often: diverged: far by 3."),
+                ({"quantity": "overlap (rod)"}, "The number is 1.5 times its bound; every row of `rod` is ok.")):
+            self.assertEqual(cause(Results(self.directory), verdict | change), told)
+
+    def test_other_work_is_blamed_only_where_a_repeat_meets_the_bound(self):
+        verdict = {"experiment": "a", "id": "effects.idle.free", "measured": 3.0, "bound": 2.0, "verdict": "missed"}
+        for low, blamed in ((2.5, False), (1.5, True)):
+            told = cause(Results(self.directory), verdict | {"measured_low": low, "measured_high": 4.0})
+            self.assertIn("A measured time, 1.5 times", told)
+            self.assertEqual("Other work" in told, blamed)
 
     def told(self, *verdicts):
         """The section of failures of an experiment with these verdicts: its sentences and its tables by their captions."""
@@ -252,7 +263,7 @@ class Report(unittest.TestCase):
     def test_what_does_not_hold_is_counted_by_class_and_told_by_kind(self):
         said, tables = self.told(sample.verdict("a.1", "x", "y", 1.0, 2.0), sample.verdict("a.2", "x", "y", 3.0, 2.0, "theory"),
                                  sample.verdict("a.3", "x", "y", 3.0, 2.0, "goal"), sample.verdict("a.4", "x", "y", 2.0, 2.0, spread=1.0))
-        self.assertTrue(said.startswith("1 of 4 verdicts hold."))
+        self.assertEqual(said, "1 of 4 verdicts hold; 1 fail, 1 miss a goal and 1 are not decided.")
         self.assertEqual([row[:1] + row[2:] for row in tables["Verdicts by what they rest on."]],
                          [["code", "2", "1", "0", "0", "1"], ["theory", "1", "0", "1", "0", "0"], ["goal", "1", "0", "0", "1", "0"]])
         self.assertEqual([row[0] for row in tables["Verdicts that fail."]], ["`a.2`"])

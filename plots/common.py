@@ -12,6 +12,7 @@ from reading import LARGEST, TEXT
 from selecting import drawable, failed, good, text_number
 from styles import BLACK, style
 
+WIDTH = 6.5  # inches, of a whole figure
 ZERO_DRAWN_AT = 1e-17  # an exact zero on a logarithmic axis, below the resolution of any relative error
 
 FIGURES = []
@@ -124,7 +125,7 @@ def order_triangles(ax, frame, x, y, orders=(1, 2)):
         slope_triangle(ax, 1.6 * finest[x].iloc[0], on_log(error) * 1.6 ** order, order, BLACK)
 
 
-def panels(count, columns=3, width=6.5, height=2.1, **keywords):
+def panels(count, columns=3, width=WIDTH, height=2.1, **keywords):
     """A figure with `count` axes in a grid; unused axes are removed."""
     columns = min(columns, max(count, 1))
     rows = -(-max(count, 1) // columns)

@@ -7,11 +7,11 @@ from common import figure
 from finding import finding
 from point_hard_cases import gates
 from selecting import good, scene_text
-from styles import BLACK, BLUE, FALLBACK
+from styles import BLACK, BLUE, FALLBACK, GREEN
 from wording import number, span
 
 SIZE = (4.2, 2.6)
-LOW, HIGH = 1e-2, 1e-10  # errors between which the title compares
+LOW, HIGH = 1e-3, 1e-9  # errors between which the page's answer compares
 LEVELS = 10.0 ** -np.arange(1, 13)
 
 
@@ -29,7 +29,7 @@ def time_over_error(points):
         shortest = step == runs["step_s"].min()
         ax.plot(LEVELS, least, color=color, marker=marker, markersize=2.5, linestyle="-" if shortest else "--",
                 label=scene_text(scene) if shortest else None)
-    ax.set(xscale="log", yscale="log", xlabel="error reached", ylabel="wall time of a step (s)")
+    ax.set(xscale="log", yscale="log", xlabel="error of the step's solution", ylabel="wall time of a step (s)")
     ax.invert_xaxis()
     chart.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, fontsize=6)
     ends = runs.groupby(["scene", "step_s"]).apply(lambda rows: rows.loc[rows["error"] <= HIGH, "wall_s"].min() /
@@ -43,21 +43,24 @@ def time_over_error(points):
 def margins(frame):
     """How far from its bound each gate of each case is."""
     direct = frame[frame["relaxation"] == "direct"]
-    return gates(direct) if len(direct) else None
+    return gates(direct, SIZE[0]) if len(direct) else None
 
 
-@figure("effects_cost", "answer", table="costs")
-def parts_of_a_step(costs):
-    """What each effect of the scene of everything costs a step."""
-    mixed = good(costs[costs["scene"] == costs["scene"].iloc[0]], "wall_s_per_step")
-    if mixed.empty:
+@figure("effects_cost", "answer", table="absent")
+def unused(absent):
+    """How much longer a step takes with effects that are listed and never act; those that are empty as one bar, the dearest."""
+    rows = good(absent, "time_ratio")
+    rows = rows.assign(change=100 * (rows["time_ratio"] - 1), name=rows["effect"].str.replace("_", " ") + ", " + rows["case"])
+    empty, others = (rows[rows["presence"].isin(kinds)] for kinds in (["empty"], ["never touches", "idle"]))
+    if empty.empty or others.empty:
         return None
+    dearest = empty.loc[empty["change"].idxmax()]
     chart, ax = plt.subplots(figsize=SIZE)
-    ax.barh([name.replace("_", " ") for name in mixed["effect"]], 1e3 * mixed["wall_s_per_step"], color=BLUE, height=0.6)
-    ax.set(xlabel="ms a step")
+    ax.barh([f"{len(empty)} effects, empty (the dearest)", *others["name"]], [dearest["change"], *others["change"]], height=0.6,
+            color=[GREEN, *[BLUE] * len(others)])
+    ax.set(xlabel="change of a step's time (%)", xscale="symlog")
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.tick_params(axis="y", labelsize=6)
     ax.invert_yaxis()
-    dearest = mixed.loc[mixed["wall_s_per_step"].idxmax()]
-    part = dearest["wall_s_per_step"] / mixed["wall_s_per_step"].sum()
-    finding(chart, f"The dearest part of a step is {dearest['effect'].replace('_', ' ')}: {100 * part:.0f} % of "
-            f"{1e3 * mixed['wall_s_per_step'].sum():.2g} ms")
+    finding(chart, f"What is empty takes at most {number(dearest['change'])} % more, what never acts up to {number(others['change'].max())} %")
     return chart

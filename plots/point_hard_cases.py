@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import figure, panels, shared_legend, footnote
+from common import WIDTH, figure, panels, shared_legend, footnote
 from finding import MOST_SERIES, finding
 from strips import strips, within
 from styles import style
@@ -20,7 +20,7 @@ def row_names(frame):
 
 @figure("point_hard_cases", "gates", table="gates")
 @figure("contact_hard_cases", "gates", table="gates")
-def gates(frame):
+def gates(frame, width=WIDTH):
     """Every case over the bound of each gate, a row a gate; cases that were skipped are told below."""
     frame = frame.assign(case=row_names(frame))
     asked = frame[frame["status"] != "skipped"]
@@ -32,7 +32,7 @@ def gates(frame):
     why = skipped["reason"].map(lambda reason: reason.partition(" in ")[0]).value_counts()
     return strips(asked.assign(row=asked["gate"], ratio=within(asked, "measured", "bound"), who=asked["case"],
                                holds=asked["holds"] == 1), "gate",
-                  note + ("Skipped: " + "; ".join(f"{count} x {reason}" for reason, count in why.items()) + "." if len(why) else ""))
+                  note + ("Skipped: " + "; ".join(f"{count} x {reason}" for reason, count in why.items()) + "." if len(why) else ""), width=width)
 
 
 @figure("point_hard_cases", "frontier", table="frontier")
@@ -47,13 +47,16 @@ def frontier(frame):
         label = f"{kind}: {counted(len(rows), 'case')}"
         stairs(axes[0], rows, "largest_step_s", label, look, falling=True)
         if kind != UNSWEPT:
-            stairs(axes[1], rows, "fewest_sweeps", label, look, falling=False)
+            told = drawable(rows, ["fewest_sweeps"]) | ~drawable(rows, ["largest_step_s"])
+            stairs(axes[1], rows[told], "fewest_sweeps", label, look, falling=False)
     axes[0].set(xscale="log", xlabel="step (s)", ylabel="% of cases in which all gates hold", ylim=(0, 105))
-    axes[1].set(xscale="log", xlabel="sweeps an outer iteration", ylim=(0, 105))
+    axes[1].set(xscale="log", xlabel="sweeps an outer iteration", ylabel="% of those whose budget is told", ylim=(0, 105))
     shared_legend(fig, axes[:1])
     never = swept[~drawable(swept, ["largest_step_s"])]
-    steps = swept.groupby("kind", sort=False)["largest_step_s"].median()
-    finding(fig, f"Half of the cases pass at steps of {joined(step_text(step) + ' (' + kind + ')' for kind, step in steps.dropna().items())}"
+    steps = swept.groupby("kind", sort=False)["largest_step_s"].median().dropna()
+    longest = swept["largest_step_s"].max()
+    kinds = {step: joined(steps.index[steps == step]) for step in steps.unique()}
+    finding(fig, f"Half of the cases pass at steps of {joined(('at least ' if step == longest else '') + step_text(step) + f' ({of})' for step, of in kinds.items())}"
             if steps.notna().any() else f"None of {counted(len(frame), 'case')} passes at any step",
             f"{share(len(never), len(frame))} pass at none: {some(row_names(frame)[never.index])}" if len(never) else "")
     untold = drawable(swept, ["largest_step_s"]) & ~drawable(swept, ["fewest_sweeps"])
@@ -66,8 +69,5 @@ def stairs(ax, rows, column, label, look, falling):
     values = rows[column][drawable(rows, [column])].to_numpy()
     places = np.unique(values)
     part = np.array([100 * ((values >= x) if falling else (values <= x)).sum() / len(rows) for x in places])
-    if len(places):
-        places, part = (np.concatenate([[places[0] / 3], places]), np.concatenate([part[:1], part])) if falling else \
-            (np.concatenate([places, [3 * places[-1]]]), np.concatenate([part, part[-1:]]))
     ax.plot(places, part, drawstyle="steps-pre" if falling else "steps-post", label=label, **look)
     ax.plot(*((places[-1:], part[-1:]) if falling else (places[:1], part[:1])), "o", color=look["color"], markersize=3)

@@ -44,7 +44,7 @@ def quicker(frame):
     if not set(CONTRASTED) <= set(times):
         return f"{counted(len(frame), 'run')}, none of both methods"
     both = (times["newton"] / times["quasi_newton"]).dropna()
-    return (f"quasi_newton is quicker than Newton in {share((both > 1).sum(), len(both))} rows that both solve" +
+    return (f"Set-up apart, quasi_newton is quicker than Newton in {share((both > 1).sum(), len(both))} rows that both solve" +
             (f"; Newton takes {span(both)} times as long" if len(both) else ""))
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import footnote, panels
+from common import WIDTH, footnote, panels
 from finding import beyond, finding, guide
 from styles import BLUE, RED
 from wording import counted, number, some
@@ -40,12 +40,12 @@ def told(here):
     return f"{len(here) - len(bad)} of {len(here)}{missed}"
 
 
-def strips(frame, what, note="", xlabel="measured over its bound", extra=""):
+def strips(frame, what, note="", xlabel="measured over its bound", extra="", width=WIDTH):
     """The figure of one strip: `what` names what is checked, as in '24 of 24 gates hold'; None without a row."""
     if frame.empty:
         return None
     frame = frame.assign(holds=frame["holds"].astype(bool) & frame["ratio"].notna())
-    fig, (ax,) = panels(1, height=0.22 * frame["row"].nunique() + 0.5)
+    fig, (ax,) = panels(1, width=width, height=0.22 * frame["row"].nunique() + 0.5)
     strip(ax, frame, xlabel)
     finding(fig, verdict(frame, what), extra)
     footnote(fig, EDGES + note)

@@ -5,7 +5,7 @@ import numpy as np
 from common import figure, footnote, panels
 from finding import finding, guide
 from selecting import good
-from styles import BLUE, ORANGE, style
+from styles import BLACK, BLUE, ORANGE, style
 from wording import counted, number, span
 
 
@@ -22,22 +22,29 @@ def steps(frame):
 
 
 def gains(frame, bar, what):
+    one = frame[frame["threads"] == 1].set_index(["scene", bar])["wall_s_per_" + what]
     several = good(frame[frame["threads"] > 1], "speedup")
+    alone = np.array([one.get((row["scene"], row[bar]), np.nan) for _, row in several.iterrows()])
+    several = several.assign(slow=alone / several["wall_s_high"], fast=alone / several["wall_s_low"])
     scenes = list(frame["scene"].unique())
     most = several["threads"].max() if len(several) else 1
     fig, axes = panels(len(scenes), columns=2, height=1.0 + 0.25 * frame[bar].nunique(), sharey=True)
     for ax, scene in zip(axes, scenes):
         here = several[(several["scene"] == scene) & (several["threads"] == most)]
         ax.barh(here[bar], here["speedup"], color=[style(name)["color"] for name in here[bar]], height=0.6)
+        ax.errorbar(here["speedup"], here[bar], xerr=[(here["speedup"] - here["slow"]).clip(lower=0), (here["fast"] - here["speedup"]).clip(lower=0)],
+                    fmt="none", ecolor=BLACK, capsize=2, linewidth=0.8)
         for name, value in zip(here[bar], here["speedup"]):
-            ax.text(value, name, f" {number(value)}", va="center", fontsize=7)
+            ax.text(0.05, name, number(value), va="center", fontsize=7, color="white", fontweight="bold")
         guide(ax, most, f"{number(most)} at best", horizontal=False)
         ax.grid(axis="y", visible=False)
-        ax.set(xlabel=f"times as fast, {scene}", xlim=(0, 1.15 * max(most, several["speedup"].max())))
+        ax.set(xlabel=f"times as fast, {scene}", xlim=(0, 1.15 * max(most, several["fast"].max())))
     axes[0].invert_yaxis()
     finding(fig, f"{number(most)} threads {what} {span(several['speedup'])} times as fast as one; "
             f"{(several['same_bits'] == 1).sum()} of {len(several)} runs end in the same bits" if len(several)
             else f"None of {counted(len(frame), 'run')} is on several threads")
+    footnote(fig, "Bars: range of the repeats on several threads." + (
+        f" More than {number(most)}: as many cores have as many caches." if (several["speedup"] > most).any() else ""))
     return fig
 
 

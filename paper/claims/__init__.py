@@ -1,7 +1,7 @@
 """The claims of the paper, and what the results say of each."""
 
 from claims import contact, energy, material, solver, stability, unification
-from claims.claim import VERDICTS, find
+from claims.claim import REFUTED, VERDICTS, find
 from content import Section, Table, joined
 
 GROUPS = {"Stability and fixed point": stability, "Energy": energy, "Contact and friction": contact,
@@ -40,7 +40,8 @@ def row(claim, finding):
 def claims_section(found):
     kinds = [finding.kind() for _, finding in found]
     counts = joined(f"{kinds.count(kind)} {kind}" + (" a condition" if kind.endswith("under") else "") for kind in VERDICTS)
-    bad = [f"{finding.against} ([#{claim.home()}], claim {claim.number})" for claim, finding in found if finding.against]
+    bad = [f"{finding.against or finding.sentence} ([#{claim.home()}], claim {claim.number})" for claim, finding in found
+           if finding.against or finding.kind() == REFUTED]
     section = Section("The claims", name="claims", paragraphs=[f"Of {len(found)} claims these runs find {counts}.", METHOD, SOURCE])
     if bad:
         section.tables.append(Table("Against the paper and ourselves.", ["finding"], [[text] for text in bad]))

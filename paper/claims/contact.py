@@ -64,9 +64,9 @@ def coulomb(stopping, incline, headings):
     against = f"Under the convex law `cone`, the paper's, a sliding cube lifts by {number(lift)} m." if lifts else ""
     true = held["coulomb"] == total["coulomb"]
     return Finding(
-        judge(true and held["cone"] == total["cone"] and not lifts, true, "Coulomb's law (`coulomb`, ours)"),
+        judge(true and held["cone"] == total["cone"] and not lifts, true, "Coulomb's law (`coulomb`, ours), not by the paper's laws"),
         f"Thresholds, accelerations, stopping distances, a ring's spin, a pushed row and {headings['heading_deg'].nunique()} headings are within their bounds in "
-        + ", ".join(f"{share(held[law], total[law])} with `{law}`" for law in LAWS if total[law]) + f". {against}",
+        + ", ".join(f"{share(held[law], total[law])} with `{law}`" for law in LAWS if total[law]) + f", of those that a law has a bound for. {against}",
         share(held["coulomb"], total["coulomb"]), f"{total['coulomb']} of {total['coulomb']}", against)
 
 

@@ -77,6 +77,11 @@ def stable(steps):
         f"{span(list(ratios.values()))} times", "above 1")
 
 
+def solved_of(runs, scene):
+    own = runs[runs["scene"] == scene]
+    return len(good(own, "error")), len(own)
+
+
 def satisfied(work, contact):
     position, velocity = work[work["family"] == "position"], work[work["family"] == "velocity"]
     some(position, "position run"), some(velocity, "velocity run"), some(contact, "run with contact")
@@ -88,12 +93,12 @@ def satisfied(work, contact):
     scenes = list(position["scene"].unique())
     nearer = [scene for scene, found in (ratios | touching).items() if found and min(found) > 1]
     fewest = min(scenes, key=lambda scene: len(good(position[position["scene"] == scene], "error")))
-    ours, theirs = position[position["scene"] == fewest], velocity[velocity["scene"] == fewest]
-    solved, whole = (len(good(rows, "error")) for rows in (ours, theirs))
-    against = "" if not len(theirs) or solved / len(ours) >= whole / len(theirs) else (
-        f"On `{fewest}` position runs at equal work solved {share(solved, len(ours))}, where velocity stepping, which does not "
-        f"claim to solve its steps, came through {share(whole, len(theirs))}.")
-    told = [f"{span(found)} on `{scene}`" for scene, found in ratios.items()]
+    (solved, ours), (whole, theirs) = solved_of(position, fewest), solved_of(velocity, fewest)
+    against = "" if not theirs or solved / ours >= whole / theirs else (
+        f"On `{fewest}` position runs at equal work solved {share(solved, ours)}, where velocity stepping, which does not "
+        f"claim to solve its steps, came through {share(whole, theirs)}.")
+    told = [f"{span(found)} on `{scene}`, where {share(*solved_of(position, scene))} position runs and {share(*solved_of(velocity, scene))} "
+            "others come through" for scene, found in ratios.items()]
     overlaps = [f"{span(found)} on `{scene}`" for scene, found in touching.items() if found and min(found) >= 1]
     less = {scene: (sum(ratio < 1 for ratio in found), len(found)) for scene, found in touching.items() if found and min(found) < 1}
     if less:

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from claims.claim import Claim, Finding, judge, some, verdict_rows, worst
-from content import joined, number, share
+from content import compared, joined, number, share
 
 
 def one_solver(ends, agreement, told, coupled):
@@ -28,14 +28,17 @@ def one_solver(ends, agreement, told, coupled):
 
 def three_scenes(verdicts, scenes):
     rows = verdict_rows(verdicts, "figure_1.finite", "figure_1.claims", "figure_1.energy")
+    goals = verdict_rows(verdicts, "figure_1.").query("verdict == 'missed'")
+    against = "" if goals.empty else "Of the paper's three scenes these goals are missed: " + "; ".join(
+        f"`{row['id']}`, {row['quantity']} {' against '.join(compared(row['measured'], row['bound']))}" for _, row in goals.iterrows()) + "."
     stable = bool((rows["verdict"] == "holds").all())
     steps, ok = int(scenes["steps"].sum()), int(scenes["steps_ok"].sum())
     some(range(steps), "step")
     return Finding(
         judge(stable and ok == steps, stable, f"steps that meet their tolerance, {share(ok, steps)}"),
         f"{share(int((rows['verdict'] == 'holds').sum()), len(rows))} verdicts on finite states, on energy and on steps that say ok hold, and "
-        f"{share(ok, steps)} steps meet their tolerance, of stand-ins for the paper's meshes: its sizes, steps and iterations are not known.",
-        share(ok, steps), f"{steps} of {steps}")
+        f"{share(ok, steps)} steps meet their tolerance, of stand-ins for the paper's meshes: its sizes, steps and iterations are not known. "
+        f"{against}".strip(), share(ok, steps), f"{steps} of {steps}", against)
 
 
 def rigid(stack, hard, bench, answers, gates, accuracy):
@@ -45,11 +48,14 @@ def rigid(stack, hard, bench, answers, gates, accuracy):
     outers, laws = (joined(f"`{name}`" for name in pd.unique(pd.concat([frame[column] for frame in (answers, gates, accuracy)])) if name)
                     for column in ("outer", "friction"))
     papers = "`plain`" in outers and "`cone`" in laws
+    missed = pd.concat([stack, rigid_alone, bench]).query("verdict != 'holds'")
+    against = "" if missed.empty else "Of rigid bodies with contact and friction there do not hold: " + "; ".join(
+        f"`{row['id']}` ({row['class']}), {' against '.join(compared(row['measured'], row['bound']))}" for _, row in missed.iterrows()) + "."
     return Finding(
         judge(papers and count == total, count == total, f"{outers} and {laws}, not the paper's method"),
         "Stacks, arches, hard contacts and the scenes of SimBenchmark: " + joined(
             f"{share(rows.sum(), len(rows))} verdicts of `{name}` hold" for name, rows in held.items())
-        + f". They are by {outers} with {laws}.", share(count, total), f"{total} of {total}")
+        + f". They are by {outers} with {laws}. {against}".rstrip(), share(count, total), f"{total} of {total}", against)
 
 
 CLAIMS = (

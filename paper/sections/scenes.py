@@ -1,9 +1,9 @@
 """Scene files as a whole: the paper's three, and those with contact."""
 
-from content import Figure, Section, Table, counted, joined, number, share, span
+from content import Figure, Section, Table, counted, joined, listed, number, share, span
 from reading import ALLOWED_RESIDUAL, solves_as_it_is
 from reading import NEXT_TO_SOLUTION as NEAR
-from selecting import scene_gates, step_text
+from selecting import AT_REST, scene_gates, step_text
 
 MODELS = (
     "The paper shows three scenes in its first figure and tells no more of them. Here they are 125 boxes that fall on the ground, five "
@@ -13,7 +13,7 @@ MODELS = (
 GATES = (
     "The gates: each step meets its tolerance, and none that says so is refuted. The deepest overlap is at most a hundredth of a body's "
     "least size, at the end a thousandth. Constraints that give no way are met to a thousandth; a scene without any has an error of 0. "
-    "Energy never rises above the start's, unless the scene is driven: that has no such gate. At its end the scene is at rest; some are stopped while they move.")
+    "Energy never rises above the start's, unless the scene is driven: that has no such gate. Which scenes are not at rest at their end, the kinetic energy below 1e-6 of m g and a body's least size, is told.")
 TILTING = (
     "Where a body tilts over an edge, implicit Euler may gain the work that the curvature of the gap brings: of the first order in the "
     "step. The checks of each step allow that and no more.")
@@ -74,10 +74,12 @@ def gain_text(gain):
 
 def scenes_text(frame):
     bad = frame[frame["status"] != "ok"]
+    moving = frame.loc[~(frame["rest_share"] <= AT_REST), "scene"].unique()
     steps, ok = frame["steps"].sum(), frame["steps_ok"].sum()
     text = (f"{share(int(ok), int(steps))} steps meet their tolerance, and {counted(int(frame['refuted_steps'].sum()), 'step')} of "
             f"{int(frame['judged_steps'].sum())} that say so are refuted. A frame takes {span(frame['frame_wall_s'])} s. The deepest "
-            f"overlap is {span(frame['overlap_share'])} of a body's least size, at the end {span(frame['overlap_share_at_end'])}. ")
+            f"overlap is {span(frame['overlap_share'])} of a body's least size, at the end {span(frame['overlap_share_at_end'])}. "
+            + (f"Still in motion where they are stopped are {listed(moving)}. " if len(moving) else "All are at rest at the end. "))
     if bad.empty:
         return text + "Every run is ok."
     return text + "Not ok: " + "; ".join(f"`{r['scene']}` at h = {step_text(r['step_s'])} ({r['status']}: {r['reason']}, "

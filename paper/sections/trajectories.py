@@ -53,7 +53,8 @@ def outcomes(runs):
     energy, deep = good(ok, "energy_error"), good(ok[ok["friction"] != "none"], "penetration_m")
     return (f"{share(len(ok), len(tried))} runs come to the end with every step solved, or with the number of iterations they were given; "
             f"{len(runs) - len(tried)} more were skipped because the scene does not allow the method or a looser tolerance was missed. "
-            f"Their errors of energy are {span(energy['energy_error'])} of what the motion turns over; the deepest overlap of a step's end is "
+            f"Their errors of energy are {span(energy['energy_error'])} of what the motion turns over, more than all of it in "
+            f"{counted(int((energy['energy_error'] > 1).sum()), 'run')}; the deepest overlap of a step's end is "
             f"{number(deep['penetration_m'].max()) if len(deep) else 'no number of'} m.")
 
 

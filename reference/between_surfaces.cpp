@@ -79,6 +79,14 @@ bool Between::came_from_beside(const FeaturePair& pair, const Surface& of_face, 
   return !is_within(of_face, corners, begun.on_a, begun.normal);
 }
 
+/// True of a sharp corner that is below a face's plane beside it: it is beside the shape, too.
+bool Between::below_beside(const PlacedSurface& a, const PlacedSurface& b, std::size_t k,
+                           const Nearest& found_at) const {
+  constexpr double rounding = 1e-9;  // of the sides
+  if (b.surface.plane || b.surface.deformable || a.surface.radius + b.surface.radius > 0) return false;
+  return found_at.gap < -rounding * b.size() && !b.within_face(k, found_at.on_a, b.face_normal(k), rounding);
+}
+
 void Between::points_over_faces(const PlacedSurface& a, int kind, const PlacedSurface& b) const {
   struct Over {
     std::size_t point;
@@ -97,6 +105,7 @@ void Between::points_over_faces(const PlacedSurface& a, int kind, const PlacedSu
     const Nearest found_at = nearest(pair, at);
     const Vec3 &n = found_at.normal, &x = found_at.on_a;
     if (!b.surface.plane && !b.within_face(k, x, b.face_normal(k))) return;
+    if (below_beside(a, b, k, found_at)) return;
     // On the side that two triangles in one plane share it is over one of them.
     const double height = n.dot(x - b.x[static_cast<std::size_t>(b.surface.face[k][0])]);
     const auto same = [&](const Over& one) {

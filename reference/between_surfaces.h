@@ -38,6 +38,8 @@ struct Between {
  private:
   void take_side(FeaturePair& pair) const;
   bool leads_out(const FeaturePair& pair, const Vec3& normal) const;
+  bool below_beside(const PlacedSurface& a, const PlacedSurface& b, std::size_t k,
+                    const Nearest& found_at) const;
   bool came_from_beside(const FeaturePair& pair, const Surface& of_face, std::size_t k) const;
 };
 

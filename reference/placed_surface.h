@@ -26,17 +26,17 @@ constexpr double beyond = 1e-4;
 
 constexpr double leaning = 0.2, parallel = 1e-3;  // rad, as feature_search.h says
 
-/// Whether a point is above or below a face of a surface with these corners and normal n, or next to nothing
-/// beside it: of a cylinder's cap by its disc.
+/// Whether a point is above or below a face of a surface with these corners and normal n, or beside it by
+/// `slack` of its sides: of a cylinder's cap by its disc.
 inline bool is_within(const Surface& surface, const std::vector<Vec3>& corners, const Vec3& point,
-                      const Vec3& n) {
+                      const Vec3& n, double slack = beyond) {
   if (surface.cylinder > 0) {
     const Vec3 from = point - (corners[0] + corners[corners.size() / 2]) / 2;
-    return (from - n.dot(from) * n).norm() <= (1 + beyond) * surface.cylinder;
+    return (from - n.dot(from) * n).norm() <= (1 + slack) * surface.cylinder;
   }
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec3 side = corners[(k + 1) % corners.size()] - corners[k];
-    if (side.cross(point - corners[k]).dot(n) < -beyond * side.squaredNorm()) return false;
+    if (side.cross(point - corners[k]).dot(n) < -slack * side.squaredNorm()) return false;
   }
   return true;
 }
@@ -78,10 +78,10 @@ struct PlacedSurface {
   /// like.
   bool lies_along(const Vec3& n, const Vec3& from, int kind, std::size_t i, double slope) const;
 
-  bool within_face(std::size_t i, const Vec3& point, const Vec3& n) const {
+  bool within_face(std::size_t i, const Vec3& point, const Vec3& n, double slack = beyond) const {
     std::vector<Vec3> corners;
     for (const int k : surface.face[i]) corners.push_back(x[static_cast<std::size_t>(k)]);
-    return is_within(surface, corners, point, n);
+    return is_within(surface, corners, point, n, slack);
   }
 
   Vec3 face_normal(std::size_t i) const {

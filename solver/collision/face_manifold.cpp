@@ -5,8 +5,9 @@
 namespace pbd {
 namespace {
 
-/// What may stand for another contact: normals that differ by less than 0.014 rad change a gap by 1e-4 of it.
-constexpr double same_normal = 1 - 1e-4;
+/// Cosine of how far the normal of edges that cross may be from the face's (0.2 rad): as edges they go on to
+/// where these cross once they lie on the face.
+constexpr double same_normal = 0.98;
 
 using Corner = ManifoldCorner;
 

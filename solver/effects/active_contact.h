@@ -55,6 +55,7 @@ struct ActiveContact {
   double restitution = 0;                  // e where they do, else 0
   double closing = 0;         // m/s, at which they approach each other where it begins; negative: part
   bool late = false;          // seen where a solved iterate ended; `target` is set there
+  bool restated = false;      // features are those where a solved iterate ended; it began the step
   std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with
   bool passes = false;        // its features have parted where the free motion closes its gap
   bool acts = false;          // has more of an impulse than an iterate's tolerance where that ended

@@ -77,7 +77,7 @@ void ContactRows::allocate(bool, BlockList& blocks) {
 }
 
 SearchedStep ContactRows::searched_step(const StepBegin& begin) const {
-  return {begin.bodies, begin.at, straight_, free_.x, begin.inverse_mass, threads_};
+  return {begin.bodies, begin.at, straight_, free_.x, begin.inverse_mass, begin.tolerance, threads_};
 }
 
 bool ContactRows::begin_step(const StepBegin& begin, BlockSpan blocks) {

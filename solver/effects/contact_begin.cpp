@@ -88,6 +88,7 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
   // its pair began, as its features may have lain anywhere then. Of what surfaces pass and of triangles,
   // which may have begun cut by others, the target stays.
   const bool yields = contact.law.compliance > 0;
+  const double loaded = std::min(contact.late ? std::max(from, contact.target) : from, 0.0);
   if (yields)
     contact.target = 0;
   else if (!contact.late)
@@ -109,8 +110,8 @@ void ContactRows::begin_contact(const StepBegin& begin, const Shifts& shifts, Ac
                         : contact.target;
   const double elastic = 1 / (1 + contact.law.damping / begin.map.d);  // the spring's share
   contact.compliance = elastic * contact.law.compliance;
-  // The damper is met with the shape; what is seen late counts as apart before.
-  contact.offset = contact.late ? 0 : (1 - elastic) * (std::min(from, 0.0) - contact.target);
+  // The damper is met with the shape: what is seen late began no deeper than its pair.
+  contact.offset = (1 - elastic) * (loaded - contact.target);
 }
 
 /// Rows of what touches, or is near to it, at one of the places. True if they connect other columns than

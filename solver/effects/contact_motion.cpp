@@ -63,6 +63,9 @@ void ContactSearch::begin(const SearchedStep& step) {
   left_.clear();
   left_surfaces_.clear();
   far_.clear();
+  // Less would have more places on ways looked at, and miss more steps.
+  constexpr double least = 1e-6, most = 1e-4;
+  overlooked_ = effect_.continuous ? most : std::clamp(step.tolerance, least, most);
   clearance_.begin(step.bodies, step.start, step.straight);
   clear_ = clearance_.holds(step.bodies, step.start, step.free);
   if (!clear_) set_out(step);

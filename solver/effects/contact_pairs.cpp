@@ -33,7 +33,7 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
         least = std::min(least, gap_of(point, one.frame, two.frame));
       return least;
     };
-    const double slack = overlooked * round_radius_of(one, two);
+    const double slack = overlooked_ * round_radius_of(one, two);
     nearest = gap_by_reach(within, effect_.margin + travel, slack);
     if (is_fast(one, two)) {
       task.near.resize(before);

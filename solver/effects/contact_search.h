@@ -18,16 +18,17 @@
 // What a contact's features miss as shapes pass each other's edges and corners is second order in their
 // travel T: a ball of radius r that goes round an edge and is as far from it as before may be T^2/(8 r) deep
 // in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) takes them
-// below -1e-6 r are looked at again where the solved step ends, and what overlaps there by more than 1e-6 r,
-// and by more than where the step began, joins the step's contacts; not on a half space, all of whose
-// contacts are exact as bodies move. Pairs that begin deeper than 1e-6 r are looked at again in every step.
-// Of polyhedra r is half their least width. Sixteen and 1e-6 are no bounds: they are measured, and random
-// steps hold to them (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
+// deeper than is overlooked are looked at again where the solved step ends, and what overlaps there by more
+// than that, and by more than where the step began, joins the step's contacts; not on a half space, all of
+// whose contacts are exact as bodies move. Pairs that begin deeper are looked at again in every step.
+// Overlooked is the tolerance's share of r, but 1e-6 r at least and 1e-4 r at most, and 1e-4 r under
+// continuous contact. Of polyhedra r is half their least width. Sixteen is no bound: it is measured, and
+// random steps hold to it (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
 // generate.h says of them, which may be too large; a triangle that begins cut by one may end cut by other
 // features, none deeper than it began, and what the step's tolerance leaves of r is overlooked of it.
 //
 // Under continuous contact a pair is followed on its way to where a solved iterate ends. What it meets there
-// joins the step, where it is no farther apart than 3e-6 r, as a `Meeting` (active_contact.h): a row that is
+// joins the step, where it is no farther apart than 3e-4 r, as a `Meeting` (active_contact.h): a row that is
 // linear, and asks of the end that what met goes no nearer than it was. Of what meets on one way that joins
 // which meets first, and what meets less than a round radius later: what comes after may be missed for it.
 // A pair that a meeting pushes, and that comes nowhere near on the way of a solved iterate, is tried without,
@@ -44,9 +45,9 @@
 // where these have come to be in each other by other features, or along its normal. Its pair is looked at
 // again from then on, along the way from the start, too, so that nothing thin is passed for it. What takes
 // its place is as far apart there as it is: what slides under the convex law hovers. A contact of two edges
-// that is stated as a plane, and acts, is stated anew where the edges cross at the end, once; if they do not,
-// it leaves. Of deformable surfaces only what acts farther beside its
-// features than these are long leaves; what then passes or overlaps is found where the step ends.
+// that is stated as a plane, and acts, is stated as the edges where these cross at the end; if they do not,
+// it leaves. Of deformable surfaces only what acts farther beside its features than these are long leaves;
+// what then passes or overlaps is found where the step ends.
 #pragma once
 
 #include <array>
@@ -75,7 +76,8 @@ struct SearchedStep {
   const Points& straight;  // where courses end
   const Points& free;      // where the free motion ends
   const std::vector<double>& inverse_mass;
-  int threads;  // that pairs and surfaces are searched on
+  double tolerance;  // of the step's scale
+  int threads;       // that pairs and surfaces are searched on
 };
 
 class ContactSearch {
@@ -120,9 +122,9 @@ class ContactSearch {
                    double share);
 
  private:
-  /// How deep pairs may be that are not looked at again, of the radius of what is round of them; of surfaces
-  /// of half their thickness, far less than what has passed is deep.
-  static constexpr double overlooked = 1e-6, overlooked_of_surfaces = 1e-4;
+  /// How deep surfaces may be in each other that are not looked at again, of half their thickness: far less
+  /// than what has passed.
+  static constexpr double overlooked_of_surfaces = 1e-4;
   static constexpr double least_beside = 1e-9;  // what lies edge on edge comes and goes by rounding
   static constexpr double wary = 16;            // times what a ball makes of its travel: measured, see above
   static constexpr int most_places = 10000;     // of a way: a hundred sizes take some hundred
@@ -233,6 +235,7 @@ class ContactSearch {
   double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;
+  void restate(const ActiveContact& contact, ActiveContact stated);
   bool is_same(const ActiveContact& one, const ActiveContact& two, const Configuration& at);
   static bool is_crossing_as_plane(const ActiveContact& contact);
   std::optional<ActiveContact> stated_at(const ActiveContact& contact, const Configuration& start,
@@ -266,6 +269,7 @@ class ContactSearch {
   double touching_ = 0, inside_ = 0;  // shares of a way at which `meets` found a pair so
   double least_ = 0;                  // m, gap of a pair on the way that `meets` walked, if it is pushed
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
+  double overlooked_ = 0;          // depth of pairs that are not looked at again, of their r
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius
   std::set<PairFeatures> left_;    // whose contacts acted in this step where they are not
   std::set<std::pair<SurfaceContact::Kind, std::array<int, 4>>>

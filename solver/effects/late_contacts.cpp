@@ -74,7 +74,7 @@ void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start,
 /// `behind` (negative, m): sets `overlapping` and returns the last share at which it is not.
 double ContactSearch::entering(const Pair& pair, const Configuration& start, const Configuration& end,
                                double behind, double apart, double& overlapping) {
-  constexpr int halvings = 15;  // of the way: less than `overlooked` of r where a shape goes as far as 3 r
+  constexpr int halvings = 15;  // of the way: 1e-4 of r where a shape goes as far as 3 r
   for (int k = 0; k < halvings; ++k) {
     const double middle = (apart + overlapping) / 2;
     (generate_between(pair, start, end, middle, pair.overlooked) < behind ? overlapping : apart) = middle;
@@ -115,7 +115,7 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   if (effect_.continuous && find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
     return true;
   if (pair.left) {
-    const double grazed = std::max(overlooked * round, travel * travel / (2 * round));
+    const double grazed = std::max(overlooked_ * round, travel * travel / (2 * round));
     // What clips a corner on its straight way, and ends where it may be, has passed nothing.
     if (pair.nearest > grazed && meets(pair, start, end, std::min(allowed, -grazed), grazed) &&
         !overlapping_.empty())

@@ -67,7 +67,7 @@ bool ContactSearch::is_nearest(const ActiveContact& contact, const Configuration
   if (kind == Kind::face || kind == Kind::edges) {
     const auto& [a, b] = contact.collider;
     const double round = round_radius_of(motions_[a], motions_[b]);
-    if (!(apart_along_normal(contact, end) < gap - overlooked * round)) return true;
+    if (!(apart_along_normal(contact, end) < gap - overlooked_ * round)) return true;
   } else if (!(generate_between({contact.pair()}, start, end, 1, slack) < gap - slack)) {
     return true;
   }
@@ -99,17 +99,30 @@ bool ContactSearch::is_crossing_as_plane(const ActiveContact& contact) {
          second_of(key).of == Feature::edge;
 }
 
-/// A contact as the shapes state it at `end`, if they do.
+/// A contact as the shapes state it at `end`, if they do, however far apart it has come to be.
 std::optional<ActiveContact> ContactSearch::stated_at(const ActiveContact& contact,
                                                       const Configuration& start, const Configuration& end) {
   const Pair pair{contact.pair()};
-  const double gap = std::max(touching_at(contact, end).gap, 0.0);
-  generate_between(pair, start, end, 1, gap + beside(pair.collider));
+  const auto& [first, second] = pair.collider;
+  generate_between(pair, start, end, 1, travel_between(motions_[first], motions_[second]));
   for (const ContactPoint& point : points_.found) {
     const ActiveContact stated = active(point, pair.collider[0], pair.collider[1], points_.triangle);
     if (stated.features.key == contact.features.key) return stated;
   }
   return std::nullopt;
+}
+
+/// Puts a contact as it is stated in the place of what it was: it began the step as that did.
+void ContactSearch::restate(const ActiveContact& contact, ActiveContact stated) {
+  const auto known = late_contact({contact.pair(), contact.features.key});
+  stated.late = contact.late;
+  stated.restated = true;
+  if (known == late_.end()) {
+    late_.push_back(std::move(stated));
+    return;
+  }
+  stated.target = known->target;
+  *known = std::move(stated);
 }
 
 /// A pair as the step begins, of which contacts beside their shapes tell.
@@ -226,9 +239,9 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
       if (is_crossing_as_plane(contact)) {
         const auto stated = stated_at(contact, start, end);
         there = stated.has_value();
-        if (there && !is_same(contact, *stated, end)) {
+        if (there && stated->features.kind == ContactPoint::Kind::edges && !is_same(contact, *stated, end)) {
           dropped_.push_back(features.collider);
-          add_late(*stated, contact.late ? contact.target : std::min(touching_at(contact, start).gap, 0.0));
+          restate(contact, *stated);
           continue;
         }
       }

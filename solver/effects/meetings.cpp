@@ -105,7 +105,7 @@ void ContactSearch::meet(const Configuration& at, const Configuration& start, co
 void ContactSearch::search_meetings(int first, int second, const Configuration& start,
                                     SearchTask& task) const {
   const Motion &one = motions_[first], &two = motions_[second];
-  const double slack = overlooked * round_radius_of(one, two);
+  const double slack = overlooked_ * round_radius_of(one, two);
   const std::size_t before = task.near.size();
   find_points({first, second}, one.frame, two.frame, {slack, 0}, task.points);
   for (const ContactPoint& point : task.points.found)

@@ -195,7 +195,8 @@ bool ContactSearch::hold_back(const Bodies& bodies, const Configuration& start, 
                               std::vector<double>& share) {
   bool any = false;
   for (const NearPair& near : near_pairs_) {
-    const double slack = overlooked * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
+    const double slack =
+        overlooked_ * round_radius_of(motions_[near.collider[0]], motions_[near.collider[1]]);
     if (!std::isfinite(slack)) continue;  // of a half space: from below it nodes and triangles are pushed out
     const Pair pair{.collider = near.collider,
                     .nearest = near.nearest,

@@ -92,7 +92,7 @@ void ContactSearch::keep_each_once(std::vector<ActiveContact>& contacts) {
   names_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::array<int, 2> pair = contacts[i].pair();  // the body first
-    names_.push_back({pair[0], contacts[i].features.key, !contacts[i].late, i});
+    names_.push_back({pair[0], contacts[i].features.key, !contacts[i].late && !contacts[i].restated, i});
   }
   std::sort(names_.begin(), names_.end());
   const auto again = [](const TriangleName& one, const TriangleName& two) {

@@ -109,3 +109,13 @@ TEST_CASE("corners that slide over a face's side in the face's plane come to lie
   CHECK((end.v.col(1) - Vec3(-speed, 0, 0)).norm() <= by_hand);
   CHECK(end.spin.col(1).norm() <= by_hand);
 }
+
+TEST_CASE("corners that fall past a face, and end a hair beside it, fall freely") {
+  BodyScene build({.friction = 0}, gravity);
+  build.fixed(Box{Vec3::Ones()}, {.position = {0, 0, -0.5}});
+  const double begin = 2e-4, hair = 1e-5, above = 4e-3;
+  const Vec3 velocity(-(begin - hair) / judged_step_s, 0, -1);
+  build.box({0.4, 0.4, 0.1}, 1, {.position = {0.7 + begin, 0, 0.05 + above}, .velocity = velocity});
+  const auto end = judged(build.finish());
+  CHECK((end.v.col(1) - velocity + Vec3(0, 0, gravity * judged_step_s)).norm() <= by_hand);
+}

@@ -3,6 +3,7 @@
 #include "body_scenes.h"
 #include "contact_runs.h"
 #include "contact_shapes.h"
+#include "judged_contact.h"
 
 using namespace pbd;
 using namespace pbd::test;
@@ -145,4 +146,25 @@ TEST_CASE("a triangle that comes to lie on a block that turns is held at corners
   }
   CHECK(crossings > 60);  // else little has been seen
   CHECK(missed <= 2);     // of 120
+}
+
+TEST_CASE(
+    "a damped plate that begins deep in a block, and overhangs it, ends its step where the judge's does") {
+  const double friction = GENERATE(0.0, 0.5);
+  pbdcheck::BodyScene build({.friction = friction, .compliance = 1e-6, .damping = 0.01});
+  build.fixed(Box{Vec3::Ones()}, {});
+  const Eigen::Quaterniond turned =
+      Eigen::AngleAxisd(0.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.04, Vec3::UnitY());
+  build.box({0.4, 0.4, 0.2}, 1,
+            {.position = {0.4, 0.2, 0.601},
+             .orientation = turned,
+             .velocity = {0.2, -1.3, -1},
+             .spin = {0, 0, 4.5}});
+  const Scene scene = build.finish();
+  Workspace workspace(scene, contact_method("direct"));
+  State state = scene.initial;
+  REQUIRE(step(workspace, judged_step_s, state).status == Status::ok);
+  const auto end = judged(scene);
+  CHECK((state.v.col(1) - end.v.col(1)).norm() <= 1e-7);
+  CHECK((state.spin.col(1) - end.spin.col(1)).norm() <= 1e-7);
 }

@@ -75,8 +75,8 @@ TEST_CASE("a rod that is met far out turns by the impulse there, however far bot
   const auto [end, contacts] = rod.end();
   const double p = (rod.speed - gap / h) / (1 / ball_mass + 1 / mass + arm * arm / inertia);
   INFO("way " << way << " m");
-  // When it is met is known to 3e-6 of its radius, of a way of which the arm changes by the slide's share.
-  const double known = 1e-7 + 3e-6 * thick * std::abs(slide) / (way * arm);
+  // When it is met is known to 3e-4 of its radius, of a way of which the arm changes by the slide's share.
+  const double known = 1e-7 + 3e-4 * thick * std::abs(slide) / (way * arm);
   CHECK(end.v(0, 1) == Approx(p / mass).epsilon(known));
   CHECK(end.spin(1, 1) == Approx(arm * p / inertia).epsilon(known));
   CHECK(end.v(0, 0) == Approx(rod.speed - p / ball_mass).epsilon(known));

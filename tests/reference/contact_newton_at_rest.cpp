@@ -1,8 +1,10 @@
 // Steps of what lies on each other: closed meshes whose triangles share planes, so that their diagonals are
 // no edges, and light boxes that carry a million times their mass.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "contact_step.h"
 #include "judged_contact.h"
 #include "mesh.h"
 
@@ -105,9 +107,14 @@ TEST_CASE("corners that slide over a face's side in the face's plane come to lie
   // A plate that overhangs by 0.15 m where the step begins, and lies a little deep, as rounding has it.
   const double way = 0.2, speed = way / judged_step_s;
   build.box({0.4, 0.4, 0.1}, 1, {.position = {0.45, 0, 0.05 - 1e-13}, .velocity = {-speed, 0, 0}});
-  const auto end = judged(build.finish());
+  const Scene scene = build.finish();
+  const auto end = judged(scene);
   CHECK((end.v.col(1) - Vec3(-speed, 0, 0)).norm() <= by_hand);
   CHECK(end.spin.col(1).norm() <= by_hand);
+  ContactStep own(scene, scene.initial, judged_step_s);
+  own.find_contacts(own.step.start_velocity(), false);
+  CHECK(std::ranges::count_if(own.contacts,
+                              [](const JudgedContact& each) { return each.pair.a.count == 1; }) == 4);
 }
 
 TEST_CASE("corners that fall past a face, and end a hair beside it, fall freely") {

@@ -73,16 +73,19 @@ def cause(results, verdict):
     times = f"{compared(measured / bound, 1)[0]} times its bound" if bound > 0 else "above 0"
     if verdict["id"].startswith(TIMED):
         if low < high and low > bound:
-            return f"A measured time, {times}; all repeats are, from {number(low)} to {number(high)}."
+            return f"A measured time, {times}; all repeats are above it, from {number(low)} to {number(high)}."
         return f"A measured time, {times}. Other work on the machine slows it; `make bench` repeats the measurement with nothing else running."
     frames = [frame for _, frame in results.all_tables(verdict["experiment"]) if {"scene", "status"} <= set(frame)]
-    rows = pd.concat([frame[[name in verdict["quantity"] for name in frame["scene"].astype(str)]] for frame in frames]) if frames else []
+    named = {name for frame in frames for name in frame["scene"].astype(str)
+             if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", verdict["quantity"])}
+    rows = pd.concat([frame[frame["scene"].astype(str).isin(named)].assign(reason=lambda own: own.get("reason", ""))
+                      for frame in frames]) if frames else []
     if not len(rows):
         return f"The number is {times}."
     scenes = listed(sorted(rows["scene"].unique()))
-    bad = rows[rows["status"] != "ok"]
+    bad = rows[~rows["status"].isin(["ok", "skipped"])]
     if bad.empty:
-        return f"The number is {times}; every row of {scenes} is ok."
+        return f"The number is {times}; no row of {scenes} is missed."
     reasons = bad.apply(why, axis=1)
     commonest = reasons.map(stripped).value_counts().index[0]
     return f"The number is {times}; of {scenes} {share(len(bad), len(rows))} rows are not ok, most often: {reasons[reasons.map(stripped) == commonest].iloc[0]}."

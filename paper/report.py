@@ -71,14 +71,14 @@ def column_widths(table):
     if sum(longest) + 2 * len(longest) <= line - 5:
         return "l" * len(longest)
     narrow = {i: float(length) for i, length in enumerate(longest) if length <= short}
-    while True:  # no column is narrower than its longest word
+    while True:  # no column is narrower than its longest word, as far as the line has room
         wide = [i for i in range(len(longest)) if i not in narrow]
         room = line - sum(width + 2 for width in narrow.values())
         wanted = sum(min(longest[i], longest_counted) + 2 for i in wide)
         shares = narrow | {i: room * (min(longest[i], longest_counted) + 2) / wanted - 2 for i in wide}
         tight = {i: least for i in wide if shares[i] < (least := longest_word(table, i))}
         if not tight or len(tight) == len(wide):
-            return "".join(rf">{{\raggedright\arraybackslash}}p{{{shares[i] / line:.3f}\linewidth}}" for i in range(len(longest)))
+            return "".join(rf">{{\raggedright\arraybackslash}}p{{{max(shares[i], 1) / line:.3f}\linewidth}}" for i in range(len(longest)))
         narrow |= tight
 
 

@@ -242,7 +242,7 @@ class Report(unittest.TestCase):
         for change, told in (
                 ({}, "The number is 1.5 times its bound."),
                 ({"quantity": "overlap (ball)"}, "The number is 1.5 times its bound; of `ball` 1 of 2 rows are not ok, most often: diverged: far by 3."),
-                ({"quantity": "overlap (rod)"}, "The number is 1.5 times its bound; every row of `rod` is ok.")):
+                ({"quantity": "overlap (rod)"}, "The number is 1.5 times its bound; no row of `rod` is missed.")):
             self.assertEqual(cause(Results(self.directory), verdict | change), told)
 
     def test_other_work_is_blamed_only_where_a_repeat_meets_the_bound(self):

@@ -238,7 +238,7 @@ def contact(frame):
         f"{number(errors.min())} to {number(errors.max())} by {family} steps" for family, errors in most.items())
         if len(most) else f"No run of {len(frame)} came through")
     apart = [scene for scene, rows in groups if not overlaps(rows)]
-    footnote(fig, (f"Position steps take more updates than any of velocity stepping on {joined(apart)}: nothing is compared there. " if apart else "")
+    footnote(fig, (f"Both families have no work in common on {joined(apart)}: nothing is compared there. " if apart else "")
              + reasons_note(failed(frame, "error")))
     return fig
 
@@ -252,7 +252,7 @@ def most_work(frame):
 
 
 def overlaps(rows):
-    """Whether some run of both families takes as much work as one of the other."""
+    """Whether the ranges of work of both families have some in common."""
     runs = good(rows, "error", "row_updates_per_s")
     position, velocity = (runs.loc[runs["family"] == family, "row_updates_per_s"] for family in ("position", "velocity"))
-    return len(position) > 0 and len(velocity) > 0 and position.min() <= velocity.max()
+    return max(position.min(), velocity.min()) <= min(position.max(), velocity.max())

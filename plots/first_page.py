@@ -54,13 +54,14 @@ def unused(absent):
     empty, others = (rows[rows["presence"].isin(kinds)] for kinds in (["empty"], ["never touches", "idle"]))
     if empty.empty or others.empty:
         return None
-    dearest = empty.loc[empty["change"].idxmax()]
+    dearest = empty.loc[empty["change"].abs().idxmax()]
     chart, ax = plt.subplots(figsize=SIZE)
     ax.barh([f"{len(empty)} effects, empty (the dearest)", *others["name"]], [dearest["change"], *others["change"]], height=0.6,
             color=[GREEN, *[BLUE] * len(others)])
-    ax.set(xlabel="change of a step's time (%)", xscale="symlog")
+    ax.set_xscale("symlog", linthresh=1)
+    ax.set(xlabel="change of a step's time (%)")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.tick_params(axis="y", labelsize=6)
     ax.invert_yaxis()
-    finding(chart, f"What is empty takes at most {number(dearest['change'])} % more, what never acts up to {number(others['change'].max())} %")
+    finding(chart, f"What is empty changes the time by at most {number(abs(dearest['change']))} %, what never acts by up to {number(others['change'].abs().max())} %")
     return chart

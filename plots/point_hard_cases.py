@@ -55,9 +55,9 @@ def frontier(frame):
     never = swept[~drawable(swept, ["largest_step_s"])]
     steps = swept.groupby("kind", sort=False)["largest_step_s"].median().dropna()
     longest = swept["largest_step_s"].max()
-    kinds = {step: joined(steps.index[steps == step]) for step in steps.unique()}
-    finding(fig, f"Half of the cases pass at steps of {joined(('at least ' if step == longest else '') + step_text(step) + f' ({of})' for step, of in kinds.items())}"
-            if steps.notna().any() else f"None of {counted(len(frame), 'case')} passes at any step",
+    halves = {step: joined(steps.index[steps == step]) for step in steps.unique()}
+    finding(fig, f"Half of the cases pass at steps of {joined(('at least ' if step == longest else '') + step_text(step) + f' ({of})' for step, of in halves.items())}"
+            if len(steps) else f"None of {counted(len(frame), 'case')} passes at any step",
             f"{share(len(never), len(frame))} pass at none: {some(row_names(frame)[never.index])}" if len(never) else "")
     untold = drawable(swept, ["largest_step_s"]) & ~drawable(swept, ["fewest_sweeps"])
     footnote(fig, "All cases are in the table. " + (f"Of {share(untold.sum(), len(frame))} no budget of sweeps is told. " if untold.any() else "") + ("Without sweeps: every row is compliant. " if (swept["kind"] == UNSWEPT).any() else ""))

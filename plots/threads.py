@@ -43,7 +43,7 @@ def gains(frame, bar, what):
     finding(fig, f"{number(most)} threads {what} {span(several['speedup'])} times as fast as one; "
             f"{(several['same_bits'] == 1).sum()} of {len(several)} runs end in the same bits" if len(several)
             else f"None of {counted(len(frame), 'run')} is on several threads")
-    footnote(fig, "Bars: range of the repeats on several threads." + (
+    footnote(fig, "Whiskers: range of the repeats on several threads." + (
         f" More than {number(most)}: as many cores have as many caches." if (several["speedup"] > most).any() else ""))
     return fig
 

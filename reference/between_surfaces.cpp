@@ -75,7 +75,8 @@ bool Between::came_from_beside(const FeaturePair& pair, const Surface& of_face, 
     corners.push_back(placed(of_face.corner[static_cast<std::size_t>(corner)], start));
   const Nearest begun = nearest(pair, start);
   const double below = -(begun.gap + pair.a.radius + pair.b.radius);
-  if (below <= beyond * (corners[1] - corners[0]).norm()) return false;
+  const double side = of_face.cylinder > 0 ? of_face.cylinder : (corners[1] - corners[0]).norm();
+  if (below <= beyond * side) return false;
   return !is_within(of_face, corners, begun.on_a, begun.normal);
 }
 

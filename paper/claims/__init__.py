@@ -37,12 +37,16 @@ def row(claim, finding):
     return [str(claim.number), f"{claim.statement} {source}", finding.verdict + numbers, finding.sentence + see]
 
 
+def kinds_counted(kinds):
+    """How many claims are found to be of each kind."""
+    return joined(f"{kinds.count(kind)} {kind}" + (" a condition" if kind.endswith("under") else "") for kind in VERDICTS)
+
+
 def claims_section(found):
     kinds = [finding.kind() for _, finding in found]
-    counts = joined(f"{kinds.count(kind)} {kind}" + (" a condition" if kind.endswith("under") else "") for kind in VERDICTS)
     bad = [f"{finding.against or finding.sentence} ([#{claim.home()}], claim {claim.number})" for claim, finding in found
            if finding.against or finding.kind() == REFUTED]
-    section = Section("The claims", name="claims", paragraphs=[f"Of {len(found)} claims these runs find {counts}.", METHOD, SOURCE])
+    section = Section("The claims", name="claims", paragraphs=[f"Of {len(found)} claims these runs find {kinds_counted(kinds)}.", METHOD, SOURCE])
     if bad:
         section.tables.append(Table("Against the paper and ourselves.", ["finding"], [[text] for text in bad]))
     for title, group in GROUPS.items():

@@ -18,7 +18,7 @@ inline constexpr double crossing_sine = 0.1;
 inline constexpr double parallel_to_rim = 1e-3;
 
 /// Up to this part of the sizes a node lies on a face of a closed mesh, also where it is beside the face or
-/// an edge of it by that much: it touches the face that its own surface lies above. About the depth
+/// an edge of it by that much: it touches the face that its own surface lies above. The least depth
 /// that a search of contacts may overlook, and more than a step's tolerance leaves open.
 inline constexpr double flush_part = 1e-6;
 

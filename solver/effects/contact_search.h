@@ -45,9 +45,9 @@
 // where these have come to be in each other by other features, or along its normal. Its pair is looked at
 // again from then on, along the way from the start, too, so that nothing thin is passed for it. What takes
 // its place is as far apart there as it is: what slides under the convex law hovers. A contact of two edges
-// that is stated as a plane, and acts, is stated as the edges where these cross at the end; if they do not,
-// it leaves. Of deformable surfaces only what acts farther beside its features than these are long leaves;
-// what then passes or overlaps is found where the step ends.
+// that is stated as a plane, and acts or touches, is stated as the edges where these cross at the end; if
+// they do not cross, it leaves. Of deformable surfaces only what acts farther beside its features than these
+// are long leaves; what then passes or overlaps is found where the step ends.
 #pragma once
 
 #include <array>
@@ -235,7 +235,7 @@ class ContactSearch {
   double apart_along_normal(const ActiveContact& contact, const Configuration& at) const;
   bool is_nearest(const ActiveContact& contact, const Configuration& start, const Configuration& end);
   bool is_left(const PairFeatures& features) const;
-  void restate(const ActiveContact& contact, ActiveContact stated);
+  void restate(const ActiveContact& contact, const Configuration& start, ActiveContact stated);
   bool is_same(const ActiveContact& one, const ActiveContact& two, const Configuration& at);
   static bool is_crossing_as_plane(const ActiveContact& contact);
   std::optional<ActiveContact> stated_at(const ActiveContact& contact, const Configuration& start,
@@ -263,8 +263,8 @@ class ContactSearch {
   std::vector<ActiveContact> near_;
   std::vector<NearPair> pairs_before_;
   std::vector<ActiveContact> near_before_;
-  std::vector<Pair> far_;  // those that go far in this step
-  std::vector<ActiveContact> late_;
+  std::vector<Pair> far_;             // those that go far in this step
+  std::vector<ActiveContact> late_;   // and what is restated
   std::uint64_t meetings_ = 0;        // so far: each has a name of its own
   double touching_ = 0, inside_ = 0;  // shares of a way at which `meets` found a pair so
   double least_ = 0;                  // m, gap of a pair on the way that `meets` walked, if it is pushed

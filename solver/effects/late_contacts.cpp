@@ -74,7 +74,8 @@ void ContactSearch::keep_deepening(const Pair& pair, const Configuration& start,
 /// `behind` (negative, m): sets `overlapping` and returns the last share at which it is not.
 double ContactSearch::entering(const Pair& pair, const Configuration& start, const Configuration& end,
                                double behind, double apart, double& overlapping) {
-  constexpr int halvings = 15;  // of the way: 1e-4 of r where a shape goes as far as 3 r
+  constexpr int halvings =
+      15;  // of the way: 1e-4 of r where a shape goes as far as 3 r; more diverge oftener
   for (int k = 0; k < halvings; ++k) {
     const double middle = (apart + overlapping) / 2;
     (generate_between(pair, start, end, middle, pair.overlooked) < behind ? overlapping : apart) = middle;
@@ -165,11 +166,12 @@ void ContactSearch::add_late(const ActiveContact& found, double target) {
 }
 
 /// True if a late contact says the same of what overlaps: its row is solved, and the tolerance leaves the
-/// rest. Never of a meeting: each has a name of its own.
+/// rest; or if one states it as the shapes do at an end. Never of a meeting: each has a name of its own.
 bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at) {
   const auto known = late_contact({found.pair(), found.features.key});
-  return known != late_.end() && touching_at(*known, at).gap < 0 &&
-         agree(*known, found, at, beside(found.pair()));
+  if (known == late_.end()) return false;
+  return known->restated ||
+         (touching_at(*known, at).gap < 0 && agree(*known, found, at, beside(found.pair())));
 }
 
 /// What the contacts tell of pairs that go far.

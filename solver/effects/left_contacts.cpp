@@ -99,12 +99,13 @@ bool ContactSearch::is_crossing_as_plane(const ActiveContact& contact) {
          second_of(key).of == Feature::edge;
 }
 
-/// A contact as the shapes state it at `end`, if they do, however far apart it has come to be.
+/// A contact as the shapes state it at `end`, if they do, also where it has come apart.
 std::optional<ActiveContact> ContactSearch::stated_at(const ActiveContact& contact,
                                                       const Configuration& start, const Configuration& end) {
   const Pair pair{contact.pair()};
   const auto& [first, second] = pair.collider;
-  generate_between(pair, start, end, 1, travel_between(motions_[first], motions_[second]));
+  const double apart = std::max(touching_at(contact, end).gap, 0.0) + beside(pair.collider);
+  generate_between(pair, start, end, 1, apart + travel_between(motions_[first], motions_[second]));
   for (const ContactPoint& point : points_.found) {
     const ActiveContact stated = active(point, pair.collider[0], pair.collider[1], points_.triangle);
     if (stated.features.key == contact.features.key) return stated;
@@ -112,17 +113,20 @@ std::optional<ActiveContact> ContactSearch::stated_at(const ActiveContact& conta
   return std::nullopt;
 }
 
-/// Puts a contact as it is stated in the place of what it was: it began the step as that did.
-void ContactSearch::restate(const ActiveContact& contact, ActiveContact stated) {
+/// Puts a contact as it is stated in the place of what it was: it began the step as that did. Edges that turn
+/// through parallel have their normal reversed where it begins, and tell nothing of that.
+void ContactSearch::restate(const ActiveContact& contact, const Configuration& start, ActiveContact stated) {
+  constexpr double alike = 0.9;  // cosine: half a radian
   const auto known = late_contact({contact.pair(), contact.features.key});
-  stated.late = contact.late;
+  const Touching was = touching_at(contact, start);
+  const bool reversed = touching_at(stated, start).normal.dot(was.normal) < alike;
+  stated.late = contact.late || reversed;
   stated.restated = true;
-  if (known == late_.end()) {
+  stated.target = contact.late && known != late_.end() ? known->target : std::min(was.gap, 0.0);
+  if (known == late_.end())
     late_.push_back(std::move(stated));
-    return;
-  }
-  stated.target = known->target;
-  *known = std::move(stated);
+  else
+    *known = std::move(stated);
 }
 
 /// A pair as the step begins, of which contacts beside their shapes tell.
@@ -221,9 +225,9 @@ bool ContactSearch::drop_left_surfaces(const Points& x, const ContactLists& cont
   return any;
 }
 
-/// True if contacts act where their features are not, or state them as they are not: they are left out of the
-/// rest of the step, and `find` has their pairs looked at again. What then overlaps by the same features
-/// keeps them.
+/// True if contacts act where their features are not, or state them as they are not. The first are left out
+/// of the rest of the step, and `find` has their pairs looked at again; what then overlaps by the same
+/// features keeps them. The others are stated anew.
 bool ContactSearch::drop_left(const Configuration& start, const Configuration& end, const Configuration& free,
                               const ContactLists& contacts) {
   dropped_.clear();
@@ -241,7 +245,7 @@ bool ContactSearch::drop_left(const Configuration& start, const Configuration& e
         there = stated.has_value();
         if (there && stated->features.kind == ContactPoint::Kind::edges && !is_same(contact, *stated, end)) {
           dropped_.push_back(features.collider);
-          restate(contact, *stated);
+          restate(contact, start, *stated);
           continue;
         }
       }

@@ -75,7 +75,7 @@ struct PairFeatures {
 struct TriangleName {
   int body;  // as the effect counts colliders
   std::uint64_t key;
-  bool early;     // as the step began: what is late or restated is kept before it
+  bool early;     // neither late nor restated: those are kept before it
   std::size_t i;  // in its list
 
   bool operator<(const TriangleName& other) const {

@@ -34,7 +34,7 @@ def best(frame, column):
 
 def beaten(found):
     """'4 of 5 benchmarks', and where not."""
-    lost = [f"{name} ({winner})" for name, _, winner in found if winner != OURS]
+    lost = [f"{name} at {step:g} s ({winner})" for name, step, winner in found if winner != OURS]
     return share(sum(winner == OURS for _, _, winner in found), len(found)) + " pairs of benchmark and step" + \
         (f"; not: {some(lost)}" if lost else "")
 

@@ -91,8 +91,8 @@ TEST_CASE("no deformable surface passes another within a solved step") {
   CHECK(stopped > flights / 5);
 }
 
-// By less than a tenth of the thickness; more would take energy that it has not. The step at height
-// 0.05 and way 0.2 takes about all of `max_outer`: another rounding may miss it.
+// By less than a tenth of the thickness; more would take energy that it has not. The step at height 0.05 and
+// way 0.2 takes about all of `max_outer`: another rounding may miss it.
 TEST_CASE(
     "a sheet that slides over the border of another and too near to its plane is lifted or held there") {
   for (const double height : {0.95, 0.8, 0.5, 0.05, -0.5})

@@ -20,6 +20,26 @@ pbd::Method method_of(const char* relaxation) {
   return method;
 }
 
+/// The largest distance over the scale of all steps of a scene from solutions of the judge; all say ok.
+double worst_of(const std::string& scene) {
+  const TemporaryFolder folder;
+  SceneFile file = read_scene_file(folder.write("scene.toml", scene));
+  pbd::Workspace workspace = file.workspace();
+  pbd::State state = file.scene.initial;
+  double worst = 0;
+  for (std::int64_t k = 0; k < file.steps; ++k) {
+    const pbd::State begun = state;
+    const pbd::Report report = step(workspace, file.step_s, state);
+    INFO("step " << k + 1);
+    CHECK(report.status == pbd::Status::ok);
+    const double nearest =
+        judge_claim("cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report))
+            .nearest.of_scale;
+    worst = std::max(worst, std::isnan(nearest) ? pbd::infinity : nearest);
+  }
+  return worst;
+}
+
 }  // namespace
 
 // Two corners of a box rebound off a face; beside them a corner of what is below is nearer to another face.
@@ -99,27 +119,8 @@ TEST_CASE("a ball that strikes a hanging cloth ends where the judge solves it, f
   CHECK(judged.nearest.of_scale <= 1e-8);  // a hundred times the tolerance, as `judged_frames` asks
 }
 
-/// The largest distance over the scale of a scene's steps from solutions of the judge; all say ok.
-double worst_of(SceneFile file, int steps) {
-  pbd::Workspace workspace = file.workspace();
-  pbd::State state = file.scene.initial;
-  double worst = 0;
-  for (int k = 0; k < steps; ++k) {
-    const pbd::State begun = state;
-    const pbd::Report report = step(workspace, file.step_s, state);
-    INFO("step " << k + 1);
-    CHECK(report.status == pbd::Status::ok);
-    const double nearest =
-        judge_claim("cone_interior_point", claim_of(file.scene, workspace, begun, state, file.step_s, report))
-            .nearest.of_scale;
-    worst = std::max(worst, std::isnan(nearest) ? pbd::infinity : nearest);
-  }
-  return worst;
-}
-
 TEST_CASE("a soft block that is pressed into a box, and overhangs it, keeps its dampers' state") {
-  const TemporaryFolder folder;
-  CHECK(worst_of(read_scene_file(folder.write("scene.toml", R"([[rigid_body]]
+  CHECK(worst_of(R"([[rigid_body]]
 name = "base"
 shape = "box"
 size_m = [1, 1, 1]
@@ -147,14 +148,12 @@ steps = 10
 [method]
 tolerance = 1e-9
 relaxation = "direct"
-)")),
-                 10) <= 1e-7);  // a hundred times the tolerance, as `judged_frames` asks
+)") <= 1e-7);  // a hundred times the tolerance, as `judged_frames` asks
 }
 
 // Its rim turns from a triangle's edge over the triangle, 3e-6 m deep if that is not looked at.
 TEST_CASE("a cylinder that lifts a cloth by its cap ends its step where the judge's does") {
-  const TemporaryFolder folder;
-  CHECK(worst_of(read_scene_file(folder.write("scene.toml", R"([[rigid_body]]
+  CHECK(worst_of(R"([[rigid_body]]
 name = "lift"
 shape = "cylinder"
 radius_m = 0.12
@@ -186,13 +185,11 @@ step_s = 0.01
 steps = 1
 [method]
 tolerance = 1e-9
-)")),
-                 1) <= 1e-6);
+)") <= 1e-6);
 }
 
 TEST_CASE("boxes that slide and turn on each other flush end where the judge's do") {
-  const TemporaryFolder folder;
-  CHECK(worst_of(read_scene_file(folder.write("scene.toml", R"([[rigid_body]]
+  CHECK(worst_of(R"([[rigid_body]]
 name = "ground"
 shape = "half_space"
 held = "fixed"
@@ -228,8 +225,7 @@ steps = 6
 [method]
 tolerance = 1e-9
 relaxation = "direct"
-)")),
-                 6) <= 1e-7);
+)") <= 1e-7);
 }
 
 TEST_CASE("a contact force that is another is told with step, number and bound") {

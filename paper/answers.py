@@ -167,9 +167,12 @@ def effects_told(verdicts, absent):
     present = absent[absent["presence"].isin(["never touches", "idle"]) & (absent["time_low"] > 1)].sort_values("time_ratio", ascending=False)
     dear = "; ".join(f"{row['effect'].replace('_', ' ')}, {row['case']}: {number(100 * (row['time_ratio'] - 1))} %" for _, row in present.head(3).iterrows())
     cost = f"do cost ({dear})" if dear else "cost no more than repeats differ"
+    begun = absent.loc[absent["first_longer_steps"].idxmax()] if absent["first_longer_steps"].notna().any() else None
+    first = (f" Once, where a run begins, they cost up to {number(begun['first_longer_steps'])} steps more ({begun['effect'].replace('_', ' ')}, "
+             f"{begun['case']})." if begun is not None and begun["first_longer_steps"] > 1 else "")
     return (percent(empty), "change of the time by effects that are listed and empty",
             f"Effects without a single entry change the time by at most {percent(empty)} ({against_goal(empty)}). Effects with entries that never "
             f"come to act {cost}: contact that never touches up to {percent(idle)} ({against_goal(idle)}), others up to "
-            f"{percent(unused)} ({against_goal(unused)}). Contacts without friction take "
+            f"{percent(unused)} ({against_goal(unused)}).{first} Contacts without friction take "
             f"{percent('effects.frictionless.cheaper')} of the time of contacts with it. A scene without its solid's strain takes "
             f"{percent('effects.removed.cheaper')} of the time of the scene with it. See [#effects_cost].")

@@ -105,7 +105,7 @@ def effects_cost(directory):
            for e, b in (("distance", 120), ("tet_strain", 410), ("bending", 190), ("anchor", 60))]
           + [("cloth", "outside effects", 0, 0, 1e-3, 5e-5)])
     write(directory, "effects_cost", "absent", tables.TABLES["effects_cost", "absent"],
-          [(e, state, presence, 1 + d, 0.99 + d, 1.01 + d, 1, differ) for e, state, presence, d, differ in (
+          [(e, state, presence, 1 + d, 0.99 + d, 1.01 + d, 10 * d, 1, differ) for e, state, presence, d, differ in (
               ("none", "the same scene", "control", 0, 0), ("gravity", "empty", "empty", 0.001, 0), ("bending", "empty", "empty", -0.002, 0),
               ("contact", "never touches", "never touches", 0.15, 0), ("contact", "never touches itself", "never touches", 0.5, 0),
               ("distance", "damping 0", "idle", 0.02, 0), ("gyroscopic", "equal moments", "idle", 0.2, 12),

@@ -129,7 +129,7 @@ TABLES = {
     ("rival_newton", "traces"): "scene elements young_pa poisson method iteration wall_s error status reason",
     ("large_scenes", "steps"): "scene unit size unknowns method error_target iterations setup_s wall_s memory_mb error status reason",
     ("effects_cost", "costs"): "scene effect rows bytes wall_s wall_s_per_step",
-    ("effects_cost", "absent"): "effect case presence time_ratio time_low time_high bytes_ratio entries_that_differ",
+    ("effects_cost", "absent"): "effect case presence time_ratio time_low time_high first_longer_steps bytes_ratio entries_that_differ",
     ("effects_cost", "stripped"): "scene rows wall_s_per_sweep stripped_s_per_sweep ratio ratio_low ratio_high difference",
     ("effects_cost", "scaling"): "scene relaxation rows elements wall_s_per_sweep exponent status reason",
     ("threads", "sweeps"): "scene relaxation threads constraints rows bytes wall_s_per_sweep wall_s_low wall_s_high bytes_per_s "

@@ -36,11 +36,16 @@ void check_rebound(const StepClaim& claim, const ClaimedContact& c, const Contac
   if (!is_euler_step(claim) || explicit_forces(claim) || damped || c.met || std::max(a, b) >= sides.count())
     return findings.leave_out(
         "rebound: by this integrator, of what a damper holds, met on the way, on surfaces");
-  if (!(open.normal * claim.h > open.impulse) || c.gap <= slack) return;
-  const auto approach = [&](const State& state) {
+  if (!(open.normal * claim.h > open.impulse)) return;
+  const auto parting = [&](const State& state) {
     return c.normal.dot(sides.velocity(c, 0, state) - sides.velocity(c, 1, state));
   };
-  const double missed = claim.h * (approach(claim.end) + open.law.restitution * approach(claim.start));
+  const double back = claim.h * open.law.restitution * parting(claim.start);
+  if (c.gap <= slack) {
+    if (-back > slack) findings.leave_out("rebound: of what approached and ends in touch");
+    return;
+  }
+  const double missed = claim.h * parting(claim.end) + back;
   findings.require("rebound", name_of(a, b) + ", m", std::abs(missed), slack);
 }
 

@@ -51,7 +51,7 @@ class Growth {
   Pilot blurred() const {
     Pilot pilot = untold_;
     if (!std::isnan(pilot.truth.error_bar)) return searched(file_, pilot, error_, left(), {});
-    pilot.needed_s = least_need();
+    if (!pilot.truth.in_time) pilot.needed_s = least_need();
     return pilot;
   }
 
@@ -114,9 +114,11 @@ class Growth {
 
   /// Ever finer, of steps that are solved to a thousandth of the error asked, until a third of that can be
   /// told or no finer one fits in `seconds`; unless `patient`, nor what a run can be told to meet, the bar
-  /// being of first order.
+  /// being of first order. What fails in its time by ever finer steps fails for another reason than these.
   void sharpen(Pilot& pilot, double seconds, bool patient) const {
     constexpr double least_finer = 1.25;
+    constexpr int most_failed = 5;
+    int failed = 0;
     const Stopwatch watch;
     auto steps = std::max<std::int64_t>(pilot.truth_steps, std::lround(pilot.duration / file_.step_s));
     for (double finer = 2; finer >= least_finer;) {
@@ -127,6 +129,7 @@ class Growth {
         pilot.truth_steps = std::isnan(truth.error_bar) ? 0 : steps;
       }
       if (truth.tells(error_ / 3)) return;
+      if (std::isnan(truth.error_bar) && truth.in_time && ++failed == most_failed) return;
       const double levels = (seconds - watch.seconds()) / truth.wall_s;
       if (!patient && levels < truth.least_met() / error_) return;
       finer = std::min(2.0, levels);

@@ -34,7 +34,7 @@ struct Pilot {
   bool complete = true;  // false: the budget ended the search
   double untold = 0;     // s, the shortest longer one that was tried, in vain; 0: none
   double spent_s = 0;    // wall time
-  double needed_s = 0;   // s, of wall time, at least, where there is no truth
+  double needed_s = 0;   // s, of wall time, at least, where time was too short for a truth
 
   double ms_per_s(const PilotRun& run) const { return 1e3 * run.wall_s / duration; }
 };

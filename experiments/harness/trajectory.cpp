@@ -175,7 +175,7 @@ Truth ode_truth(const SceneFile& file, double duration, reference::OdeSettings s
   return truth;
 }
 
-Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest, double wall_s) {
+Truth finer_steps_truth(const SceneFile& file, double duration, const Setting& finest, double wall_s) {
   Setting coarser = finest;
   coarser.steps /= 2;
   const Trajectory fine = trajectory(file, duration, finest, {.wall_s = wall_s});
@@ -185,11 +185,13 @@ Truth richardson_truth(const SceneFile& file, double duration, const Setting& fi
                                     method.outer, method.relaxation, method.tolerance),
               .touched = std::isfinite(fine.touched_s),
               .wall_s = fine.wall_s,
+              .in_time = fine.wall_s <= wall_s,
               .reason = fine.reason};
   if (fine.status != Status::ok) return truth;
   const Trajectory coarse = trajectory(file, duration, coarser, {.wall_s = wall_s - fine.wall_s});
   truth.error_bar = end_error(file.scene, coarse, fine.end);
   truth.wall_s += coarse.wall_s;
+  truth.in_time = truth.wall_s <= wall_s;
   truth.reason = coarse.reason;
   if (truth.reason.empty() && !std::isfinite(truth.error_bar)) truth.reason = "the end is not finite";
   return truth;
@@ -202,7 +204,7 @@ Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
   for (const std::string& integrator : integrators) try {
       if (first && (std::isnan(first->error_bar) || spent >= wall_s)) break;
       finest.method.integrator = integrator;
-      const Truth truth = richardson_truth(file, duration, finest, wall_s - spent);
+      const Truth truth = finer_steps_truth(file, duration, finest, wall_s - spent);
       spent += truth.wall_s;
       if (!first) first = best = truth;
       const double apart = distance(file.scene, truth.end, first->end);

@@ -71,6 +71,7 @@ struct Truth {
   std::string method{};
   bool touched = false;  // contacts exerted a force on the way
   double wall_s = 0;     // of its runs
+  bool in_time = true;   // they ended before they were given up
   std::string reason{};  // why there is no bar
 
   /// An error that this truth can tell: below three of its bars there is none.
@@ -99,7 +100,7 @@ Truth ode_truth(const SceneFile& file, double duration, pbd::reference::OdeSetti
 /// The end of `finest`; its bar is the distance to the same with half as many steps: of any order from the
 /// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok, as
 /// after `wall_s` seconds for both.
-Truth richardson_truth(const SceneFile& file, double duration, const Setting& finest,
+Truth finer_steps_truth(const SceneFile& file, double duration, const Setting& finest,
                        double wall_s = std::numeric_limits<double>::infinity());
 
 /// The best of the same by each of `integrators` that the scene allows: the one with the smallest bar of

@@ -6,6 +6,8 @@
 //   errors, residuals and differences            half of themselves and 1e-11: a factor of 3/2 shows,
 //                                                rounding does not
 //   other numbers                                1e-6 of themselves and 1e-11
+//   measured_rate                                likewise, but on another machine twice the least rate that
+//                                                can be told
 //   times (wall_s, cpu_s)                        not at all: they are not kept
 //
 // NaN equals NaN alone. On another processor or by another compiler rounding is another: errors may differ

@@ -153,8 +153,10 @@ void rubbing_rows(Ledger& rows) {
   rest.quantity = "place of rest";
   rest.unit = "m";
   rest.formula = "amplitude less 2 mu m g/k a half swing, until |x| <= mu m g/k";
-  rest.bound.absolute *= 5;
-  rest.bound.derivation += ", five times";
+  const double stop = rub_friction * gravity / rub_stiffness;  // m, from the middle, where it may rest
+  const double half_swings = std::ceil((amplitude - stop) / (2 * stop));
+  rest.bound.absolute *= half_swings;
+  rest.bound.derivation += fmt::format(", in each of {:g} half swings", half_swings);
   rest.expected = [] {
     return reference::friction_swing_rest(rub_stiffness, 1, rub_friction, gravity, amplitude);
   };

@@ -145,12 +145,10 @@ std::optional<PassedContact> passed(SurfaceContact contact, const NodePlaces& fr
 void SurfaceSearch::find_passed(int threads, const Points& from, const Points& to, double slack,
                                 std::vector<PassedContact>& out) {
   if (clear_gap_ > 2 * std::max(moved_since_clear(from), moved_since_clear(to))) return;
-  Vec3 course = Vec3::Zero();  // the mean of all: what is common brings no two nodes nearer
-  for (const int node : nodes_)
-    course += (to.col(node) - from.col(node)) / static_cast<double>(nodes_.size());
+  const Vec3 shared = course(from, to);
   const auto around = [&](const auto& nodes, double margin) {
     AxisBox box;
-    for (const int node : nodes) box.extend(Vec3(from.col(node))).extend(Vec3(to.col(node) - course));
+    for (const int node : nodes) box.extend(Vec3(from.col(node))).extend(Vec3(to.col(node) - shared));
     const Vec3 around_box = Vec3::Constant(margin);
     return AxisBox(box.min() - around_box, box.max() + around_box);
   };

@@ -1,6 +1,7 @@
 #include "collision/surface_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace pbd {
@@ -132,18 +133,30 @@ std::optional<SurfaceSearch::Beside> SurfaceSearch::beside(const Point& point, i
   return Beside{*contact, {std::min(point.node, end), std::max(point.node, end)}};
 }
 
-/// m, of the node that went farthest beside the mean of all from where it was last looked; infinite if it
-/// never was.
-double SurfaceSearch::moved_since_clear(const Points& x) const {
-  if (clear_at_.cols() != x.cols()) return infinity;
-  Vec3 course = Vec3::Zero();
-  for (const int node : nodes_)
-    course += (x.col(node) - clear_at_.col(node)) / static_cast<double>(nodes_.size());
-  if (!course.allFinite()) return infinity;
+/// m, that the nodes go from one place to another on average: this brings no two of them nearer.
+Vec3 SurfaceSearch::course(const Points& from, const Points& to) const {
+  Vec3 sum = Vec3::Zero();
+  for (const int node : nodes_) sum += to.col(node) - from.col(node);
+  return sum / static_cast<double>(nodes_.size());
+}
+
+/// m, of the node that goes farthest beside that; infinite if one is not finite.
+double SurfaceSearch::farthest_beside_course(const Points& from, const Points& to) const {
+  const Vec3 shared = course(from, to);
+  if (!shared.allFinite()) return infinity;
   double most = 0;
-  for (const int node : nodes_)
-    most = std::max(most, (x.col(node) - clear_at_.col(node) - course).squaredNorm());
+  for (const int node : nodes_) most = std::max(most, (to.col(node) - from.col(node) - shared).squaredNorm());
   return std::sqrt(most);
+}
+
+/// m, from where it was last looked; infinite if it never was.
+double SurfaceSearch::moved_since_clear(const Points& x) const {
+  return clear_at_.cols() == x.cols() ? farthest_beside_course(clear_at_, x) : infinity;
+}
+
+bool SurfaceSearch::stays_clear(const Points& x, const Points& to) const {
+  return !searches() ||
+         (clear_gap_ > 0 && clear_gap_ > 2 * (moved_since_clear(x) + farthest_beside_course(x, to)));
 }
 
 /// A node is not looked at beside its own triangle, but beside the one across that one's far side, which is
@@ -164,18 +177,20 @@ void SurfaceSearch::look_for_clearance(int threads, const Points& x) {
     const Vec3 reach = Vec3::Constant(margin + looked_ / 2);
     return AxisBox(box.min() - reach, box.max() + reach);
   };
+  std::atomic<bool> near = false;  // then nothing more is looked at
+  const auto see = [&](const SurfaceTouching& found) { near = near || found.gap < looked_; };
   search(
       threads, around,
       [&](const SurfaceContact& contact) -> std::optional<PassedContact> {
-        if (nearest_touching(contact, places(contact, x)).gap < looked_) return PassedContact{contact};
+        if (!near) see(nearest_touching(contact, places(contact, x)));
         return std::nullopt;
       },
       [&](const Point& point, int edge) -> std::optional<Beside> {
-        const auto contact = of_edge(point, edge);
-        if (contact && touching(*contact, x).gap < looked_) return Beside{*contact};
+        if (near) return std::nullopt;
+        if (const auto contact = of_edge(point, edge)) see(touching(*contact, x));
         return std::nullopt;
       });
-  if (met_.empty() && beside_.empty()) clear_gap_ = (1 - way_rounding) * looked_;
+  if (!near) clear_gap_ = (1 - way_rounding) * looked_;
 }
 
 /// Brings together what the tasks found. Two nodes touch once, whichever edges end there.
@@ -199,6 +214,11 @@ void SurfaceSearch::find(int threads, const Points& x, const SurfaceReach& reach
   if (!searches()) return;
   const double moved = moved_since_clear(x);
   if (clear_gap_ > 2 * moved + reach.most()) return;
+  constexpr double worth = 0.25;  // of what was looked up to: what was near before that moves on by as much
+  if (!found_ && moved > worth * looked_) {
+    look_for_clearance(threads, x);
+    if (clear_gap_ > reach.most()) return;
+  }
   search(
       threads, [&](const auto& nodes, double margin) { return reach.box(nodes, x, margin); },
       [&](const SurfaceContact& contact) { return near_by(contact, x, reach); },
@@ -208,8 +228,7 @@ void SurfaceSearch::find(int threads, const Points& x, const SurfaceReach& reach
       });
   for (const PassedContact& each : met_) out.push_back(each.contact);
   for (const Beside& each : beside_) out.push_back(each.contact);
-  constexpr double worth = 0.25;  // of what was looked up to: what was near before that moves on by as much
-  if (met_.empty() && beside_.empty() && moved > worth * looked_) look_for_clearance(threads, x);
+  found_ = !met_.empty() || !beside_.empty();
 }
 
 }  // namespace pbd

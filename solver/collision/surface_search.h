@@ -31,7 +31,7 @@ struct PassedContact {
 
 /// Finds what may touch: surfaces each other and themselves at a distance of `thickness`, if they `touch` at
 /// all, and spheres surfaces at half of it. Keeps triangles' edges and scratch from step to step. What is
-/// found, and in which order, does not depend on the number of threads. Where nothing is found it looks how
+/// found, and in which order, does not depend on the number of threads. Where nothing is near it looks how
 /// far apart all is, and does not search again before nodes may have gone half as far beside their mean
 /// course.
 class SurfaceSearch {
@@ -51,6 +51,10 @@ class SurfaceSearch {
   std::span<const int> across(int edge) const { return across_.of(edge); }
   /// The nodes at the other ends of a node's edges.
   std::span<const int> neighbours(int node) const { return neighbours_.of(node); }
+
+  /// True if nothing comes near, at x and on the way from there to `to`, as was seen where it was last
+  /// looked.
+  bool stays_clear(const Points& x, const Points& to) const;
 
   /// Appends pairs without a common node that may come to touch: whose gap at x is below what `reach` says it
   /// may fall by, and whose nearest points lie on them. Edges that are parallel are left to their nodes.
@@ -95,6 +99,8 @@ class SurfaceSearch {
   void gather();
 
   void look_for_clearance(int threads, const Points& x);
+  Vec3 course(const Points& from, const Points& to) const;
+  double farthest_beside_course(const Points& from, const Points& to) const;
   double moved_since_clear(const Points& x) const;
   std::optional<SurfaceContact> of_edge(const Point& point, int edge) const;
   std::optional<Beside> beside(const Point& point, int edge, const Points& x, double moved) const;
@@ -127,6 +133,7 @@ class SurfaceSearch {
   std::vector<PassedContact> met_;
   std::vector<Beside> beside_;
   std::vector<std::pair<std::array<int, 2>, std::size_t>> ends_;  // of `beside_`, with their positions
+  bool found_ = false;                                            // by the last search, something near
   Points clear_at_;       // m, where it was looked how far apart all is
   double looked_ = 0;     // m, up to which gap
   double clear_gap_ = 0;  // m, that no pair had less than there; 0 if one had less than `looked_`

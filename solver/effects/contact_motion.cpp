@@ -66,13 +66,16 @@ void ContactSearch::begin(const SearchedStep& step) {
   // Less would have more places on ways looked at, and miss more steps.
   constexpr double least = 1e-6, most = 1e-4;
   overlooked_ = effect_.continuous ? most : std::clamp(step.tolerance, least, most);
+  threads_ = step.threads;
   clearance_.begin(step.bodies, step.start, step.straight);
-  clear_ = clearance_.holds(step.bodies, step.start, step.free);
-  if (!clear_) set_out(step);
+  colliders_clear_ = clearance_.holds(step.bodies, step.start, step.free);
+  if (!colliders_clear_) set_out(step);
+  surface_contacts_.clear();
+  surfaces_clear_ = !surfaces_ || surfaces_->stays_clear(step.start.x, step.free);
+  if (!surfaces_clear_) set_surfaces_out(step);
 }
 
 void ContactSearch::set_out(const SearchedStep& step) {
-  threads_ = step.threads;
   place_colliders(step.bodies, step.start, step.inverse_mass);
   for (Motion& motion : motions_) {
     motion.course = shift_of(motion, step.bodies, step.start.x, step.straight);
@@ -84,17 +87,32 @@ void ContactSearch::set_out(const SearchedStep& step) {
     if (motion.kind == Carrier::body && motion.radius > 0)
       motion.turn = std::max(moved.turn, motion.travel / motion.radius);
   }
-  if (!surfaces_) return;
+}
+
+void ContactSearch::set_surfaces_out(const SearchedStep& step) {
   surfaces_grown_ = true;
   surface_reach_.set_out(step.start.x, step.straight, step.free, room);
 }
 
 bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
-  if (clear_) {
-    if (clearance_.holds(step.bodies, step.start, x)) return false;
-    clear_ = false;
+  bool farther = false;
+  if (colliders_clear_ && !clearance_.holds(step.bodies, step.start, x)) {
+    colliders_clear_ = false;
+    farther = true;
     set_out(step);
   }
+  if (surfaces_clear_ && surfaces_ && !surfaces_->stays_clear(step.start.x, x)) {
+    surfaces_clear_ = false;
+    farther = true;
+    set_surfaces_out(step);
+  }
+  if (!colliders_clear_ && extend_colliders(step, x)) farther = true;
+  if (!surfaces_clear_ && surface_reach_.extend(step.start.x, x, room)) surfaces_grown_ = farther = true;
+  if (farther) searched_ = false;
+  return farther;
+}
+
+bool ContactSearch::extend_colliders(const SearchedStep& step, const Points& x) {
   bool farther = false;
   const auto grow = [&](double& searched, double reached, bool& grown) {
     if (search_farther(searched, reached, room)) grown = farther = true;
@@ -106,8 +124,6 @@ bool ContactSearch::extend(const SearchedStep& step, const Points& x) {
     if (motion.grown) motion.beside = std::max(motion.beside, beside);
     grow(motion.turn, moved.turn, motion.grown);
   }
-  if (surfaces_ && surface_reach_.extend(step.start.x, x, room)) surfaces_grown_ = farther = true;
-  if (farther) searched_ = false;
   return farther;
 }
 

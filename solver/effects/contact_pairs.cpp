@@ -92,6 +92,14 @@ bool ContactSearch::is_above(int first, int second) const {
 
 /// Pairs are as they were found before in the step unless one of them goes farther now; so are surfaces.
 void ContactSearch::search(const Configuration& start) {
+  searched_ = true;
+  if (!colliders_clear_) search_colliders(start);
+  if (!std::exchange(surfaces_grown_, false)) return;
+  surface_contacts_.clear();
+  surfaces_->find(threads_, start.x, surface_reach_, surface_contacts_);
+}
+
+void ContactSearch::search_colliders(const Configuration& start) {
   near_before_.swap(near_);
   pairs_before_.swap(near_pairs_);
   near_.clear();
@@ -135,12 +143,7 @@ void ContactSearch::search(const Configuration& start) {
     near_pairs_.push_back({pair, nearest, near_.size()});
   }
   for (Motion& motion : motions_) motion.grown = false;
-  if (std::exchange(surfaces_grown_, false)) {
-    surface_contacts_.clear();
-    surfaces_->find(threads_, start.x, surface_reach_, surface_contacts_);
-  }
-  searched_ = true;
-  if (near_.empty() && late_.empty() && !(surfaces_ && surfaces_->searches())) look_for_clearance(start);
+  if (near_.empty() && late_.empty()) look_for_clearance(start);
 }
 
 void ContactSearch::look_for_clearance(const Configuration& start) {

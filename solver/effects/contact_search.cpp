@@ -186,7 +186,6 @@ void ContactSearch::find_points(const std::array<int, 2>& pair, const Frame& at_
 
 void ContactSearch::find(const Configuration& start, ContactLists& contacts) {
   for (auto& list : contacts) list.clear();
-  if (clear_) return;
   if (!searched_) search(start);
   far_.clear();
   std::size_t begin = 0;

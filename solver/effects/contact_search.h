@@ -139,6 +139,8 @@ class ContactSearch {
 
   // How far colliders go: contact_motion.cpp, with begin and extend.
   void set_out(const SearchedStep& step);
+  void set_surfaces_out(const SearchedStep& step);
+  bool extend_colliders(const SearchedStep& step, const Points& x);
   void place_colliders(const Bodies& bodies, const Configuration& start,
                        const std::vector<double>& inverse_mass);
   Vec3 shift_of(const Motion& motion, const Bodies& bodies, const Points& start, const Points& to) const;
@@ -152,6 +154,7 @@ class ContactSearch {
   bool may_touch(int first, int second) const;
   AxisBox box_of(const Motion& motion, const Points& x) const;
   void search(const Configuration& start);
+  void search_colliders(const Configuration& start);
   bool is_above(int first, int second) const;
   void look_for_clearance(const Configuration& start);
   void search_pair(int first, int second, const Configuration& start, SearchTask& task) const;
@@ -256,7 +259,8 @@ class ContactSearch {
   const Contact& effect_;
   AllowedPairs allowed_;
   Clearance clearance_;
-  bool clear_ = false;  // of this step: nothing is placed, and nothing found
+  // Of this step: nothing of them is placed, and nothing found.
+  bool colliders_clear_ = false, surfaces_clear_ = false;
   std::vector<Motion> motions_;
   bool searched_ = false;  // `near_` holds what is as near as motions go
   std::vector<NearPair> near_pairs_;

@@ -233,7 +233,7 @@ bool ContactSearch::see_overlaps(const Configuration& start, const Configuration
 /// tells: a surface has no inside by which to see it later. What is near, has no rows and ends beside its
 /// features counts as left: the late contact takes its place. On its features its gap calls it.
 bool ContactSearch::see_passed(const Points& start, const Points& end, const ContactLists& contacts) {
-  if (!surfaces_ || !surfaces_->searches()) return false;
+  if (surfaces_clear_ || !surfaces_->searches()) return false;
   passed_.clear();
   const double slack = std::max(overlooked_of_surfaces, besides_) * effect_.thickness / 2;
   surfaces_->find_passed(threads_, start, end, slack, passed_);

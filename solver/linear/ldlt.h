@@ -13,11 +13,11 @@ namespace pbd {
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
 /// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
-/// rows solvable and is removed by the refinement. Rows whose impulse has bounds are kept; those that a step
-/// of block Jacobi would leave at a bound are held there, and each sweep with another set of them begins with
-/// another factorisation (the primal-dual active sets of hintermueller2003primal, which are not proven to
-/// end). Which constraints are eliminated is decided when the rows' generation changes. Not for contacts.
-/// Allocates in Eigen's factorisation and solves.
+/// rows solvable and is removed by the refinement. Rows that move nothing keep their impulse. Rows whose
+/// impulse has bounds are kept; those that a sweep of Gauss-Seidel would leave at a bound are held there, and
+/// each sweep with another set of them begins with another factorisation (the primal-dual active sets of
+/// hintermueller2003primal, which are not proven to end). Which constraints are eliminated is decided when
+/// the rows' generation changes. Not for contacts. Allocates in Eigen's factorisation and solves.
 class Ldlt {
  public:
   static constexpr std::string_view name = "ldlt";

@@ -1,4 +1,4 @@
-// A scene: masses, an initial state and the list of effects it calls for. Data only; nothing here computes.
+// A scene: masses, an initial state and the list of effects it calls for. Data only.
 //
 // Effects are structs of arrays, one entry per constraint. A constraint has a vector value c(x) and a
 // compliance A >= 0 (an R x R matrix for R rows): energy 1/2 c^T A^-1 c where A > 0, the equation c = 0 where

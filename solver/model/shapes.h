@@ -1,5 +1,5 @@
 // Shapes of rigid bodies and of cloth's nodes, each in a frame of its own: about the origin, cylinder and
-// capsule along z, a half space below z = 0.
+// capsule along z, a half space below z = 0. A size that is not given is 0, which no body may have.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@ namespace pbd {
 
 /// Of a node of cloth, the radius may be 0.
 struct Sphere {
-  double radius;  // m
+  double radius = 0;  // m
 };
 struct Box {
-  Vec3 size;  // m
+  Vec3 size = Vec3::Zero();  // m
 };
 struct Cylinder {
-  double radius, length;  // m
+  double radius = 0, length = 0;  // m
 };
 /// `length` is that of the cylindrical part.
 struct Capsule {
-  double radius, length;  // m
+  double radius = 0, length = 0;  // m
 };
 /// What is below z = 0; its normal is +z.
 struct HalfSpace {};

@@ -95,22 +95,33 @@ Vec3 Bodies::acceleration(int body, const Vec3& torque, const Pose& pose) const 
   return inverse_mass_[body] * (pose.turn_per_arc.transpose() * torque);
 }
 
+namespace {
+
+/// Not of a body that is held, nor of one whose moments are alike: its torque is a difference of equal
+/// products.
+bool has_gyroscopic(double inverse_mass, const Vec3& radius) {
+  return inverse_mass > 0 && !(radius[0] == radius[1] && radius[1] == radius[2]);
+}
+
+}  // namespace
+
 // I = m r^2, so that -I^-1 (w x I w) r = -(w x (r eta)) / r.
 Vec3 Bodies::gyroscopic(int body, const Vec3& eta) const {
   const Vec3& r = radius_[body];
-  if (inverse_mass_[body] == 0) return Vec3::Zero();
+  if (!has_gyroscopic(inverse_mass_[body], radius_[body])) return Vec3::Zero();
   return -eta.cwiseQuotient(r).cross(r.cwiseProduct(eta)).cwiseQuotient(r);
 }
 
 Eigen::Matrix3d Bodies::gyroscopic_gradient(int body, const Vec3& eta) const {
   const Vec3& r = radius_[body];
-  if (inverse_mass_[body] == 0) return Eigen::Matrix3d::Zero();
+  if (!has_gyroscopic(inverse_mass_[body], radius_[body])) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d by_w = cross_matrix(r.cwiseProduct(eta)) * r.cwiseInverse().asDiagonal();
   const Eigen::Matrix3d by_momentum = cross_matrix(eta.cwiseQuotient(r)) * r.asDiagonal();
   return r.cwiseInverse().asDiagonal() * (by_w - by_momentum);
 }
 
 double Bodies::add_gyroscopic(int body, double s, Vec3& eta) const {
+  if (!has_gyroscopic(inverse_mass_[body], radius_[body])) return 0;
   constexpr int most = 50;
   constexpr double shortest = 1e-3, solved = 1e-13;  // rounding of the torque's terms
   const Vec3 free = eta;

@@ -17,6 +17,10 @@ TEST_CASE("every relaxation finds a planted solution of chains, sheet and solid"
   SECTION("chain with a heavy tip") {
     scene = chain(4, 10);
   }
+  SECTION("chain with a link between nodes that are held") {
+    scene = chain(8);
+    scene.mass[1] = infinity;
+  }
   SECTION("solid") {
     scene = cantilever(4, {1e5, 0.3}, Strain::green);
   }

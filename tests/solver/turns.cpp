@@ -72,7 +72,9 @@ TEST_CASE("no step that says ok has turned a body over") {
   Workspace workspace(scene, Method{});
   State state = scene.initial;
   INFO(spin << " rad, joint " << kind);
-  if (step(workspace, 1, state).status == Status::ok) CHECK(state.spin.norm() < 1e-6);
+  const bool ok = step(workspace, 1, state).status == Status::ok;
+  if (ok) CHECK(state.spin.norm() < 1e-6);
+  if (spin < 1) CHECK(ok);
   if (spin < 1) CHECK(state.spin.norm() < 1e-6);
 }
 
@@ -181,7 +183,7 @@ TEST_CASE("a weld that begins open by a right angle is not turned over with ok")
   const bool ok = step(workspace, 1, state).status == Status::ok;
   INFO(open << " rad open, " << spin << " rad");
   if (ok) CHECK(state.spin(0, body) == Approx(-open).epsilon(1e-6));
-  if (open < 1 && spin == 0) CHECK(ok);
+  if (spin == 0) CHECK(ok);
 }
 
 TEST_CASE("a motor goes on for a thousand turns: its angle is known to its own rounding") {

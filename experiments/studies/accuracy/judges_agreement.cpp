@@ -44,7 +44,7 @@ reference::Judgement judged(const Case& each, State state) {
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   found.x = state.x;
   found.orientation = state.orientation;
-  found.residual = std::max(report.primal, report.dual) / report.scale;
+  found.residual = larger(report.primal, report.dual) / report.scale;
   found.outcome = report.status == Status::ok ? reference::Outcome::ok : reference::Outcome::not_converged;
   found.reason = report.reason;
   return found;

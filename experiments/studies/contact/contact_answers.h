@@ -1,5 +1,5 @@
 // Contact beside known answers: one table `answers` of what was measured and what is expected, and a verdict
-// for each quantity and relaxation.
+// for each quantity, by the relaxation that is farthest off.
 #pragma once
 
 #include <cstdint>

@@ -17,29 +17,39 @@ FixedRun FixedWork::run(const Scene& scene, const AfterStep& after) const {
   method.max_sweeps = 10;
   Workspace workspace(scene, method);
   State state = scene.initial;
-  const auto start = Clock::now();
-  for (int k = 0; k < steps; ++k) {
-    step(workspace, 1.0 / 240, state);
-    if (after) after(workspace, state);
-  }
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return {state, seconds, workspace.costs()};
+  const auto seconds_of = [&](int count) {
+    const auto start = Clock::now();
+    for (int k = 0; k < count; ++k) {
+      step(workspace, 1.0 / 240, state);
+      if (after) after(workspace, state);
+    }
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const double first = seconds_of(1), later = seconds_of(steps - 1);
+  return {state, first, later, workspace.costs()};
 }
 
-std::vector<double> FixedWork::time_ratios(const Scene& a, const Scene& b, const AfterStep& after_a) const {
+TimesBeside FixedWork::beside(const Scene& a, const Scene& b, const AfterStep& after_a) const {
   constexpr int repeats = 5;
   run(a, after_a);
   run(b);
-  std::vector<double> all;
+  struct Quickest {
+    double first = infinity, later = infinity;
+    void add(const FixedRun& run) { first = std::min(first, run.first), later = std::min(later, run.later); }
+  };
+  TimesBeside times;
+  Quickest all_a, all_b;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    double first = infinity, second = infinity;
+    Quickest of_a, of_b;
     for (int turn = 0; turn < turns; ++turn) {
-      first = std::min(first, run(a, after_a).seconds);
-      second = std::min(second, run(b).seconds);
+      const FixedRun one = run(a, after_a), two = run(b);
+      of_a.add(one), all_a.add(one);
+      of_b.add(two), all_b.add(two);
     }
-    all.push_back(first / second);
+    times.ratios.push_back(of_a.later / of_b.later);
   }
-  return all;
+  times.first = (all_a.first - all_b.first) * (steps - 1) / all_b.later;
+  return times;
 }
 
 }  // namespace pbdcheck

@@ -11,8 +11,14 @@ namespace pbdcheck {
 
 struct FixedRun {
   pbd::State end;
-  double seconds;
+  double first, later;  // s: the first step, which builds what later ones keep, and all of those
   std::vector<pbd::EffectCost> costs;
+};
+
+/// Times of a scene beside those of another one.
+struct TimesBeside {
+  std::vector<double> ratios;  // of each repeat, of the steps after the first
+  double first;                // by how many later steps of the other one its first step takes longer
 };
 
 /// Steps of twice ten sweeps of Gauss-Seidel by an outer iteration.
@@ -26,10 +32,9 @@ struct FixedWork {
 
   FixedRun run(const pbd::Scene& scene, const AfterStep& after = {}) const;
 
-  /// time of a, with what is done after its steps / time of b: of each of five repeats, from runs in turns,
-  /// after a discarded pair.
-  std::vector<double> time_ratios(const pbd::Scene& a, const pbd::Scene& b,
-                                  const AfterStep& after_a = {}) const;
+  /// a, with what is done after its steps, beside b: five repeats, from runs in turns, after a discarded
+  /// pair.
+  TimesBeside beside(const pbd::Scene& a, const pbd::Scene& b, const AfterStep& after_a = {}) const;
 };
 
 }  // namespace pbdcheck

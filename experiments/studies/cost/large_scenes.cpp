@@ -121,7 +121,7 @@ class Costing {
       const Report report = step(workspace, contested_step_s, state);
       const double end = now_s();
       row(large, "auto", target, report.outer_iterations, std::max(0.0, 2 * second - begun - end),
-          end - second, memory.megabytes(), std::max(report.primal, report.dual) / report.scale,
+          end - second, memory.megabytes(), larger(report.primal, report.dual) / report.scale,
           status_names[static_cast<std::size_t>(report.status)], report.reason);
     }
     context_.advance(fmt::format("{} {}", large.size, large.unit));

@@ -117,7 +117,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
     double first = -1;
     const State before = state;
     const Report report = step(workspace, h, state, [&](const Iterate& iterate) {
-      if (first < 0) first = std::max(iterate.primal, iterate.dual);
+      if (first < 0) first = larger(iterate.primal, iterate.dual);
     });
     run.sweeps += report.sweeps;
     run.ok += report.status == Status::ok;
@@ -128,7 +128,7 @@ CaseRun run_contact_case(const ContactCase& each, const Method& method, double h
     }
     const std::int64_t refuted_before = checks.refuted_steps();
     checks.add(run.steps + 1, claim_of(scene, workspace, before, state, h, report), report.status, false);
-    unimproved += report.status != Status::ok && !(std::max(report.primal, report.dual) < first);
+    unimproved += report.status != Status::ok && !(larger(report.primal, report.dual) < first);
     excess.add(larger(0, total_energy(scene, state) - start));
     const double crossing_now = crossings.count(state);
     const Passing passes = passing(each, before, state);

@@ -84,7 +84,7 @@ class Watcher {
         scale_(start_energy_ + load_scale(each)) {}
 
   void iterate(const Iterate& iterate) {
-    const double residual = std::max(iterate.primal, iterate.dual) / std::max(iterate.scale, 1e-300);
+    const double residual = larger(iterate.primal, iterate.dual) / std::max(iterate.scale, 1e-300);
     if (iterate.outer_iteration == 0) first_ = best_ = residual;
     best_ = std::min(best_, residual);
   }
@@ -100,8 +100,9 @@ class Watcher {
     const double work = start_load_ - load_energy(each_.scene, state);
     excess_.add(larger(0, (inner_energy(state) - start_energy_ - work) / scale_));
     links_.add(link_error(each_.scene, state));
-    if (judged && report.status == Status::ok)
-      claims_.add(claim_share(reference::residual_of(each_.scene, before, h_, state), method_.tolerance));
+    if (!judged || report.status != Status::ok) return;
+    ++judged_;
+    claims_.add(claim_share(reference::residual_of(each_.scene, before, h_, state), method_.tolerance));
   }
 
   void finish(const State& state) {
@@ -109,7 +110,7 @@ class Watcher {
     add("finite", static_cast<double>(not_finite_), 0);
     add("energy", excess_.value(), 0.01);
     if (link_error(each_.scene, state) >= 0) add("hard_rows", links_.value(), 1e-3);
-    if (std::isnan(claims_.value()))
+    if (judged_ == 0)
       result.gates.push_back({"claims", std::nan(""), 1, "no judged step has status ok"});
     else
       add("claims", claims_.value(), 1);
@@ -131,7 +132,7 @@ class Watcher {
   const Method& method_;
   double h_, start_energy_, start_load_, scale_;
   double first_ = 0, best_ = 0;
-  std::int64_t not_finite_ = 0, stuck_ = 0;
+  std::int64_t not_finite_ = 0, stuck_ = 0, judged_ = 0;
   Worst excess_, links_, claims_;
 };
 

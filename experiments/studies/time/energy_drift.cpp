@@ -5,7 +5,7 @@
 // alike.
 #include <cmath>
 
-#include "harness//integrator_rules.h"
+#include "harness/integrator_rules.h"
 #include "harness/measure.h"
 #include "harness/probes.h"
 #include "scenes/standard.h"

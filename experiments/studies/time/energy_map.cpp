@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "circling.h"
-#include "harness//integrator_rules.h"
+#include "harness/integrator_rules.h"
 #include "harness/measure.h"
 #include "harness/probes.h"
 #include "studies/time/energy.h"

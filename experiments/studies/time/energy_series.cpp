@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness//integrator_rules.h"
+#include "harness/integrator_rules.h"
 #include "harness/measure.h"
 #include "harness/probes.h"
 #include "scenes/standard.h"

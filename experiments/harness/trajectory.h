@@ -101,7 +101,7 @@ Truth ode_truth(const SceneFile& file, double duration, pbd::reference::OdeSetti
 /// first on that bounds the error of the finer run, in the limit of short steps. NaN where one is not ok, as
 /// after `wall_s` seconds for both.
 Truth finer_steps_truth(const SceneFile& file, double duration, const Setting& finest,
-                       double wall_s = std::numeric_limits<double>::infinity());
+                        double wall_s = std::numeric_limits<double>::infinity());
 
 /// The best of the same by each of `integrators` that the scene allows: the one with the smallest bar of
 /// those that end where the first one does, as far as both bars tell. The first is to be one that is right

@@ -68,6 +68,7 @@ Vector3d rim_at_point(const ContactPoint& contact, const Frame& a, const Vector3
 /// dq/dx = share * tangent tangent^T.
 struct NearestOfOther {
   Vector3d point, tangent;
+  Vector3d outward = Vector3d::Zero();  // of a rim, as that of a's
   double share = 1;
 
   NearestOfOther(const ContactPoint& contact, const Frame& b, const Vector3d& x) {
@@ -79,6 +80,7 @@ struct NearestOfOther {
     }
     const Vector3d aside = across(x - y, direction), out = unit_across(aside, direction);
     tangent = direction.cross(out);
+    outward = direction + out;
     point = y + contact.rim_b * out;
     share = contact.rim_b / std::max(aside.norm(), contact.rim_b);
   }
@@ -86,17 +88,27 @@ struct NearestOfOther {
 
 /// A point of a's rim and the other's nearest to it.
 struct RimPair {
-  Vector3d out, tangent;  // unit, of a's rim
-  Vector3d y;             // m
+  Vector3d axis, out, tangent;  // unit, of a's rim
+  Vector3d y;                   // m
   NearestOfOther other;
 
   RimPair(const ContactPoint& contact, const Frame& a, const Frame& b, double angle)
-      : out(turned(contact, a, angle)),
-        tangent((a.rotation * contact.direction_a).cross(out)),
+      : axis(a.rotation * contact.direction_a),
+        out(turned(contact, a, angle)),
+        tangent(axis.cross(out)),
         y(a.place(contact.point_a) + contact.rim_a * out),
         other(contact, b, y) {}
 
   Vector3d apart() const { return y - other.point; }
+
+  /// From b to a: across both tangents, where these are parallel along what parts the points. What touches a
+  /// rim does so between its cap and its side.
+  Vector3d normal() const {
+    const Vector3d cross = tangent.cross(other.tangent);
+    const bool as_points = !(cross.norm() > parallel_to_rim) && apart().norm() > 0;
+    const Vector3d along = as_points ? Vector3d(apart().normalized()) : unit_across(cross, tangent);
+    return (axis + out - other.outward).dot(along) > 0 ? Vector3d(-along) : along;
+  }
 
   /// How the slope of their distance changes as the point goes along the rim, m: by how they cross, and by
   /// its bend. Where they are in each other the point of no slope may be the farthest one; else it is the
@@ -120,8 +132,7 @@ Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
   double angle = 0;
   RimPair pair(contact, a, b, angle);
   for (int round = 0; round < most_rounds; ++round) {
-    const bool overlap = contact.side * pair.tangent.cross(pair.other.tangent).dot(pair.apart()) < 0;
-    const double bend = pair.bend(contact.rim_a, overlap);
+    const double bend = pair.bend(contact.rim_a, pair.normal().dot(pair.apart()) < 0);
     if (bend == 0) break;
     double turn = std::clamp(-pair.apart().dot(pair.tangent) / bend, -longest, longest);
     if (!(std::abs(turn) > enough)) break;
@@ -135,12 +146,8 @@ Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
     angle += turn;
     pair = next;
   }
-  const Vector3d apart = pair.apart(), cross = contact.side * pair.tangent.cross(pair.other.tangent);
-  const double distance = apart.norm();
-  const bool as_points = !(cross.norm() > parallel_to_rim) && distance > 0;
-  const double sign = apart.dot(pair.out) > 0 ? -1 : 1;  // the rim's own outward side is b's
-  const Vector3d normal = as_points ? Vector3d(sign / distance * apart) : unit_across(cross, pair.tangent);
-  return rounded(contact, normal.dot(apart), normal, pair.y, pair.other.point);
+  const Vector3d normal = pair.normal();
+  return rounded(contact, normal.dot(pair.apart()), normal, pair.y, pair.other.point);
 }
 
 }  // namespace

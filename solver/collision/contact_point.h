@@ -12,9 +12,10 @@
 // direction_a: y_a = x_a + R_a point_a - rim_a t. Against a plane it is the deepest point, t the unit part of
 // n across the axis; if it lies flat the point R_a across_a, which stays where it is. Against a point it is
 // the nearest one; against a line or rim the one, next to R_a across_a, that is nearest to it or, where they
-// are in each other, as far as any beside it. Where the tangents are parallel n is along y_a - y_b. Normals
-// point from b to a: the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is
-// n . (velocity of a - velocity of b) at the touching points.
+// are in each other, as far as any beside it; n leads into a's rim between cap and side, and out of b's.
+// Where the tangents are parallel it is along y_a - y_b. Normals point from b to a: the impulse of a contact
+// pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a - velocity of b) at the
+// touching points.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,8 +32,8 @@ struct ContactPoint {
   bool swapped = false;              // a is the second shape asked for, b the first
   std::uint64_t key = 0;             // the features' names: the same contact has the same one in every step
   Eigen::Vector3d point_a, point_b;  // m
-  Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or of its rim's axis
-  Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or of its line or rim
+  Eigen::Vector3d direction_a = Eigen::Vector3d::Zero();  // unit: of a's line, or out of its rim's cap
+  Eigen::Vector3d direction_b = Eigen::Vector3d::Zero();  // unit: b's outward normal, or likewise
   Eigen::Vector3d across_a = Eigen::Vector3d::Zero();     // unit: to a rim's point, see above
   double radius_a = 0, radius_b = 0;                      // m
   double rim_a = 0, rim_b = 0;                            // m; 0: no rim

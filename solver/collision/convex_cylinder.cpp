@@ -97,7 +97,7 @@ struct CylinderPair {
       writer.write(on_edges(y, along, a.radius, b.centre, b.axis, b.radius, at.normal),
                    writer.key(Feature::edge, e, Feature::axis, 0), gap);
     else if (at.part == PlacedCylinder::Part::rim)
-      writer.exchanged().write(rim_on_line(b, at.end, at.nearest, y, along, a.radius, -at.normal),
+      writer.exchanged().write(rim_on_line(b, at.end, at.nearest, y, along, a.radius),
                                writer.key(Feature::edge, e, Feature::rim, at.end + 1), gap);
     else
       write_point(y, a.radius, Feature::edge, e, b, writer);
@@ -132,7 +132,7 @@ struct CylinderPair {
             best.of == CylinderAxis::Of::cap && best.i == at_end && above >= best.apart - tiny;
         if (!inside(s) || (above < 0 && !deepest)) continue;
         const Vec3 y = point(e, s);
-        write_beside_rim(segment(e), a.radius, y, at_end * b.axis, b, at_end, best.apart - a.radius - tiny,
+        write_beside_rim(segment(e), a.radius, y, b, at_end, best.apart - a.radius - tiny,
                          writer.key(Feature::edge, e, Feature::cap, crossed_cap(at_end, sign)), writer,
                          [&](const Vec3& apart) { return faces_farther(e, apart); });
       }
@@ -190,7 +190,7 @@ struct CylinderPair {
     writer.drop_deeper(gap - tiny);
     const Vec3& along = a.along[best.i];
     const auto key = writer.key(Feature::edge, best.i, Feature::rim, rim + 1);
-    const ContactPoint contact = rim_on_line(b, rim, on_rim, y, along, a.radius, -best.normal);
+    const ContactPoint contact = rim_on_line(b, rim, on_rim, y, along, a.radius);
     const Touching found = touching(contact, {}, {});
     const double proved = lowest(-found.normal) - b.support(-found.normal) - a.radius;
     if (found.gap >= gap - tiny && std::abs(found.gap - proved) <= tiny)

@@ -31,11 +31,10 @@ void write_rim_point(const PlacedCylinder& a, int end, double angle, int number,
     return true;
   };
   if (at.part == PlacedCylinder::Part::side &&
-      write(rim_on_line(a, end, y, b.centre, b.axis, b.radius, at.normal), {Feature::axis, 0}))
+      write(rim_on_line(a, end, y, b.centre, b.axis, b.radius), {Feature::axis, 0}))
     return;
   const int end_b = b.end_at(y);
-  const Vec3 outward = b.rim_at(y) - b.cap(end_b) + end_b * b.radius * b.axis;  // its sign alone counts
-  write(rim_on_rim(a, end, y, b, end_b, outward), {Feature::rim, end_b + 1});
+  write(rim_on_rim(a, end, y, b, end_b), {Feature::rim, end_b + 1});
 }
 
 /// a's rims and the points of its caps against b's caps and sides.
@@ -123,7 +122,7 @@ void climb(const PlacedCylinder& a, const PlacedCylinder& b, Way& way) {
 void write_across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const Vec3& normal, double apart,
                        std::uint64_t key, const ContactWriter& writer) {
   const int end_a = a.axis.dot(normal) > 0 ? -1 : 1, end_b = b.axis.dot(normal) > 0 ? 1 : -1;
-  const ContactPoint rims = rim_on_rim(a, end_a, a.farthest(-normal), b, end_b, normal);
+  const ContactPoint rims = rim_on_rim(a, end_a, a.farthest(-normal), b, end_b);
   const double gap = touching(rims, {}, {}).gap;
   const bool deepest = std::abs(gap - apart) <= rounding * (a.size() + b.size());
   writer.rewrite(deepest ? rims : on_plane_by_rim(a, end_a, b.farthest(normal), normal, 0), key, apart);
@@ -133,7 +132,7 @@ void write_across_rims(const PlacedCylinder& a, const PlacedCylinder& b, const V
 ContactPoint on_side_by_rim(const PlacedCylinder& a, int end, const PlacedCylinder& b) {
   const Vec3 apart = a.cap(end) - b.centre, across = apart - apart.dot(b.axis) * b.axis;
   return rim_on_line(a, end, a.cap(end) + a.radius * (across.dot(a.axis) * a.axis - across).normalized(),
-                     b.centre, b.axis, b.radius, across);
+                     b.centre, b.axis, b.radius);
 }
 
 /// Of sides along each other the ends of their common length, each a rim over the other's side; false, and

@@ -3,38 +3,37 @@
 namespace pbd {
 namespace {
 
-/// With a's rim about a's point in its place.
-ContactPoint of_rim(const PlacedCylinder& a, ContactPoint contact) {
-  contact.direction_a = a.axis;
+/// With a's rim at that end about a's point in its place.
+ContactPoint of_rim(const PlacedCylinder& a, int end, ContactPoint contact) {
+  contact.direction_a = end * a.axis;
   contact.across_a = a.across;
   contact.rim_a = a.radius;
   return contact;
 }
 
-/// With a's rim next to one of its points against b's line or rim of this tangent.
-ContactPoint next_to(const Vec3& on_rim, const Vec3& normal, const Vec3& tangent_b, ContactPoint contact) {
+/// With a's rim next to one of its points against b's line or rim.
+ContactPoint next_to(const Vec3& on_rim, ContactPoint contact) {
   contact.kind = ContactPoint::Kind::rim;
   contact.across_a = (on_rim - contact.point_a).normalized();
-  contact.side = contact.direction_a.cross(contact.across_a).cross(tangent_b).dot(normal) < 0 ? -1 : 1;
   return contact;
 }
 
 }  // namespace
 
 ContactPoint rim_on_point(const PlacedCylinder& a, int end, const Vec3& point_b, double radius_b) {
-  return of_rim(a, on_point(a.cap(end), 0, point_b, radius_b));
+  return of_rim(a, end, on_point(a.cap(end), 0, point_b, radius_b));
 }
 
 ContactPoint rim_on_line(const PlacedCylinder& a, int end, const Vec3& on_rim, const Vec3& on_line,
-                         const Vec3& along, double radius_b, const Vec3& normal) {
-  return next_to(on_rim, normal, along, of_rim(a, pbd::on_line(a.cap(end), 0, on_line, along, radius_b)));
+                         const Vec3& along, double radius_b) {
+  return next_to(on_rim, of_rim(a, end, pbd::on_line(a.cap(end), 0, on_line, along, radius_b)));
 }
 
 ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, const PlacedCylinder& b,
-                        int end_b, const Vec3& normal) {
-  ContactPoint contact = of_rim(a, pbd::on_line(a.cap(end), 0, b.cap(end_b), b.axis, 0));
+                        int end_b) {
+  ContactPoint contact = of_rim(a, end, pbd::on_line(a.cap(end), 0, b.cap(end_b), end_b * b.axis, 0));
   contact.rim_b = b.radius;
-  return next_to(on_rim, normal, b.rim_tangent(on_rim), contact);
+  return next_to(on_rim, contact);
 }
 
 void write_point(const Vec3& y, double radius, Feature feature, int i, const PlacedCylinder& b,
@@ -57,7 +56,7 @@ void write_point(const Vec3& y, double radius, Feature feature, int i, const Pla
 
 ContactPoint on_plane_by_rim(const PlacedCylinder& a, int end, const Vec3& on_plane, const Vec3& normal,
                              double radius_b) {
-  return of_rim(a, on_face(a.cap(end), 0, on_plane, normal, radius_b));
+  return of_rim(a, end, on_face(a.cap(end), 0, on_plane, normal, radius_b));
 }
 
 void write_deepest_rim(const PlacedCylinder& a, const Vec3& on_plane, const Vec3& normal, Feature feature,

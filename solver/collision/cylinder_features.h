@@ -38,22 +38,20 @@ constexpr int crossed_cap(int end, int sign) {
 void write_point(const Vec3& y, double radius, Feature feature, int i, const PlacedCylinder& b,
                  const ContactWriter& writer);
 
-/// Cylinder a's rim at `end` against a point, or next to a point `on_rim` against a line or b's rim, as
-/// `normal` tells, from b to a.
+/// Cylinder a's rim at `end` against a point, or next to a point `on_rim` against a line or b's rim.
 ContactPoint rim_on_point(const PlacedCylinder& a, int end, const Vec3& point_b, double radius_b);
 ContactPoint rim_on_line(const PlacedCylinder& a, int end, const Vec3& on_rim, const Vec3& on_line,
-                         const Vec3& along, double radius_b, const Vec3& normal);
+                         const Vec3& along, double radius_b);
 ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, const PlacedCylinder& b,
-                        int end_b, const Vec3& normal);
+                        int end_b);
 
 /// Writes an edge rounded by `radius` against b's rim at `end` where it is nearest to it next to the edge's
-/// point y, `normal` outwards of b; false, and nothing is written, unless that is on the edge and beside the
+/// point y; false, and nothing is written, unless that is on the edge and beside the
 /// rim, its outward normal `minimum`, and the gap at least `floor` (m).
 template <class Minimum>
-bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const Vec3& normal,
-                      const PlacedCylinder& b, int end, double floor, std::uint64_t key,
-                      const ContactWriter& writer, Minimum&& minimum) {
-  const ContactPoint contact = rim_on_line(b, end, b.rim_at(y), y, edge.along, radius, -normal);
+bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const PlacedCylinder& b, int end,
+                      double floor, std::uint64_t key, const ContactWriter& writer, Minimum&& minimum) {
+  const ContactPoint contact = rim_on_line(b, end, b.rim_at(y), y, edge.along, radius);
   const Touching found = touching(contact, {}, {});
   const double arc = edge.along.dot(found.point_b - edge.from);
   if (!(found.gap >= floor && arc >= 0 && arc <= edge.length)) return false;
@@ -105,7 +103,7 @@ void write_where_it_leaves(const Segment& edge, double radius, int e, const Plac
     if (s <= 0 || s >= edge.length) continue;
     const Vec3 y = edge.at(s), apart = y - b.cap(end);
     if (apart.norm() < b.radius || !minimum(apart)) continue;
-    write_beside_rim(edge, radius, y, apart.normalized(), b, end, -infinity,
+    write_beside_rim(edge, radius, y, b, end, -infinity,
                      writer.key(Feature::edge, e, Feature::rim, left_over(end)), writer, minimum);
   }
 }

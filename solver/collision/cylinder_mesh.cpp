@@ -34,7 +34,7 @@ bool write_across_rim(const Segment& edge, const Vec3& y, double most, int numbe
   const double gap = normal.dot(y - on_rim);
   if (end * normal.dot(cylinder.axis) < 0 || -gap > most || !lowest(normal)) return false;
   const auto key = writer.key(Feature::edge, number, Feature::rim, end + 1);
-  if (!write_beside_rim(edge, 0, y, normal, cylinder, end, -infinity, key, writer, lowest))
+  if (!write_beside_rim(edge, 0, y, cylinder, end, -infinity, key, writer, lowest))
     writer.write(on_edges(y, edge.along, 0, on_rim, tangent, 0, normal), key, gap);
   return true;
 }
@@ -57,7 +57,7 @@ bool write_across_cap(const Segment& edge, const PlacedCylinder::Place& nearest,
     const double s = middle + sign * std::sqrt(left / sine_squared);
     if (!(s > 0 && s < edge.length)) continue;
     const auto key = writer.key(Feature::edge, number, Feature::cap, crossed_cap(nearest.end, sign));
-    any |= write_beside_rim(edge, 0, edge.at(s), nearest.end * cylinder.axis, cylinder, nearest.end,
+    any |= write_beside_rim(edge, 0, edge.at(s), cylinder, nearest.end,
                             nearest.distance - rounding * cylinder.size(), key, writer, lowest);
   }
   return any;
@@ -86,7 +86,7 @@ double write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cy
   }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
   if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
-    writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0, -at.normal),
+    writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0),
                              writer.key(Feature::edge, j, Feature::rim, at.end + 1), at.distance);
   return 0;
 }

@@ -158,8 +158,7 @@ void MeshPair::crossing(int i, int j) const {
   const double slope = is_flush ? std::max(turn, flush_part) : inside ? 0 : turn;
   if (!minimum(of_b, along_b, normal, slope, normal_b)) return;
   if (!minimum(of_a, along_a, -normal, slope, normal_a)) return;
-  if (at_node_of_a && !lies_above(of_a.node[at.s <= 0 ? 0 : 1], normal)) return;
-  if (at_node && !lowest_about(b, of_b.node[at.t <= 0 ? 0 : 1], -normal, slope)) return;
+  if (at_node_of_a && of_a.face[0] < 0 && !lies_above(of_a.node[at.s <= 0 ? 0 : 1], normal)) return;
   if (inside && !is_flush) {
     const auto below_faces = [](const auto& edge, const Vec3& apart, const auto& normal_of) {
       return std::min(-normal_of(edge.face[0]).dot(apart), -normal_of(edge.face[1]).dot(apart));

@@ -40,9 +40,10 @@ struct MeshPair {
   bool lies_above(int node, const Vec3& normal) const;
   /// Writes a node that is on the mesh, on the face that a lies above; false if there is none.
   bool write_flush(int node) const;
-  /// Edges i and j where their distance has a minimum; at a node of either where they touch there and both
-  /// surfaces part from it: nodes that are apart `beside` and `nodes` tell of. Inside, the edges' own faces
-  /// must be the nearest ones to where they cross.
+  /// Edges i and j where their distance has a minimum; at a node of either where they touch there: nodes that
+  /// are apart `beside` and `nodes` tell of. About a convex node both surfaces then part from it; at a saddle
+  /// each of its edges that another one lies across holds for itself. Inside, the edges' own faces must be
+  /// the nearest ones to where they cross.
   void crossing(int i, int j) const;
   /// True if edges i and j are no minimum however they lie, `normal` the mean of those of a's faces: that of
   /// a minimum is off an edge's own by no more than the angle of its faces' normals (edge_minimum.h).

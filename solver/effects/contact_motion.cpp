@@ -63,6 +63,7 @@ void ContactSearch::begin(const SearchedStep& step) {
   left_.clear();
   left_surfaces_.clear();
   far_.clear();
+  parted_.clear();
   // Less would have more places on ways looked at, and miss more steps.
   constexpr double least = 1e-6, most = 1e-4;
   overlooked_ = effect_.continuous ? most : std::clamp(step.tolerance, least, most);

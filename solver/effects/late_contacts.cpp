@@ -106,11 +106,12 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const auto extent = [](const Motion& own) { return std::isfinite(own.radius) ? own.radius : 0; };
   const double travel = travel_between(one, two), rounded = 1e-12 * (extent(one) + extent(two) + travel);
   const double behind = std::min(pair.deepest, -slack) - rounded;
+  const double bound = std::min(pair.parted, -slack) - rounded;
   // What its contacts tell of is theirs to hold, but not where their features lay behind the start: those ask
   // for no more than what they were then.
   const double missing = besides_ * (round + travel);  // by a solved step
-  const double held = pair.gives_way ? -infinity : behind - missing;
-  const double allowed = std::min(std::max(pair.least_end - rounded, held), behind);
+  const double held = pair.gives_way ? -infinity : bound - missing;
+  const double allowed = std::min(std::max(pair.least_end - rounded, held), bound);
   if (effect_.continuous && (pair.nearest > slack || is_fast(one, two)))
     return find_meetings(pair, start, end, allowed, slack);
   if (effect_.continuous && find_passed(pair, start, end, slack, cut_on_way(pair, start, end, slack)))
@@ -174,20 +175,29 @@ bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at)
          (touching_at(*known, at).gap < 0 && agree(*known, found, at, beside(found.pair())));
 }
 
-/// What the contacts tell of pairs that go far.
+/// What the contacts tell of pairs that go far, and ask of convex ones that began deep: also of those that they
+/// have left.
 void ContactSearch::see_contacts(const Configuration& end, const ContactLists& contacts) {
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
-  for (Pair& pair : far_) pair.least_end = infinity, pair.pushed = false, pair.bent = 0;
+  for (Pair& pair : far_) pair.least_end = infinity, pair.parted = 0, pair.pushed = false, pair.bent = 0;
   for (const auto& list : contacts)
     for (const ActiveContact& contact : list) {
       if (contact.of_surfaces) continue;
       const auto pair = std::lower_bound(far_.begin(), far_.end(), Pair{contact.pair()}, in_order);
       if (pair == far_.end() || pair->collider != contact.pair()) continue;
       pair->least_end = std::min(pair->least_end, touching_at(contact, end).gap);
+      pair->parted = std::min(pair->parted, contact.target);
       if (!contact.meeting || !contact.late || !contact.acts) continue;
       pair->pushed = true;
       pair->bent = std::max(pair->bent, bent(contact, end));
     }
+  for (Pair& pair : far_) {
+    const bool parts = pair.deepest < -pair.overlooked && !pair.gives_way && is_convex(pair.collider[0]) &&
+                       is_convex(pair.collider[1]);
+    if (parts && pair.least_end < infinity) parted_.try_emplace(pair.collider, pair.parted);
+    const auto asked = parted_.find(pair.collider);
+    pair.parted = asked != parted_.end() ? std::max(asked->second, pair.deepest) : pair.deepest;
+  }
 }
 
 bool ContactSearch::see_overlaps(const Configuration& start, const Configuration& end,

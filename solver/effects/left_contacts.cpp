@@ -134,7 +134,7 @@ ContactSearch::Pair ContactSearch::begun(const std::array<int, 2>& colliders, co
   Pair pair{colliders};
   pair.overlooked = beside(colliders);
   pair.nearest = generate_between(pair, start, start, 0, pair.overlooked);
-  pair.deepest = std::min(pair.nearest, 0.0);
+  pair.deepest = pair.parted = std::min(pair.nearest, 0.0);
   return pair;
 }
 

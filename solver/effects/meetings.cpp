@@ -9,12 +9,11 @@
 namespace pbd {
 namespace {
 
-/// Of contacts from `first` on leaves out those that are not `on` both of their shapes, if any are.
+/// Of contacts from `first` on leaves out those that are not `on` both of their shapes.
 template <class On>
 void leave_out_beside(std::vector<ActiveContact>& contacts, std::size_t first, const On& on) {
   const auto begin = contacts.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto others = std::stable_partition(begin, contacts.end(), on);
-  if (others != begin) contacts.erase(others, contacts.end());
+  contacts.erase(std::stable_partition(begin, contacts.end(), on), contacts.end());
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct FarPair {
   double overlooked = 0;        // m, depth that is not looked at
   bool left = false;            // by a contact that had held it apart
   bool gives_way = false;       // by its law's compliance
+  double parted = 0;            // m, gap that it may end with
   double least_end = infinity;  // m, gap that its contacts tell of
   bool pushed = false;          // by something that it met
   double bent = 0;              // m, by which turns take what pushes it off how its gap goes on

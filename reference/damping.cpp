@@ -21,7 +21,7 @@ Eigen::MatrixXd slowed(const Effect& effect, int constraint, int rows, double d)
           return one + solve(Eigen::MatrixXd(membrane(own.material, own.thickness)),
                              Eigen::MatrixXd(membrane(*own.damping, own.thickness) / d));
         } else if constexpr (std::is_same_v<E, PointJoint> || std::is_same_v<E, Attachment>) {
-          throw SetupError(E::name, "damping", "none: its value is then that in a body's frame");
+          throw SetupError(E::name, "damping", "none: the judge does not know its value in a body's frame");
         } else if constexpr (requires { own.damping; }) {
           return (1 + own.damping[static_cast<std::size_t>(constraint)] / d) * one;
         } else {

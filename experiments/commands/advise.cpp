@@ -90,7 +90,8 @@ std::string why_none(const AdviseOptions& options, const Pilot& pilot) {
   if (pilot.tried > 0) return fmt::format("No setting of {} that were tried solves the scene", pilot.tried);
   std::string why = fmt::format("No setting was tried, as there is no true end of the first {:.4g} s: {}, {}",
                                 pilot.duration, pilot.truth.method, pilot.truth.reason);
-  if (pilot.needed_s > options.seconds) why += fmt::format("; --seconds {:.0f} at least", pilot.needed_s);
+  if (pilot.needed_s > options.seconds)
+    why += fmt::format("; --seconds {:.0f} at least", std::ceil(pilot.needed_s));
   return why;
 }
 

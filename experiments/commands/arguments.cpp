@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 #include "scenes/choices.h"
@@ -27,9 +28,9 @@ CLI::Validator number_between(double low, double high) {
     double value = 0;
     const char* end = text.data() + text.size();
     const auto [stopped, failure] = std::from_chars(text.data(), end, value);
-    return failure == std::errc() && stopped == end && value > low && value <= high
-               ? std::string()
-               : fmt::format("got `{}`; allowed: a number above {:g}, at most {:g}", text, low, high);
+    if (failure == std::errc() && stopped == end && value > low && value <= high) return std::string();
+    const std::string most = std::isfinite(high) ? fmt::format(", at most {:g}", high) : "";
+    return fmt::format("got `{}`; allowed: a number above {:g}{}", text, low, most);
   };
   return {refusal, ""};
 }

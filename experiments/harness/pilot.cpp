@@ -123,7 +123,8 @@ class Growth {
     auto steps = std::max<std::int64_t>(pilot.truth_steps, std::lround(pilot.duration / file_.step_s));
     for (double finer = 2; finer >= least_finer;) {
       steps = 2 * static_cast<std::int64_t>(static_cast<double>(steps) * finer / 2);
-      const Truth truth = pilot_truth(file_, pilot.duration, error_, steps, seconds - watch.seconds());
+      const Truth truth =
+          pilot_truth(file_, pilot.duration, error_, steps, std::max(0.0, seconds - watch.seconds()));
       if (std::isnan(pilot.truth.error_bar) || !std::isnan(truth.error_bar)) {
         pilot.truth = truth;
         pilot.truth_steps = std::isnan(truth.error_bar) ? 0 : steps;

@@ -188,7 +188,8 @@ Truth finer_steps_truth(const SceneFile& file, double duration, const Setting& f
               .in_time = fine.wall_s <= wall_s,
               .reason = fine.reason};
   if (fine.status != Status::ok) return truth;
-  const Trajectory coarse = trajectory(file, duration, coarser, {.wall_s = wall_s - fine.wall_s});
+  const Trajectory coarse =
+      trajectory(file, duration, coarser, {.wall_s = std::max(0.0, wall_s - fine.wall_s)});
   truth.error_bar = end_error(file.scene, coarse, fine.end);
   truth.wall_s += coarse.wall_s;
   truth.in_time = truth.wall_s <= wall_s;
@@ -204,7 +205,7 @@ Truth agreed_truth(const SceneFile& file, double duration, Setting finest,
   for (const std::string& integrator : integrators) try {
       if (first && (std::isnan(first->error_bar) || spent >= wall_s)) break;
       finest.method.integrator = integrator;
-      const Truth truth = finer_steps_truth(file, duration, finest, wall_s - spent);
+      const Truth truth = finer_steps_truth(file, duration, finest, std::max(0.0, wall_s - spent));
       spent += truth.wall_s;
       if (!first) first = best = truth;
       const double apart = distance(file.scene, truth.end, first->end);

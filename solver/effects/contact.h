@@ -61,7 +61,7 @@ class ContactRows final : public Source {
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override;
   Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override;
   bool collide(ConstBlockSpan blocks, const Points& v, double accuracy) override;
-  Impact impact(ConstBlockSpan) const override { return impact_; }
+  Impact impact(ConstBlockSpan, const Points&) const override { return impact_; }
   void linearise(const RowPlace& place, BlockSpan blocks, RowResidual& sums) override;
   void add_geometric_mass(const StepMap& map, const Configuration& at, double factor, ConstBlockSpan blocks,
                           std::vector<double>& added_mass) const override;

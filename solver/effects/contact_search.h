@@ -268,12 +268,12 @@ class ContactSearch {
   std::vector<ActiveContact> near_;
   std::vector<NearPair> pairs_before_;
   std::vector<ActiveContact> near_before_;
-  std::vector<Pair> far_;             // those that go far in this step
-  std::map<std::array<int, 2>, double> parted_;  // m, of pairs that begin deep, the least gap first asked for
-  std::vector<ActiveContact> late_;   // and what is restated
-  std::uint64_t meetings_ = 0;        // so far: each has a name of its own
-  double touching_ = 0, inside_ = 0;  // shares of a way at which `meets` found a pair so
-  double least_ = 0;                  // m, gap of a pair on the way that `meets` walked, if it is pushed
+  std::vector<Pair> far_;                        // those that go far in this step
+  std::map<std::array<int, 2>, double> parted_;  // m, of pairs, the least gap first asked for
+  std::vector<ActiveContact> late_;              // and what is restated
+  std::uint64_t meetings_ = 0;                   // so far: each has a name of its own
+  double touching_ = 0, inside_ = 0;             // shares of a way at which `meets` found a pair so
+  double least_ = 0;               // m, gap of a pair on the way that `meets` walked, if it is pushed
   double apart_ = 0;               // the last share of a way that `meets` walked at which the pair was apart
   double overlooked_ = 0;          // depth of pairs that are not looked at again, of their r
   double besides_ = least_beside;  // that a contact may touch a shape beside it, of the same radius

@@ -175,8 +175,8 @@ bool ContactSearch::is_told(const ActiveContact& found, const Configuration& at)
          (touching_at(*known, at).gap < 0 && agree(*known, found, at, beside(found.pair())));
 }
 
-/// What the contacts tell of pairs that go far, and ask of convex ones that began deep: also of those that they
-/// have left.
+/// What the contacts tell of pairs that go far; and of bodies that began deep and have been left by a contact
+/// how far they are to part, as their first ones asked.
 void ContactSearch::see_contacts(const Configuration& end, const ContactLists& contacts) {
   const auto in_order = [](const Pair& a, const Pair& b) { return a.collider < b.collider; };
   for (Pair& pair : far_) pair.least_end = infinity, pair.parted = 0, pair.pushed = false, pair.bent = 0;
@@ -192,11 +192,12 @@ void ContactSearch::see_contacts(const Configuration& end, const ContactLists& c
       pair->bent = std::max(pair->bent, bent(contact, end));
     }
   for (Pair& pair : far_) {
-    const bool parts = pair.deepest < -pair.overlooked && !pair.gives_way && is_convex(pair.collider[0]) &&
-                       is_convex(pair.collider[1]);
-    if (parts && pair.least_end < infinity) parted_.try_emplace(pair.collider, pair.parted);
+    const bool bodies = motions_[pair.collider[1]].kind == Carrier::body;
+    if (bodies && !pair.gives_way && pair.least_end < infinity)
+      parted_.try_emplace(pair.collider, pair.parted);
     const auto asked = parted_.find(pair.collider);
-    pair.parted = asked != parted_.end() ? std::max(asked->second, pair.deepest) : pair.deepest;
+    const bool parts = pair.left && asked != parted_.end();
+    pair.parted = parts ? std::max(asked->second, pair.deepest) : pair.deepest;
   }
 }
 

@@ -52,10 +52,10 @@ class EffectRows final : public Source {
     return false;
   }
 
-  Impact impact(ConstBlockSpan blocks) const override {
+  Impact impact(ConstBlockSpan blocks, const Points& v) const override {
     bool stops = false;
     if constexpr (requires { effect_.bounds; })
-      for (const AnyBlock& any : blocks) stops = stops || stops_.any(std::get<Block>(any));
+      for (const AnyBlock& any : blocks) stops = stops || stops_.any(std::get<Block>(any), v);
     return stops ? Impact::stop : Impact::none;
   }
 

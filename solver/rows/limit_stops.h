@@ -1,10 +1,11 @@
 // Which one-sided limits stop something in a step, as far as it is known: there integrators that carry
 // something on begin anew (step/integrators.h).
 //
-// A limit is idle where it has no impulse. One stops what comes where it is idle as the step begins, or was
-// as the last one began, and is met in the step: a step that meets a limit ends on it, still on its way. One
-// that gives way stops, too, since steps may be too long to tell it from a hard one. And so does one that is
-// idle as the step begins and has an impulse at its end, foreseen or not.
+// A limit is idle where it has no impulse, or less than takes it as far as it is open: what a solver leaves
+// by rounding. One stops what comes where it is idle as the step begins, or was as the last one began, and is
+// met in the step: a step that meets a limit ends on it, still on its way. One that gives way stops, too,
+// since steps may be too long to tell it from a hard one. And so does one that is idle as the step begins and
+// has an impulse at its end, foreseen or not.
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ class LimitStops {
         continue;
       }
       const bool was_idle = idle_[i];
-      idle_[i] = block.impulse[i][0] == 0;
+      idle_[i] = !holds(block, i, begin.v);
       stops_ = stops_ || (begin.limits == Limits::holds && !idle_[i] && hard(i));
       if (stops_ || !(idle_[i] || was_idle)) continue;
       const auto [value, size] = at(i);
@@ -37,15 +38,23 @@ class LimitStops {
     }
   }
 
-  /// With the impulses that the block has now.
+  /// With the impulses that the block has now, at the velocities v.
   template <int K>
-  bool any(const RowBlock<1, K>& block) const {
+  bool any(const RowBlock<1, K>& block, const Points& v) const {
     bool stops = stops_;
-    for (std::size_t i = 0; i < idle_.size(); ++i) stops = stops || (idle_[i] && block.impulse[i][0] != 0);
+    for (std::size_t i = 0; i < idle_.size(); ++i) stops = stops || (idle_[i] && holds(block, i, v));
     return stops;
   }
 
  private:
+  template <int K>
+  static bool holds(const RowBlock<1, K>& block, std::size_t i, const Points& v) {
+    const double impulse = block.impulse[i][0];
+    if (impulse == 0) return false;
+    const double open = block.residual(v, i, block.impulse[i])[0];
+    return std::abs(impulse) > std::abs(open) * block.inverse_diagonal[i](0, 0);
+  }
+
   std::vector<bool> idle_;  // as the step began
   bool stops_ = false;      // foreseen
 };

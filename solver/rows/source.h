@@ -183,8 +183,8 @@ class Source {
     return {};
   }
 
-  /// The impact of the step, as far as it is known.
-  virtual Impact impact(ConstBlockSpan) const { return Impact::none; }
+  /// The impact of the step, as far as it is known, where an iterate has the velocities v.
+  virtual Impact impact(ConstBlockSpan, const Points&) const { return Impact::none; }
 
   /// True if on the way of a step of h seconds bodies that a hard constraint holds to each other's directions
   /// turn by more than 60 degrees out of them, and farther than they began, or if bodies turn about an axis

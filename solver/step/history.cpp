@@ -36,7 +36,8 @@ bool History::strikes(const StepSystem& system) const {
   if (!integrator_->begins_anew) return false;
   const bool rebounds = integrator_->rebounds && !system.problem.hard_constraints;
   return std::any_of(system.slots.begin(), system.slots.end(), [&](const Slot& slot) {
-    return slot.source->impact(slot.view(system.rows)) >= (rebounds ? Impact::stop : Impact::rebound);
+    const Impact impact = slot.source->impact(slot.view(system.rows), system.at.v);
+    return impact >= (rebounds ? Impact::stop : Impact::rebound);
   });
 }
 

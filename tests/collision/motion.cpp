@@ -79,3 +79,31 @@ TEST_CASE("so does that of a cylinder's rim beside points, edges and rims") {
   }
   CHECK(rims > 200);
 }
+
+// A capsule along the tangent of a rim, between its cap and its side: as it turns about their normal, the
+// tangents' product passes through zero and turns round.
+TEST_CASE("a rim's gap goes on where a line turns through its tangent") {
+  constexpr double radius = 0.15, gap = 5e-3;
+  const Shape coin = Cylinder{0.2, 0.2}, capsule = Capsule{radius, 0.3};
+  const Vec3 outward = Vec3(1, 0, 1).normalized(), on_rim(0.2, 0, 0.1);
+  const bool first = GENERATE(true, false);
+  const auto turned = [&](double angle) {
+    const Eigen::Matrix3d along_y = Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitX()).toRotationMatrix();
+    return Frame{on_rim + (radius + gap) * outward, Eigen::AngleAxisd(angle, outward) * along_y};
+  };
+  constexpr double most = 0.03;  // rad
+  const auto found = first ? contacts(coin, {}, capsule, turned(-most), 0.02)
+                           : contacts(capsule, turned(-most), coin, {}, 0.02);
+  int rims = 0;
+  for (const ContactPoint& contact : found) {
+    if (contact.kind != ContactPoint::Kind::rim) continue;
+    ++rims;
+    for (int k = -30; k <= 30; ++k) {
+      const Frame at = turned(most * k / 30);
+      const Touching t = first ? touch(contact, {}, at) : touch(contact, at, {});
+      CHECK(t.gap == Approx(gap).epsilon(1e-9));
+      CHECK(std::abs(t.normal.dot(outward)) == Approx(1).epsilon(1e-6));
+    }
+  }
+  CHECK(rims == 1);
+}

@@ -127,3 +127,19 @@ TEST_CASE("edges that are nearly parallel do not hold triangles that have parted
   REQUIRE(step(workspace, h, state).status == Status::ok);
   CHECK((state.v - scene.initial.v).norm() <= 1e-12);
 }
+
+// How far apart they are was seen while they were at rest; it says nothing of what they do then.
+TEST_CASE("a sheet that flies to another from afar in one step stops at it") {
+  constexpr double height = 0.15;  // m
+  TriangleMesh loose = loose_sheet();
+  loose.x.row(2).setConstant(height);
+  const Scene scene = flight(loose, Points::Zero(3, loose.x.cols()));
+  Workspace workspace(scene, Method{});
+  State state = scene.initial;
+  for (int k = 0; k < 3; ++k) REQUIRE(step(workspace, h, state).status == Status::ok);
+  CHECK(state.x == scene.initial.x);
+  auto flying = state.v.rightCols(loose.x.cols());
+  flying.row(2).setConstant(-2 * height / h);
+  REQUIRE(step(workspace, h, state).status == Status::ok);
+  CHECK(state.x.rightCols(loose.x.cols()).row(2).minCoeff() >= sheet_thickness * (1 - 1e-6));
+}

@@ -269,7 +269,7 @@ class ContactSearch {
   std::vector<NearPair> pairs_before_;
   std::vector<ActiveContact> near_before_;
   std::vector<Pair> far_;                        // those that go far in this step
-  std::map<std::array<int, 2>, double> parted_;  // m, of pairs, the least gap first asked for
+  std::map<std::array<int, 2>, double> parted_;  // m, of pairs that begin deep, the least gap first asked for
   std::vector<ActiveContact> late_;              // and what is restated
   std::uint64_t meetings_ = 0;                   // so far: each has a name of its own
   double touching_ = 0, inside_ = 0;             // shares of a way at which `meets` found a pair so

@@ -192,9 +192,8 @@ void ContactSearch::see_contacts(const Configuration& end, const ContactLists& c
       pair->bent = std::max(pair->bent, bent(contact, end));
     }
   for (Pair& pair : far_) {
-    const bool bodies = motions_[pair.collider[1]].kind == Carrier::body;
-    if (bodies && !pair.gives_way && pair.least_end < infinity)
-      parted_.try_emplace(pair.collider, pair.parted);
+    const bool deep = pair.deepest < -pair.overlooked && motions_[pair.collider[1]].kind == Carrier::body;
+    if (deep && !pair.gives_way && pair.least_end < infinity) parted_.try_emplace(pair.collider, pair.parted);
     const auto asked = parted_.find(pair.collider);
     const bool parts = pair.left && asked != parted_.end();
     pair.parted = parts ? std::max(asked->second, pair.deepest) : pair.deepest;

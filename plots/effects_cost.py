@@ -62,7 +62,7 @@ def absent(frame):
     told = [f"{number(of_all.max())} % by {said.format(**rows.loc[of_all.idxmax()])}" for presence, said in PRESENCE.items()
             if said and len(of_all := change[rows["presence"] == presence].abs())]
     finding(fig, f"The most that a step's time changes: {'; '.join(told)}" if told else f"None of {counted(len(frame), 'effect')} has a number")
-    begun = good(rows, "first_longer_steps").sort_values("first_longer_steps").tail(1)
+    begun = good(rows, "first_longer_steps").query("first_longer_steps > 1").sort_values("first_longer_steps").tail(1)
     footnote(fig, "A sheet of 225 nodes falls, 64 balls rest on a ground, or a chain of 50 rods falls. Dots: median of the repeats; bars: their "
              f"range; logarithmic beyond {LINEAR} %. Without each run's first step" +
              "".join(f", which takes longer by up to {number(row['first_longer_steps'])} later steps ({row['effect']}, {row['case']})"

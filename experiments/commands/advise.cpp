@@ -87,7 +87,8 @@ std::vector<std::string> limits(const AdviseOptions& options, const SceneFile& f
 
 /// Why no setting is told.
 std::string why_none(const AdviseOptions& options, const Pilot& pilot) {
-  if (pilot.tried > 0) return fmt::format("No setting of {} that were tried solves the scene", pilot.tried);
+  if (!std::isnan(pilot.truth.error_bar))
+    return fmt::format("No setting of {} that were tried solves the scene", pilot.tried);
   std::string why = fmt::format("No setting was tried, as there is no true end of the first {:.4g} s: {}, {}",
                                 pilot.duration, pilot.truth.method, pilot.truth.reason);
   if (pilot.needed_s > options.seconds)

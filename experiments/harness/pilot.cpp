@@ -102,6 +102,7 @@ class Growth {
     while (told_.duration < whole() * (1 - 1e-9) && (time() > 0 || is_first())) {
       const double duration = next_duration();
       const bool last = duration == untold_.duration;
+      if (last && std::isnan(untold_.truth.error_bar) && untold_.truth.in_time) break;
       Pilot pilot = last ? untold_ : Pilot{.duration = duration};
       sharpen(pilot, time(), last || duration == past_contact());
       const bool sharp = pilot.truth.least_met() <= error_;

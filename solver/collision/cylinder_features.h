@@ -46,8 +46,8 @@ ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, co
                         int end_b);
 
 /// Writes an edge rounded by `radius` against b's rim at `end` where it is nearest to it next to the edge's
-/// point y; false, and nothing is written, unless that is on the edge and beside the
-/// rim, its outward normal `minimum`, and the gap at least `floor` (m).
+/// point y; false, and nothing is written, unless that is on the edge and beside the rim, its outward normal
+/// `minimum`, and the gap at least `floor` (m).
 template <class Minimum>
 bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const PlacedCylinder& b, int end,
                       double floor, std::uint64_t key, const ContactWriter& writer, Minimum&& minimum) {

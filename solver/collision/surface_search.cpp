@@ -178,7 +178,9 @@ void SurfaceSearch::look_for_clearance(int threads, const Points& x) {
     return AxisBox(box.min() - reach, box.max() + reach);
   };
   std::atomic<bool> near = false;  // then nothing more is looked at
-  const auto see = [&](const SurfaceTouching& found) { near = near || found.gap < looked_; };
+  const auto see = [&](const SurfaceTouching& found) {
+    if (!(found.gap >= looked_)) near = true;
+  };
   search(
       threads, around,
       [&](const SurfaceContact& contact) -> std::optional<PassedContact> {

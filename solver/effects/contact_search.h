@@ -20,7 +20,8 @@
 // in the face behind. Pairs that go so far that sixteen times this (rims that turn over sides) takes them
 // deeper than is overlooked are looked at again where the solved step ends, and what overlaps there by more
 // than that, and by more than where the step began, joins the step's contacts; not on a half space, all of
-// whose contacts are exact as bodies move. Pairs that begin deeper are looked at again in every step.
+// whose contacts are exact as bodies move. Pairs that begin deeper are looked at again in every step: bodies
+// that a contact has left are to part as far as their first contacts asked.
 // Overlooked is the tolerance's share of r, but 1e-6 r at least and 1e-4 r at most, and 1e-4 r under
 // continuous contact. Of polyhedra r is half their least width. Sixteen is no bound: it is measured, and
 // random steps hold to it (tests/solver/contact_motion.cpp). Of meshes that begin in others the depth is what
@@ -37,7 +38,7 @@
 // features that are carried about by what turns tell nothing of a way.
 //
 // Where nothing was near at all, boxes many times their motions apart say for how long that holds: until then
-// no step is searched (clearance.h).
+// no step is searched (clearance.h). So it is of surfaces by themselves (`SurfaceSearch`).
 //
 // A contact goes on as a plane or a line where its features end. One that touches in a solved iterate beside
 // one of its shapes, by more than the tolerance's share of r there, leaves the step, unless the shapes have

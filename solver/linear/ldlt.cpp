@@ -57,9 +57,10 @@ void Ldlt::assemble(const Rows& rows, Put&& put) const {
                   if (column[c] >= 0 && column[r] >= column[c])
                     put(column[r], column[c], stiffness(static_cast<int>(r), static_cast<int>(c)));
             } else {
-              const double trace = trace_of_delassus(block, rows.inverse_mass, i);
-              const double shift = relative_shift * trace / Block::rows;
-              const bool held = trace == 0 || (block.bounded() && held_[b][i]);  // dp = 0
+              const double shift =
+                  relative_shift * trace_of_delassus(block, rows.inverse_mass, i) / Block::rows;
+              const bool movable = block.inverse_diagonal[i].trace() > 0;
+              const bool held = !movable || (block.bounded() && held_[b][i]);  // dp = 0
               for (int r = 0; r < Block::rows; ++r) {
                 for (std::size_t c = 0; c < column.size(); ++c)
                   if (column[c] >= 0)

@@ -1,11 +1,11 @@
 // Which one-sided limits stop something in a step, as far as it is known: there integrators that carry
 // something on begin anew (step/integrators.h).
 //
-// A limit is idle where it has no impulse, or less than takes it as far as it is open: what a solver leaves
-// by rounding. One stops what comes where it is idle as the step begins, or was as the last one began, and is
-// met in the step: a step that meets a limit ends on it, still on its way. One that gives way stops, too,
-// since steps may be too long to tell it from a hard one. And so does one that is idle as the step begins and
-// has an impulse at its end, foreseen or not.
+// A limit is idle where it has no impulse, or no more of it than is rounding of what would close it. One
+// stops what comes where it is idle as the step begins, or was as the last one began, and is met in the step:
+// a step that meets a limit ends on it, still on its way. One that gives way stops, too, since steps may be
+// too long to tell it from a hard one. And so does one that is idle as the step begins and has an impulse at
+// its end, foreseen or not.
 #pragma once
 
 #include <vector>
@@ -49,10 +49,11 @@ class LimitStops {
  private:
   template <int K>
   static bool holds(const RowBlock<1, K>& block, std::size_t i, const Points& v) {
+    constexpr double rounding = 1e-9;
     const double impulse = block.impulse[i][0];
     if (impulse == 0) return false;
     const double open = block.residual(v, i, block.impulse[i])[0];
-    return std::abs(impulse) > std::abs(open) * block.inverse_diagonal[i](0, 0);
+    return !(std::abs(impulse) <= rounding * std::abs(open) * block.inverse_diagonal[i](0, 0));
   }
 
   std::vector<bool> idle_;  // as the step began

@@ -2,6 +2,7 @@
 #include "polyhedron.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -12,7 +13,7 @@ using namespace pbd;
 
 namespace {
 
-/// Of two random polygons, convex and parallel: its caps are fans of triangles.
+/// Of an uneven convex polygon, sheared at random: its caps are fans of triangles.
 TriangleMesh prism(int sides, std::mt19937_64& engine) {
   const Vec3 shear = Vec3::NullaryExpr([&] { return std::uniform_real_distribution<>(-0.3, 0.3)(engine); });
   TriangleMesh mesh{Points(3, 2 * sides), {}};

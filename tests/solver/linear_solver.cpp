@@ -20,6 +20,7 @@ TEST_CASE("every relaxation finds a planted solution of chains, sheet and solid"
   SECTION("chain with a link between nodes that are held") {
     scene = chain(8);
     scene.mass[1] = infinity;
+    std::get<Distance>(scene.effects.back()).compliance[0] = GENERATE(0.0, 1e-3);
   }
   SECTION("solid") {
     scene = cantilever(4, {1e5, 0.3}, Strain::green);

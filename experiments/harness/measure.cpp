@@ -88,7 +88,7 @@ Trace measure_once(const pbd::Scene& scene, const pbd::State& state, double h, c
   const auto observe = [&](const pbd::Iterate& iterate) {
     const auto entered = Clock::now();
     throw_if_interrupted();
-    const double residual = larger(iterate.primal, iterate.dual);
+    const double residual = pbd::larger(iterate.primal, iterate.dual);
     bodies.end(carried_on(x, iterate.x), carried_on(v, iterate.v), reached);
     trace.points.push_back({iterate.outer_iteration, iterate.sweeps, iterate.row_updates,
                             seconds(entered - start - watching), error_of(reached),

@@ -151,7 +151,7 @@ def stability_told(points, contacts, frontier, ends, verdicts, outcomes):
 def only_what_is_used(results):
     return answered(
         "Does a scene pay only for the effects it calls for?",
-        Figure("effects_cost_answer", "Change of a step's time by effects that are listed and never act, logarithmic beyond 1 %."),
+        Figure("effects_cost_answer", "Change of the time of steps after the first by effects that are listed and never act, logarithmic beyond 1 %."),
         results, ["effects_cost/verdicts", "effects_cost/absent"], effects_told)
 
 

@@ -13,7 +13,7 @@ namespace pbd {
 ///   [M + J_c^T Sigma_c^-1 J_c   J_d^T           ] [dv   ]   [J_c^T Sigma_c^-1 r_c]
 ///   [J_d                        -Sigma_d - shift] [-dp_d] = [r_d                 ]
 /// The matrix is quasi-definite, so LDL^T needs no pivoting; the shift, 1e-10 of J W J^T, keeps redundant
-/// rows solvable and is removed by the refinement. Rows that move nothing keep their impulse. Rows whose
+/// rows solvable and is removed by the refinement. Hard rows that move nothing keep their impulse. Rows whose
 /// impulse has bounds are kept; those that a sweep of Gauss-Seidel would leave at a bound are held there, and
 /// each sweep with another set of them begins with another factorisation (the primal-dual active sets of
 /// hintermueller2003primal, which are not proven to end). Which constraints are eliminated is decided when

@@ -1,5 +1,8 @@
 #include "effects/angle_joint.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "rows/effect_rows.h"
 
 namespace pbd {
@@ -43,6 +46,17 @@ auto Constraint<AngleJoint>::geometric_bound(const AngleJoint& effect, std::size
   const Eigen::Matrix3d by_turn = turn.transpose() * (product + product.transpose()) * turn / twist.squared;
   return rotation_bound(impulse[0] * by_turn + lever_form(impulse[0] * twist.gradient, twist.to),
                         impulse[0] * twist.to.cross(twist.gradient), a, b);
+}
+
+/// g moves by at most 2 turn in a's frame, by a part p of its length turns the angle by -log(1 - p) at most,
+/// and that is no more than 2 log(2) p up to p = 1/2. From pi on c is on the limit's other side.
+Approach Constraint<AngleJoint>::approach(const AngleJoint& effect, std::size_t i, const Positions& at,
+                                          double gap) {
+  constexpr double half = std::numbers::ln2;  // -log(1 - 1/2)
+  const Twist twist(effect, i, *at.body[0], *at.body[1]);
+  const double left = std::min({gap, period / 2 - gap, half});
+  return {.by_turn = 2 * half * 2 / (std::sqrt(twist.squared) * left),
+          .by_time = std::abs(effect.rate[i]) / left};
 }
 
 std::unique_ptr<Source> make_source(const Scene& scene, const AngleJoint& effect) {

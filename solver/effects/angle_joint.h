@@ -24,6 +24,7 @@ struct Constraint<AngleJoint> : JointConstraint<AngleJoint, 1> {
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const AngleJoint& effect, std::size_t i, const Positions& at,
                                     const Value& impulse);
+  static Approach approach(const AngleJoint& effect, std::size_t i, const Positions& at, double gap);
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const AngleJoint& effect);

@@ -13,6 +13,10 @@ struct Constraint<BodyDistance> : JointConstraint<BodyDistance, 1> {
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const BodyDistance& effect, std::size_t i, const Positions& at,
                                     const Value& impulse);
+  static Approach approach(const BodyDistance& effect, std::size_t i, const Positions&, double gap) {
+    const auto& [a, b] = effect.point[i];
+    return {.by_way = 2 / gap, .by_turn = (a.norm() + b.norm()) / gap};
+  }
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const BodyDistance& effect);

@@ -11,6 +11,7 @@
 
 #include "rows/constraint.h"
 #include "rows/source.h"
+#include "rows/wandered.h"
 
 namespace pbd {
 

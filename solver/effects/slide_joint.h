@@ -11,6 +11,13 @@ struct Constraint<SlideJoint> : JointConstraint<SlideJoint, 1> {
                        Jacobian& jacobian);
   static NodeBounds geometric_bound(const SlideJoint& effect, std::size_t i, const Positions& at,
                                     const Value& impulse);
+  /// (t' - t) . (y - x_a) + t' . change of (y - x_a)
+  static Approach approach(const SlideJoint& effect, std::size_t i, const Positions& at, double gap) {
+    const Slide slide(*at.body[0], *at.body[1], effect.axis[i], effect.point[i][1]);
+    return {.by_way = 2 / gap,
+            .by_turn = (slide.gap.norm() + slide.lever.norm()) / gap,
+            .by_time = std::abs(effect.rate[i]) / gap};
+  }
 };
 
 std::unique_ptr<Source> make_source(const Scene& scene, const SlideJoint& effect);

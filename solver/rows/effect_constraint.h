@@ -29,6 +29,17 @@ bool gives_way(const E& effect, std::size_t i) {
   return Constraint<E>::compliance_scale(effect, i) > 0;
 }
 
+/// True if some constraint has a retardation time.
+template <class E>
+bool any_damping(const E& effect) {
+  if (!damped(effect)) return false;
+  const std::size_t count = Constraint<E>::one_material ? std::min<std::size_t>(1, constraint_count(effect))
+                                                        : constraint_count(effect);
+  for (std::size_t i = 0; i < count; ++i)
+    if (!Constraint<E>::retardation(effect, i).isZero(0)) return true;
+  return false;
+}
+
 /// Columns of constraint i: its nodes, or two a body.
 template <class E>
 typename Constraint<E>::Nodes columns_of(const Scene& scene, const E& effect, std::size_t i) {

@@ -9,8 +9,11 @@
 #include "rows/begin_values.h"
 #include "rows/limit_stops.h"
 #include "rows/turned_joints.h"
+#include "rows/waiting_limits.h"
 
 namespace pbd {
+
+struct NoBounds {};
 
 template <class E>
 class EffectRows final : public Source {
@@ -30,6 +33,8 @@ class EffectRows final : public Source {
     for (std::size_t i = 0; i < constraint_count(effect_); ++i)
       if (!hard_alone || !gives_way(effect_, i)) entries.push_back(i);
     if (entries.empty()) return;
+    if constexpr (has_bounds)
+      if (kind().limited && !kind().damped) waiting_.allocate(effect_, entries);
     Block block;
     block.resize(entries.size());
     for (std::size_t i = 0; i < block.size(); ++i) block.node[i] = columns_of(scene_, effect_, entries[i]);
@@ -41,20 +46,48 @@ class EffectRows final : public Source {
   }
 
   bool begin_step(const StepBegin& begin, BlockSpan blocks) override {
+    bool others = false;
     for (AnyBlock& any : blocks) {
+      auto& block = std::get<Block>(any);
+      if constexpr (has_bounds) others |= waiting_.look(scene_, effect_, begin, block);
       if (kind().damped)
-        begin_damping(effect_, begin, std::get<Block>(any));
+        begin_damping(effect_, begin, block);
       else if (is_angle)
-        keep_values(effect_, begin, std::get<Block>(any));
-      if constexpr (requires { effect_.bounds; })
-        if (begin.limits != Limits::silent && kind().limited) find_stops(begin, std::get<Block>(any));
+        keep_values(effect_, begin, block);
+      if constexpr (has_bounds)
+        if (begin.limits != Limits::silent && kind().limited) find_stops(begin, block);
     }
+    return others;
+  }
+
+  Widened widen(const StepBegin& begin, const Configuration& reached, BlockSpan blocks) override {
+    bool others = false;
+    if constexpr (has_bounds)
+      for (AnyBlock& any : blocks) {
+        auto& block = std::get<Block>(any);
+        if (!waiting_.call(scene_, effect_, begin, reached, block)) continue;
+        others = true;
+        if (is_angle) keep_values(effect_, begin, block);
+      }
+    return others ? Widened::others : Widened::no;
+  }
+
+  bool waits(std::size_t constraint) const override {
+    if constexpr (has_bounds) return waiting_.waits(constraint);
     return false;
+  }
+
+  bool call_all(const std::vector<double>& inverse_mass, BlockSpan blocks) override {
+    bool others = false;
+    if constexpr (has_bounds)
+      for (AnyBlock& any : blocks)
+        others |= waiting_.call_all(scene_, effect_, inverse_mass, std::get<Block>(any));
+    return others;
   }
 
   Impact impact(ConstBlockSpan blocks, const Points& v) const override {
     bool stops = false;
-    if constexpr (requires { effect_.bounds; })
+    if constexpr (has_bounds)
       for (const AnyBlock& any : blocks) stops = stops || stops_.any(std::get<Block>(any), v);
     return stops ? Impact::stop : Impact::none;
   }
@@ -206,14 +239,15 @@ class EffectRows final : public Source {
 
  private:
   static constexpr bool is_angle = pbd::is_angle<E>;
+  static constexpr bool has_bounds = requires(const E& effect) { effect.bounds; };
 
   static Kind kind_of(const E& effect) {
     Kind kind{constraint_count(effect), C::rows};
     kind.of_bodies = BodyEffect<E>;
     kind.fills_space = C::fills_space || kind.constraints == 0;
     for (std::size_t i = 0; i < kind.constraints; ++i) kind.compliant &= gives_way(effect, i);
-    if constexpr (requires { effect.bounds; }) kind.limited = !effect.bounds.empty();
-    kind.damped = damped(effect);
+    if constexpr (has_bounds) kind.limited = !effect.bounds.empty();
+    kind.damped = any_damping(effect);
     return kind;
   }
 
@@ -267,7 +301,7 @@ class EffectRows final : public Source {
         linearise_at(block, i, local_at(effect_, entry, block.node[i], *place.directions), unused);
       if (damped) value -= block.offset[i];
       if (!damped) block.compliance.set(i, C::compliance_scale(effect_, entry) / (place.map.s * place.map.d));
-      if constexpr (requires { effect_.bounds; })
+      if constexpr (has_bounds)
         if (block.bounded())
           block.bounds[i] = {effect_.bounds[entry][0] * place.map.s, effect_.bounds[entry][1] * place.map.s};
       const double largest = largest_coordinate(effect_, entry, own, block.node[i], place.inverse_mass);
@@ -279,6 +313,7 @@ class EffectRows final : public Source {
   const Scene& scene_;
   const E& effect_;
   LimitStops stops_{};
+  std::conditional_t<has_bounds, WaitingLimits<E>, NoBounds> waiting_{};
 };
 
 }  // namespace pbd

@@ -16,23 +16,25 @@ namespace pbd {
 
 class LimitStops {
  public:
-  /// Looks at all limits of a step that begins. at(i) sets J of constraint i there and returns its value and
-  /// its largest coordinate (m); hard(i) is true if it gives no way.
+  /// Looks at all limits of a step that begins; those without rows are idle. at(i) sets J of constraint i
+  /// there and returns its value and its largest coordinate (m); hard(i) is true if it gives no way.
   template <int K, class At, class Hard>
   void find(const StepBegin& begin, const std::vector<ForceBounds>& bounds, RowBlock<1, K>& block, At&& at,
             Hard&& hard) {
     stops_ = false;
-    idle_.resize(block.size(), true);
+    was_idle_.swap(idle_);
+    was_idle_.resize(bounds.size(), true);
+    idle_.assign(bounds.size(), true);
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const auto& [lower, upper] = bounds[block.entry(i)];
+      const std::size_t entry = block.entry(i);
+      const auto& [lower, upper] = bounds[entry];
       if ((lower == 0) == (upper == 0)) {
-        idle_[i] = false;
+        idle_[entry] = false;
         continue;
       }
-      const bool was_idle = idle_[i];
-      idle_[i] = !holds(block, i, begin.v);
-      stops_ = stops_ || (begin.limits == Limits::holds && !idle_[i] && hard(i));
-      if (stops_ || !(idle_[i] || was_idle)) continue;
+      idle_[entry] = !holds(block, i, begin.v);
+      stops_ = stops_ || (begin.limits == Limits::holds && !idle_[entry] && hard(i));
+      if (stops_ || !(idle_[entry] || was_idle_[entry])) continue;
       const auto [value, size] = at(i);
       stops_ = RowOperations<1, K>::meets(begin, lower == 0 ? value : -value, lower == 0, size, block, i);
     }
@@ -42,7 +44,8 @@ class LimitStops {
   template <int K>
   bool any(const RowBlock<1, K>& block, const Points& v) const {
     bool stops = stops_;
-    for (std::size_t i = 0; i < idle_.size(); ++i) stops = stops || (idle_[i] && holds(block, i, v));
+    for (std::size_t i = 0; i < block.size() && !idle_.empty(); ++i)
+      stops = stops || (idle_[block.entry(i)] && holds(block, i, v));
     return stops;
   }
 
@@ -56,8 +59,8 @@ class LimitStops {
     return !(std::abs(impulse) <= rounding * std::abs(open) * block.inverse_diagonal[i](0, 0));
   }
 
-  std::vector<bool> idle_;  // as the step began
-  bool stops_ = false;      // foreseen
+  std::vector<bool> idle_, was_idle_;  // as this step began and the last one, of all constraints of an effect
+  bool stops_ = false;                 // foreseen
 };
 
 }  // namespace pbd

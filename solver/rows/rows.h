@@ -40,9 +40,9 @@ struct BlockList : std::vector<AnyBlock> {
 
 struct Rows {
   std::vector<double> inverse_mass;  // 1/kg, one a column (bodies.h); 0 for infinite mass
-  BlockList blocks;                  // in the scene's order; those of contacts may be empty
+  BlockList blocks;                  // in the scene's order; those of contacts and limits may be empty
   bool contacts = false;             // some blocks are those of contacts
-  int generation = 0;                // raised with each other set of contacts or compliances
+  int generation = 0;                // raised with each other set of constraints or compliances
   int threads = 1;                   // that loops are divided among
 };
 

@@ -123,8 +123,8 @@ class Source {
     bool of_bodies = false;   // no potential by the columns
     bool fills_space = true;  // stiff in every direction, or no rows
     bool limited = false;     // impulses with bounds
-    bool damped = false;
-    bool contacts = false;  // rows come and go, and act at a step's end alone
+    bool damped = false;      // some retardation time is not 0
+    bool contacts = false;    // act at a step's end alone
 
     bool operator==(const Kind&) const = default;
   };
@@ -204,15 +204,22 @@ class Source {
   /// other way round.
   virtual bool drives_round(double /*h*/) const { return false; }
 
+  /// True of a constraint that has no row because nothing comes near its limit: its impulse is 0.
+  virtual bool waits(std::size_t /*constraint*/) const { return false; }
+
+  /// Gives those rows, too; true if there are any.
+  virtual bool call_all(const std::vector<double>& /*inverse_mass*/, BlockSpan) { return false; }
+
+  /// Finds rows anew where the iterate went farther than was thought of, which is solved to
+  /// `StepBegin::tolerance`, or something overlaps that no row tells of; they are to be linearised again
+  /// then.
+  virtual Widened widen(const StepBegin&, const Configuration& /*reached*/, BlockSpan) { return Widened::no; }
+
   // Of contacts alone.
 
   /// Lets what approached and touches in the step that is solved by v (to `accuracy`, sqrt(J)), but was not
   /// to collide, collide: true if there is any.
   virtual bool collide(ConstBlockSpan, const Points& /*v*/, double /*accuracy*/) { return false; }
-
-  /// Finds rows anew where the solved step went farther than was thought of, or where something overlaps that
-  /// no row tells of; they are to be linearised again then.
-  virtual Widened widen(const StepBegin&, const Configuration& /*reached*/, BlockSpan) { return Widened::no; }
 
   /// Lowers the share of its way to `reached` that each column may go, so that nothing passes there what it
   /// begins apart from: true if any is lower. Where ways are not looked at nothing is.

@@ -10,7 +10,7 @@ namespace pbd {
 bool History::goes_on(const StepSystem& system, const State& state) const {
   if (!(h_ > 0)) return false;
   if (system.problem.bodies.count() == 0) return state.x == system.at.x && state.v == system.at.v;
-  return is_where_it_ended(state);
+  return continued_;
 }
 
 bool History::is_where_it_ended(const State& state) const {
@@ -97,8 +97,8 @@ void History::set_map(double h, bool goes_on, bool anew, StepSystem& system) {
 
 void History::begin_step(double h, const State& state, StepSystem& system) {
   Problem& problem = system.problem;
-  const bool goes_on = this->goes_on(system, state);
   continued_ = is_where_it_ended(state);
+  const bool goes_on = this->goes_on(system, state);
   gone_on_ = goes_on ? gone_on_ + 1 : 0;
   if (goes_on && integrator_->keeps == Keeps::states) {  // a body's arc, from where it begins now
     const int count = problem.bodies.count();

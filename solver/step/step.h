@@ -63,16 +63,15 @@ class Workspace {
   std::vector<EffectCost> costs() const;
 
   /// Impulses of effect `index` after the last step, N s (N m s for angles, J s for strains), R for each of
-  /// its constraints that is a row.
+  /// its constraints; NaN for those that are no rows (compliant ones under explicit forces). Of contact none:
+  /// `contacts` tells them.
   std::vector<double> impulses(std::size_t index) const;
 
   /// Force multipliers of effect `index` at the end of the last step, the impulses over the step's s: N (N m
-  /// for angles, J for strains), R for each of its constraints; NaN for those that are no rows (compliant
-  /// ones under explicit forces). In the first step of a motion that begins with speed v, half of the force
+  /// for angles, J for strains). In the first step of a motion that begins with speed v, half of the force
   /// that bends its path: that leaves its tangent by v^2 h^2/(2 r) there, and is bent by v^2 h^2/r in each
   /// later step. J^T times them are the forces, of damped point joints and attachments along the axes of the
   /// first body, of axis and line joints along Eigen's unitOrthogonal() of its axis and the axis times that.
-  /// Of contact none: `contacts` tells them.
   std::vector<double> forces(std::size_t index) const;
 
   /// All contacts of the last step, open ones included.

@@ -156,7 +156,7 @@ void Workspace::go_on_from(const Workspace& other) {
   system.problem.map = from.system.problem.map;
   system.problem.coefficients = from.system.problem.coefficients;
   for (std::size_t i = 0; i < system.slots.size(); ++i)
-    if (!system.slots[i].source->kind().contacts)
+    if (system.slots[i].source->kind().damped)
       take_begin_values(from.system.slots[i].view(from.system.rows), system.slots[i].blocks(system.rows));
 }
 
@@ -178,6 +178,8 @@ void Workspace::change(std::size_t index, const Effect& effect) {
     data_->system.problem.implicit_gyroscopic =
         implicit_gyroscopic(data_->scene, data_->history.integrator());
     if (slot == slots.end()) return;
+    if (slot->source->call_all(data_->system.problem.inverse_mass, slot->blocks(data_->system.rows)))
+      ++data_->system.rows.generation;
     const auto source = make_source(data_->scene, effects[index], Friction::coulomb);
     if (source->kind() != slot->source->kind() || !same_hard(before, effect) ||
         !same_rows(*source, data_->history.integrator().explicit_forces, slot->view(data_->system.rows)))
@@ -201,39 +203,27 @@ std::vector<EffectCost> Workspace::costs() const {
   return all;
 }
 
-namespace {
-
-/// f(block) for every block of an effect.
-template <class F>
-void each_block_of(const StepSystem& system, std::size_t effect, F&& f) {
-  for (const Slot& slot : system.slots)
-    if (slot.effect == effect) for_each_block(slot.view(system.rows), f);
-}
-
-}  // namespace
-
 std::vector<double> Workspace::impulses(std::size_t index) const {
   require_effect(data_->scene, index);
   std::vector<double> flat;
-  each_block_of(data_->system, index, [&](const auto& block) {
-    for (const auto& impulse : block.impulse) flat.insert(flat.end(), impulse.begin(), impulse.end());
-  });
+  for (const Slot& slot : data_->system.slots) {
+    const Source& source = *slot.source;
+    if (slot.effect != index || source.kind().contacts) continue;
+    for (std::size_t c = 0; c < source.kind().constraints; ++c)
+      flat.insert(flat.end(), source.kind().rows_of_each, source.waits(c) ? 0 : std::nan(""));
+    for_each_block(slot.view(data_->system.rows), [&]<class Block>(const Block& block) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        std::copy(block.impulse[i].begin(), block.impulse[i].end(),
+                  flat.begin() + static_cast<std::ptrdiff_t>(Block::rows * block.entry(i)));
+    });
+  }
   return flat;
 }
 
 std::vector<double> Workspace::forces(std::size_t index) const {
-  require_effect(data_->scene, index);
-  std::vector<double> flat;
-  const double s = data_->system.problem.map.s;  // 0 before the first step
-  for (const Slot& slot : data_->system.slots)
-    if (slot.effect == index)
-      flat.assign(slot.source->kind().constraints * slot.source->kind().rows_of_each, std::nan(""));
-  each_block_of(data_->system, index, [&]<class Block>(const Block& block) {
-    if (flat.empty()) return;
-    for (std::size_t i = 0; i < block.size(); ++i)
-      for (int r = 0; r < Block::rows; ++r)
-        flat[Block::rows * block.entry(i) + r] = s > 0 ? block.impulse[i][r] / s : 0.0;
-  });
+  std::vector<double> flat = impulses(index);
+  const double s = data_->system.problem.map.s;
+  for (double& each : flat) each = s > 0 ? each / s : 0.0;  // before the first step there is none
   return flat;
 }
 

@@ -227,7 +227,8 @@ TEST_CASE("symplectic_euler has rows for hard constraints alone") {
   // One step from rest: forces of the springs, none yet, gravity, and the hard links along x.
   CHECK(step(workspace, 0.01, state).status == Status::ok);
   CHECK(workspace.costs().at(0).rows == 2);
-  CHECK(workspace.impulses(1).size() == 2);
+  const auto impulses = workspace.impulses(1);
+  CHECK(std::count_if(impulses.begin(), impulses.end(), [](double p) { return std::isfinite(p); }) == 2);
   CHECK(state.x(2, 4) == Approx(-gravity * 1e-4).epsilon(1e-12));
   for (double& each : links.compliance) each = 1e-2;
   CHECK(Workspace(scene, method).costs().empty());

@@ -17,7 +17,7 @@ import sections
 from failed import cause, failed_section, failures, stripped
 from reading import InputError
 from results import Results
-from sections.trajectories import choice
+from sections.trajectories import choice, practised
 from tables import VERDICTS
 
 import reading
@@ -201,6 +201,14 @@ class Report(unittest.TestCase):
         # bdf2 with the longest step has 0.005; direct to 0.01 takes three times as long as ten iterations
         self.assertEqual(table.rows[0][:2], ["`pendulum`", "`incremental gauss_seidel bdf2 x10`, 0.1 s: 0.1 ms, 0.02 MB (x 3.00)"])
         self.assertEqual(table.rows[1][3], "not told")
+
+    def test_runs_as_engines_make_them_are_told_beside_the_quickest(self):
+        sample.trajectories(self.directory)
+        sample.write_run(self.directory, "trajectories")
+        told = practised(Results(self.directory).table("trajectories", "runs"))
+        # To 0.01 ten iterations are the quickest method of both scenes; of velocity steps there are none.
+        self.assertIn("(`incremental`), reach an error of 0.01 in 2 of 2 scenes that tell it (as the quickest in 2, in 1 times", told)
+        self.assertIn("(`frozen`), reach an error of 0.01 in 0 of 2 scenes that tell it,", told)
 
     def test_failures_are_counted_by_method_without_their_numbers(self):
         sample.write(self.directory, "a", "t", "outer error status reason",

@@ -1,6 +1,6 @@
 """What accuracy at the end of a motion costs, and what `pbdcheck advise` makes of it."""
 
-from content import Figure, Section, Table, counted, number, share, span
+from content import Figure, Section, Table, counted, joined, number, share, span
 from selecting import good, step_text, tellable, told_runs
 
 ACCURACIES = (1e-2, 1e-4, 1e-6)
@@ -58,6 +58,29 @@ def outcomes(runs):
             f"{number(deep['penetration_m'].max()) if len(deep) else 'no number of'} m.")
 
 
+PRACTISED = {"incremental": "increments of positions from zero impulses, as XPBD [@macklin2016xpbd] takes them (`incremental`),",
+             "frozen": "velocity steps, as projected Gauss-Seidel takes them (`frozen`),"}
+
+
+def practised(runs):
+    """What becomes of few sweeps a step and short steps."""
+    runs = told_runs(runs)
+    told = []
+    for outer, words in PRACTISED.items():
+        found = []
+        for accuracy in ACCURACIES:
+            scenes = tellable(runs, accuracy)
+            if not scenes:
+                continue
+            least = good(runs[(runs["told"] <= accuracy) & runs["scene"].isin(scenes)], "told", "wall_s").groupby("scene")["wall_s"].min()
+            own = runs[(runs["outer"] == outer) & (runs["count"] > 0) & (runs["told"] <= accuracy) & runs["scene"].isin(scenes)]
+            ratio = (good(own, "told", "wall_s").groupby("scene")["wall_s"].min() / least).dropna()
+            found.append(f"an error of {number(accuracy)} in {share(len(ratio), len(scenes))} scenes that tell it" + (
+                f" (as the quickest in {int((ratio <= 1).sum())}, in {number(ratio.median(), 2)} times the least time at the median)" if len(ratio) else ""))
+        told.append(f"{words} reach {joined(found)}" if found else f"{words} are told in no scene")
+    return f"Engines make one to ten sweeps a step, and their steps shorter instead. Of such runs {'; '.join(told)}."
+
+
 def trajectories(results):
     section = Section(
         "What does accuracy cost over a whole motion?",
@@ -82,7 +105,7 @@ def trajectories(results):
             Figure("trajectories_steps", "Error at the end over the step, with the time as colour."),
             Figure("trajectories_memory", "The memory of a step to three errors: the least of any run, and that of the quickest one."),
             Figure("trajectories_digit", "How many times as long a tenth of the error takes.")])
-    return section.tell(results.table("trajectories", "runs"), outcomes, truths_table)
+    return section.tell(results.table("trajectories", "runs"), outcomes, practised, truths_table)
 
 
 def advice(results):

@@ -255,3 +255,27 @@ TEST_CASE("a limit that waits is looked at anew where it is changed") {
   CHECK(workspace.costs().at(0).rows == 1);
   CHECK(workspace.forces(index)[0] < 0);
 }
+
+TEST_CASE("a limit that waits is called before it is reached where no iterate is near a solution") {
+  Scene scene = rod_chain(20);  // turns; one sweep a step leaves it far from solved
+  std::erase_if(scene.effects, [](const Effect& effect) { return std::holds_alternative<Gravity>(effect); });
+  const int body =
+      add_body(scene, Vec3::Zero(), 1, Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3(1, 0, 0));
+  const std::vector<ForceBounds> below{{-infinity, 0}};
+  const std::array<Vec3, 2> centres{Vec3(0, 0, 0), Vec3(0, 0, 0)};
+  scene.effects.emplace_back(SlideJoint{{{0, body}}, {centres}, {Vec3::UnitX()}, {1}, {0}, {0}, {}, below});
+  Method method;
+  method.outer = "plain";
+  method.relaxation = "gauss_seidel";
+  method.max_outer = method.max_sweeps = 1;
+  Workspace workspace(scene, method);
+  State state = scene.initial;
+  std::int64_t rows = 0;
+  for (int k = 0; k < 150; ++k) {
+    CHECK(step(workspace, waiting_step_s, state).status == Status::not_converged);
+    CHECK(state.x(0, scene.bodies[static_cast<std::size_t>(body)].node) <= 1 + 1e-9);
+    rows += workspace.costs().back().rows;
+  }
+  CHECK(state.x(0, scene.bodies[static_cast<std::size_t>(body)].node) == Approx(1).epsilon(1e-9));
+  CHECK(rows < 60);  // of 150, 100 of them on its way
+}

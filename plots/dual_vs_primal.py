@@ -35,7 +35,7 @@ def errors(frame):
     for ax, ((scene, strain, young), rows) in zip(axes, groups):
         for (outer, relaxation), trace in rows.groupby(METHOD, sort=False):
             curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
-            if outer == "incremental" and (trace["status"] != "ok").all():
+            if outer in ("incremental", "rival") and (trace["status"] != "ok").all():
                 draw_floor(ax, trace)
         ax.set_xscale("symlog", linthresh=1)
         ax.set(xlim=(-0.3, None), yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")
@@ -45,7 +45,7 @@ def errors(frame):
     shared_legend(fig, axes)
     ends = frame.sort_values("sweeps").groupby(MATERIAL + ["elements"] + METHOD, sort=False).tail(1)
     finding(fig, f"Traces that end within {number(REACHED)} of the energy's minimum: " + solved_by(ends))
-    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental stays. {left}" +
+    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental and XPBD stay. {left}" +
              reasons_note(failed(ends, "error")))
     return fig
 

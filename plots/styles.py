@@ -20,7 +20,7 @@ STYLES = {
     "mass_splitting": ("#888888", "X", "-"), "power_law": ("#bcbd22", "p", "-."),
     "plain": (RED, "o", "-"), "incremental": (SKY, "s", "--"), "proximal": (GREEN, "^", "-."),
     "quasi_newton": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "frozen": (ORANGE, "P", ":"), "auto": (BLUE, "D", "-"),
-    "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"),
+    "judge": (BLACK, "*", ":"), "rival": (BLACK, "s", "--"), "newton": (BLACK, "s", "--"), "xpbd": (RED, "X", "-."),
     "pendulum": (BLUE, "o", "-"), "chain20": (RED, "s", "--"), "cantilever": (GREEN, "^", "-."),
     "implicit_euler": (BLACK, "o", "-"), "bdf2": (GREEN, "^", "-."), "midpoint": (SKY, "s", "--"),
     "symplectic_euler": (PURPLE, "v", (0, (3, 1, 1, 1, 1, 1))), "generalised_alpha": (BLUE, "P", (0, (5, 1))),

@@ -1,37 +1,21 @@
 #include "rivals/newton.h"
 
 #include <cmath>
-#include <string>
 
-#include "error.h"
+#include "rivals/implicit_step.h"
 #include "rivals/potential.h"
 #include "rivals/stopwatch.h"
-#include "validate.h"
 
 namespace pbd::rivals {
 namespace {
 
 /// Block row of each node of finite mass, in order; -1 for the others. `blocks` is their number.
-std::vector<int> number(const Scene& scene, int& blocks) {
+std::vector<int> number(const Eigen::RowVectorXd& mass, int& blocks) {
   std::vector<int> block;
   blocks = 0;
-  for (const double mass : scene.mass) block.push_back(std::isinf(mass) ? -1 : blocks++);
-  if (blocks == 0) throw SetupError("newton: scene mass", "infinite masses only", "at least one finite mass");
+  for (const double own : mass) block.push_back(own > 0 ? blocks++ : -1);
   return block;
 }
-
-const Scene& checked(const Scene& scene, double h) {
-  if (!(h > 0 && std::isfinite(h)))
-    throw SetupError("newton: h", std::to_string(h), "a finite number > 0, s");
-  validate(scene);
-  return scene;
-}
-
-/// A point with phi (J) and its gradient (N).
-struct Point {
-  Points x, gradient;
-  double phi = 0;
-};
 
 class Newton final : public Rival {
  public:
@@ -39,41 +23,30 @@ class Newton final : public Rival {
   Report step(State& state, const Budget& budget, const Observer& observer) override;
 
  private:
-  void begin(const State& state);
-  void evaluate(Point& point);
-  bool finished(const State& state, const Budget& budget);
+  void evaluate(Point& point) { step_.evaluate(potential_, point); }
   bool factorise(bool projected);
   bool find_direction();
   bool search();
 
-  /// |v|_M of movable nodes, sqrt(J); and sqrt(sum_i |g_i|^2/m_i).
-  double norm(const Points& v) const { return std::sqrt(v.colwise().squaredNorm().dot(mass_)); }
-  double dual_norm(const Points& g) const { return std::sqrt(g.colwise().squaredNorm().dot(inverse_mass_)); }
-
-  double h_;
+  ImplicitStep step_;
   int blocks_ = 0;
   std::vector<int> block_;
-  Eigen::RowVectorXd mass_, inverse_mass_;  // zero for infinite mass
-  Points free_velocity_change_;             // h a
   Potential potential_;
   BlockCholesky matrix_;
   bool quadratic_, factorised_ = false;
 
-  Points target_, direction_;  // y; dx
-  Eigen::VectorXd inertia_;    // M/h^2 of the unknowns, N/m
-  Eigen::VectorXd right_;      // -grad phi of the unknowns
+  Points direction_;         // dx, m
+  Eigen::VectorXd inertia_;  // M/h^2 of the unknowns, N/m
+  Eigen::VectorXd right_;    // -grad phi of the unknowns
   Point now_, next_;
   double rounding_ = 0;  // of the residual, sqrt(J)
   Report report_;
 };
 
 Newton::Newton(const Scene& scene, double h)
-    : h_(h),
-      block_(number(checked(scene, h), blocks_)),
-      mass_(Eigen::RowVectorXd::Zero(scene.nodes())),
-      inverse_mass_(mass_),
-      free_velocity_change_(h * acceleration(scene)),
-      potential_(scene, block_),
+    : step_("newton", scene, h),
+      block_(number(step_.mass, blocks_)),
+      potential_("newton", scene, block_),
       matrix_(blocks_, potential_.pairs()),
       quadratic_(potential_.quadratic()),
       direction_(Points::Zero(3, scene.nodes())),
@@ -81,43 +54,8 @@ Newton::Newton(const Scene& scene, double h)
       right_(3 * blocks_) {
   potential_.attach(matrix_);
   for (int node = 0; node < scene.nodes(); ++node)
-    if (const double mass = scene.mass[static_cast<std::size_t>(node)]; std::isfinite(mass)) {
-      mass_(node) = mass;
-      inverse_mass_(node) = 1 / mass;
-      inertia_.segment<3>(3 * block_[static_cast<std::size_t>(node)]).setConstant(mass / (h * h));
-    }
-}
-
-void Newton::begin(const State& state) {
-  report_ = {};
-  rounding_ = 0;
-  now_.x = state.x + h_ * state.v;
-  target_ = now_.x + h_ * free_velocity_change_;
-  timed(report_.evaluate_s, [&] { evaluate(now_); });
-}
-
-void Newton::evaluate(Point& point) {
-  point.gradient = (point.x - target_) * (mass_ / (h_ * h_)).asDiagonal();
-  point.phi = point.gradient.cwiseProduct(point.x - target_).sum() / 2;
-  point.phi += potential_.energy(point.x, point.gradient);
-}
-
-/// Residual and status of the current point; true if the step is to end there.
-bool Newton::finished(const State& state, const Budget& budget) {
-  const double scale = norm((now_.x - state.x) / h_ - state.v) + norm(free_velocity_change_);
-  const double residual = h_ * dual_norm(now_.gradient);
-  report_.residual = residual > 0 ? residual / scale : residual;
-  if (!std::isfinite(residual)) {
-    report_.status = Status::diverged;
-    report_.reason = "not finite";
-  } else if (residual <= std::max(budget.tolerance * scale, rounding_)) {
-    report_.status = Status::ok;
-  } else if (report_.iterations >= budget.max_iterations) {
-    report_.reason = "iterations spent";
-  } else {
-    return false;
-  }
-  return true;
+    if (const int first = 3 * block_[static_cast<std::size_t>(node)]; first >= 0)
+      inertia_.segment<3>(first).setConstant(step_.mass(node) / (h * h));
 }
 
 /// H at the current point and its factor; false if it is not positive definite.
@@ -143,7 +81,7 @@ bool Newton::find_direction() {
       right_.segment<3>(first) = -now_.gradient.col(i);
       rounding.col(i) = diagonal.segment<3>(first).cwiseProduct(now_.x.col(i));
     }
-  rounding_ = std::numeric_limits<double>::epsilon() * h_ * dual_norm(rounding);
+  rounding_ = std::numeric_limits<double>::epsilon() * step_.h * step_.dual_norm(rounding);
   timed(report_.solve_s, [&] {
     const auto solution = matrix_.solve(right_);
     for (std::size_t node = 0; node < block_.size(); ++node)
@@ -174,9 +112,13 @@ bool Newton::search() {
 Report Newton::step(State& state, const Budget& budget, const Observer& observer) {
   const auto start = Clock::now();
   double watching = 0;
-  begin(state);
+  report_ = {};
+  rounding_ = 0;
+  step_.begin(state);
+  now_.x = step_.start;
+  timed(report_.evaluate_s, [&] { evaluate(now_); });
   for (;; ++report_.iterations) {
-    const bool end = finished(state, budget);
+    const bool end = step_.finished(now_, budget, rounding_, report_);
     if (observer) {
       const double seconds = since(start) - watching;
       observer({report_.iterations, seconds, report_.residual, now_.x});
@@ -192,12 +134,7 @@ Report Newton::step(State& state, const Budget& budget, const Observer& observer
       break;
     }
   }
-  if (report_.status != Status::diverged) {
-    for (int node = 0; node < state.v.cols(); ++node)
-      if (mass_(node) > 0) state.v.col(node) = (now_.x.col(node) - state.x.col(node)) / h_;
-    state.x = now_.x;
-    state.time += h_;
-  }
+  if (report_.status != Status::diverged) step_.end(now_.x, state);
   report_.seconds = since(start) - watching;
   return report_;
 }

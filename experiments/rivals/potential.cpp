@@ -20,6 +20,19 @@ Nodes<Element::nodes> gather(const Points& x, const std::array<int, Element::nod
   return local;
 }
 
+/// The sign of an element's value whose energy is half its square: of what has two sides.
+template <class Element>
+double side(const Element&, const Nodes<Element::nodes>&) {
+  return 1;
+}
+double side(const SpringElement& spring, const Nodes<2>& x) {
+  return (x.col(1) - x.col(0)).norm() < spring.length ? -1 : 1;
+}
+double side(const HingeElement& hinge, const Nodes<4>& x) {
+  Nodes<4> unused;
+  return hinge.angle(x, unused) < 0 ? -1 : 1;
+}
+
 /// Shape gradients and constants of a simplex from its edges at rest in D dimensions (m).
 template <int D>
 Simplex<D> simplex(const Eigen::Matrix<double, D, D>& edges, double lambda, double mu) {
@@ -41,6 +54,7 @@ Eigen::Matrix2d flat_edges(const Mat3& rest) {
 /// Fills the groups from the scene's effects.
 template <class Groups>
 struct Builder {
+  std::string rival;
   Groups& groups;
 
   template <class Element>
@@ -48,9 +62,9 @@ struct Builder {
     return std::get<Group<Element>>(groups);
   }
   template <class E>
-  static double constant(const E& effect, std::size_t i) {
+  double constant(const E& effect, std::size_t i) const {
     if (effect.compliance[i] > 0) return 1 / effect.compliance[i];
-    throw SetupError("newton: " + std::string(E::name) + " compliance[" + std::to_string(i) + "]", "0",
+    throw SetupError(rival + ": " + std::string(E::name) + " compliance[" + std::to_string(i) + "]", "0",
                      "a number > 0: no hard constraints");
   }
 
@@ -73,7 +87,7 @@ struct Builder {
   }
   void operator()(const TriangleStrain& e) const {
     if (std::isinf(e.material.young))
-      throw SetupError("newton: triangle_strain young", "inf", "a finite number: no hard constraints");
+      throw SetupError(rival + ": triangle_strain young", "inf", "a finite number: no hard constraints");
     const double nu = e.material.poisson, k = e.thickness * e.material.young / (1 - nu * nu);
     for (std::size_t i = 0; i < e.node.size(); ++i)
       group<GreenElement<2>>().add(e.node[i], {simplex<2>(flat_edges(e.rest[i]), k * nu, k * (1 - nu) / 2)});
@@ -114,13 +128,15 @@ Points acceleration(const Scene& scene) {
   return a;
 }
 
-Potential::Potential(const Scene& scene, const std::vector<int>& block) : block_(block) {
+Potential::Potential(std::string_view rival, const Scene& scene, const std::vector<int>& block)
+    : block_(block) {
+  const std::string name(rival);
   if (!scene.bodies.empty())
-    throw SetupError("newton", std::to_string(scene.bodies.size()) + " rigid bodies", "nodes only");
+    throw SetupError(name, std::to_string(scene.bodies.size()) + " rigid bodies", "nodes only");
   for (const Effect& effect : scene.effects) {
-    if (damped(effect)) throw SetupError("newton", "an effect with damping", "elastic effects");
-    if (std::holds_alternative<Contact>(effect)) throw SetupError("newton", "contact", "elastic effects");
-    std::visit(Builder<decltype(groups_)>{groups_}, effect);
+    if (damped(effect)) throw SetupError(name, "an effect with damping", "elastic effects");
+    if (std::holds_alternative<Contact>(effect)) throw SetupError(name, "contact", "elastic effects");
+    std::visit(Builder<decltype(groups_)>{name, groups_}, effect);
   }
 }
 
@@ -174,6 +190,38 @@ void Potential::add_stiffness(const Points& x, bool projected, BlockCholesky& ma
       const auto block = group.element[i].stiffness(gather<Element>(x, group.node[i]), projected);
       for (const auto& [a, b, slot] : group.target[i])
         if (slot.first >= 0) matrix.add(slot, block(a, b));
+    }
+  });
+}
+
+std::size_t Potential::elements() const {
+  std::size_t count = 0;
+  for_each(groups_, [&](const auto& group) { count += group.element.size(); });
+  return count;
+}
+
+void Potential::sweep(const Eigen::RowVectorXd& inverse_mass, double h, std::vector<double>& multiplier,
+                      Points& x) const {
+  const double compliance = 1 / (h * h);
+  double* own = multiplier.data();
+  for_each(groups_, [&]<class Element>(const Group<Element>& group) {
+    for (std::size_t i = 0; i < group.element.size(); ++i, ++own) {
+      const auto& node = group.node[i];
+      const Nodes<Element::nodes> local = gather<Element>(x, node);
+      Nodes<Element::nodes> slope;
+      const double size = std::sqrt(2 * group.element[i].energy(local, slope));
+      if (size == 0 && *own == 0) continue;
+      const double value = side(group.element[i], local) * size;
+      slope /= value != 0 ? value : 1;  // of the value; zero where the energy's own is
+      double mobility = compliance;
+      for (int a = 0; a < Element::nodes; ++a)
+        mobility += inverse_mass(node[static_cast<std::size_t>(a)]) * slope.col(a).squaredNorm();
+      const double change = -(value + compliance * *own) / mobility;
+      *own += change;
+      for (int a = 0; a < Element::nodes; ++a) {
+        const int index = node[static_cast<std::size_t>(a)];
+        x.col(index) += inverse_mass(index) * change * slope.col(a);
+      }
     }
   });
 }

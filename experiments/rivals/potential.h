@@ -1,6 +1,7 @@
 // The elastic energy of a scene, its gradient and its stiffness, element by element.
 #pragma once
 
+#include <string_view>
 #include <tuple>
 
 #include "rivals/block_cholesky.h"
@@ -31,8 +32,9 @@ Points acceleration(const Scene& scene);
 
 class Potential {
  public:
-  /// Throws SetupError for a constraint of compliance 0. `block` is the block row of each node, -1 for none.
-  Potential(const Scene& scene, const std::vector<int>& block);
+  /// Throws SetupError, in the name of a rival, for a constraint of compliance 0. `block` is the block row of
+  /// each node, -1 for none.
+  Potential(std::string_view rival, const Scene& scene, const std::vector<int>& block);
 
   /// Pairs of block rows that an element connects, the larger one first.
   std::vector<std::array<int, 2>> pairs() const;
@@ -43,6 +45,10 @@ class Potential {
   double energy(const Points& x, Points& gradient) const;
   /// Adds d2U/dx2 (N/m), every element's part made positive semidefinite if `projected`.
   void add_stiffness(const Points& x, bool projected, BlockCholesky& matrix) const;
+  std::size_t elements() const;
+  /// A sweep of XPBD (xpbd.h) over all elements, with the inverse masses of the nodes (1/kg).
+  void sweep(const Eigen::RowVectorXd& inverse_mass, double h, std::vector<double>& multiplier,
+             Points& x) const;
   /// Whether d2U/dx2 is the same at every x.
   bool quadratic() const;
 

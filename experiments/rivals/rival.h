@@ -38,7 +38,7 @@ struct Report {
   double solve_s = 0;
 };
 
-/// Shown every iterate, the first one being x_l + h v_l.
+/// Shown every iterate, the first one being where the rival begins.
 struct Iterate {
   int iteration;
   double seconds;   // so far, without the observer's
@@ -66,9 +66,10 @@ using MakeRival = std::unique_ptr<Rival> (*)(const Scene& scene, double h);
 struct NamedRival {
   std::string_view name;
   MakeRival make;
+  bool solves_step;  // it comes to any tolerance, in enough iterations
 };
 
-/// newton.
+/// newton, xpbd.
 std::span<const NamedRival> rivals();
 
 }  // namespace pbd::rivals

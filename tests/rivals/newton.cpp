@@ -176,6 +176,7 @@ TEST_CASE("what the rival cannot do is refused") {
 }
 
 TEST_CASE("the list of rivals") {
-  REQUIRE(rivals::rivals().size() == 1);
+  REQUIRE(rivals::rivals().size() == 2);
   CHECK(rivals::rivals()[0].name == "newton");
+  CHECK(rivals::rivals()[1].name == "xpbd");
 }

@@ -1,6 +1,6 @@
 // Does the constraint solver, which works on the dual, reach the minimum of the primal incremental potential?
 // One step of a falling cantilever against Newton on the energy, for stiffness, strains, meshes, relaxations
-// and outer iterations; and the floor where incremental multipliers stop.
+// and outer iterations; and the floor where incremental multipliers stop, those of XPBD, a rival, too.
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +9,7 @@
 #include "harness/files.h"
 #include "harness/judges.h"
 #include "harness/measure.h"
+#include "names.h"
 #include "scenes/mesh_file.h"
 #include "scenes/standard.h"
 #include "studies/experiments.h"
@@ -65,7 +66,26 @@ std::vector<Solver> solvers(bool full) {
           {"plain", "nesterov_jacobi", budget, 50},
           {"plain", "jacobi", budget / 4, 50},
           {"incremental", "direct", 60, 10},
-          {"incremental", "gauss_seidel", 20 * budget / 4, 1}};
+          {"incremental", "gauss_seidel", 20 * budget / 4, 1},
+          {"rival", "xpbd", 20 * budget / 4, 1}};
+}
+
+/// A step by a solver; of a rival an iteration is a sweep.
+Trace trace_of(const Problem& problem, const State& start, const Solver& solver, const Points& exact) {
+  constexpr double tolerance = 1e-12;
+  if (solver.outer == "rival") {
+    const auto& rival = find_named(rivals::rivals(), "rival", solver.relaxation);
+    Trace trace = measure_once(problem.scene, start, problem.h, rival, {tolerance, solver.max_outer}, exact);
+    for (TracePoint& point : trace.points) point.sweeps = point.outer_iterations;
+    return trace;
+  }
+  Method method;
+  method.outer = solver.outer;
+  method.relaxation = solver.relaxation;
+  method.tolerance = tolerance;
+  method.max_outer = solver.max_outer;
+  method.max_sweeps = solver.max_sweeps;
+  return measure_once(problem.scene, start, problem.h, method, exact);
 }
 
 std::string solver_name(const Solver& solver) {
@@ -93,13 +113,7 @@ void dual_vs_primal(Context& context) {
     const State start = start_of(problem);
     const auto exact = truth(problem.scene, start, problem.h);
     for (const auto& solver : methods) {
-      Method method;
-      method.outer = solver.outer;
-      method.relaxation = solver.relaxation;
-      method.tolerance = 1e-12;
-      method.max_outer = solver.max_outer;
-      method.max_sweeps = solver.max_sweeps;
-      const Trace trace = measure_once(problem.scene, start, problem.h, method, exact.x);
+      const Trace trace = trace_of(problem, start, solver, exact.x);
       const auto status = std::string(status_names[static_cast<std::size_t>(trace.report.status)]);
       const auto write = [&](Table& table, const TracePoint& point) {
         table.row({problem.mesh, problem.elements, problem.material.young, problem.material.poisson,

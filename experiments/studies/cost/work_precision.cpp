@@ -100,6 +100,7 @@ void method_points(const Case& each, const State& start, const Points& exact, co
 void rival_points(const Case& each, const State& start, const Points& exact, int max_iterations,
                   Table& table) {
   for (const auto& rival : rivals::rivals()) {
+    if (!rival.solves_step) continue;
     const auto solve = [&](double tolerance) {
       return measure_once(each.scene, start, each.h, rival, {tolerance, max_iterations}, exact);
     };

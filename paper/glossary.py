@@ -12,7 +12,7 @@ WORDS = {
     "`proximal`": "`plain` with a mass matrix raised by a bound of the geometric stiffness; ours",
     "`quasi_newton`": "one constant matrix a scene and a memory of past iterates; for compliant rows",
     "`auto`": "the default: `quasi_newton` for compliant solids, else `plain` where it is predicted to contract, else `proximal`",
-    "`incremental`": "classic position based dynamics, and XPBD: increments along the directions of their iteration",
+    "`incremental`": "classic position based dynamics: increments along the directions of their iteration, much as XPBD's",
     "`frozen`": "one linearisation a step: velocity time stepping",
     "relaxation": "what solves the linearised step, by sweeps over its rows or by a factorisation",
     "`gauss_seidel`": "one row or block after the other, each at once in force",

@@ -207,7 +207,7 @@ class Report(unittest.TestCase):
         sample.write_run(self.directory, "trajectories")
         told = practised(Results(self.directory).table("trajectories", "runs"))
         # To 0.01 ten iterations are the quickest method of both scenes; of velocity steps there are none.
-        self.assertIn("(`incremental`), reach an error of 0.01 in 2 of 2 scenes that tell it (as the quickest in 2, in 1 times", told)
+        self.assertIn("(`incremental`, a sweep's rows linearised together), reach an error of 0.01 in 2 of 2 scenes that tell it (as the quickest in 2, in 1 times", told)
         self.assertIn("(`frozen`), reach an error of 0.01 in 0 of 2 scenes that tell it,", told)
 
     def test_failures_are_counted_by_method_without_their_numbers(self):

@@ -45,7 +45,7 @@ def errors(frame):
     shared_legend(fig, axes)
     ends = frame.sort_values("sweeps").groupby(MATERIAL + ["elements"] + METHOD, sort=False).tail(1)
     finding(fig, f"Traces that end within {number(REACHED)} of the energy's minimum: " + solved_by(ends))
-    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental and XPBD stay. {left}" +
+    footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental and xpbd stay. {left}" +
              reasons_note(failed(ends, "error")))
     return fig
 

@@ -1,5 +1,6 @@
 #include "rivals/potential.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -209,7 +210,7 @@ void Potential::sweep(const Eigen::RowVectorXd& inverse_mass, double h, std::vec
       const auto& node = group.node[i];
       const Nodes<Element::nodes> local = gather<Element>(x, node);
       Nodes<Element::nodes> slope;
-      const double size = std::sqrt(2 * group.element[i].energy(local, slope));
+      const double size = std::sqrt(2 * std::max(0.0, group.element[i].energy(local, slope)));
       if (size == 0 && *own == 0) continue;
       const double value = side(group.element[i], local) * size;
       slope /= value != 0 ? value : 1;  // of the value; zero where the energy's own is

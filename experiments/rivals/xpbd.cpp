@@ -45,7 +45,7 @@ class Xpbd final : public Rival {
   Potential potential_;
   Point now_;
   Points before_;
-  std::vector<double> multiplier_;  // of the elements, J s^2
+  std::vector<double> multiplier_;  // of the elements, sqrt(J) s^2
 };
 
 }  // namespace

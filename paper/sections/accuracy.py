@@ -33,7 +33,7 @@ def dual_vs_primal(results):
         "Is the dual solution the primal one?",
         "Regularised constraints [@servin2006interactive] are the dual form of an elasticity problem. Does relaxation "
         "reach the minimum of the incremental potential, found by Newton's method on the energy?",
-        paragraphs=["`xpbd` is a rival: XPBD as engines do it [@macklin2016xpbd], from no multipliers, one row sqrt(2 U) a tetrahedron. Its sweeps are the "
+        paragraphs=["`xpbd` is a rival: XPBD as engines do it [@macklin2016xpbd], from no multipliers, one row sqrt(2 U) a tetrahedron where `incremental` has six strains. Its sweeps are the "
                     "quickest, and end beside the solution, since what they add up was moved along the directions of all the places on the way."],
         figures=[
             Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "

@@ -40,7 +40,7 @@ def absent_text(absent):
                  "it was seen to be far apart.")
     if len(there["idle"]):
         told += (" What is listed without a consequence changes it by " + listed(there["idle"], change, "`{effect}` with {case}") +
-                 ". A limit has a row, which each sweep visits, from where bodies may come to it within four steps.")
+                 ". A limit has a row, which each sweep visits, from where bodies may come to it within four steps, and up to 32 steps after that.")
     if len(there["used"]):
         told += f" Probes of each kind but those of joints take {span(change[there['used'].index])} % more of a step of small bodies, without writing them."
     differ = absent[absent["entries_that_differ"] > 0]

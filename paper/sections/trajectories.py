@@ -58,7 +58,7 @@ def outcomes(runs):
             f"{number(deep['penetration_m'].max()) if len(deep) else 'no number of'} m.")
 
 
-PRACTISED = {"incremental": "increments of positions from zero impulses, as XPBD [@macklin2016xpbd] takes them (`incremental`),",
+PRACTISED = {"incremental": "increments of positions from zero impulses, much as XPBD [@macklin2016xpbd] takes them (`incremental`, a sweep's rows linearised together),",
              "frozen": "velocity steps, as projected Gauss-Seidel takes them (`frozen`),"}
 
 

@@ -48,14 +48,13 @@ auto Constraint<AngleJoint>::geometric_bound(const AngleJoint& effect, std::size
                         impulse[0] * twist.to.cross(twist.gradient), a, b);
 }
 
-/// g moves by at most 2 turn in a's frame, by a part p of its length turns the angle by -log(1 - p) at most,
-/// and that is no more than 2 log(2) p up to p = 1/2. From pi on c is on the limit's other side.
+/// g moves by at most 2 turn in a's frame, by a part p of its length turns the angle by asin(p) at most, and
+/// that is no more than pi/3 p up to p = 1/2, pi/6. From pi on c is on the limit's other side.
 Approach Constraint<AngleJoint>::approach(const AngleJoint& effect, std::size_t i, const Positions& at,
                                           double gap) {
-  constexpr double half = std::numbers::ln2;  // -log(1 - 1/2)
   const Twist twist(effect, i, *at.body[0], *at.body[1]);
-  const double left = std::min({gap, period / 2 - gap, half});
-  return {.by_turn = 2 * half * 2 / (std::sqrt(twist.squared) * left),
+  const double left = std::min({gap, period / 2 - gap, std::numbers::pi / 6});
+  return {.by_turn = 2 * std::numbers::pi / 3 / (std::sqrt(twist.squared) * left),
           .by_time = std::abs(effect.rate[i]) / left};
 }
 

@@ -6,8 +6,9 @@
 // Only the stiffening part counts (tension, not compression): B = 0 where p = 0. An effect whose stiffness
 // depends on a rest shape states its positions, rest(effect, i). One whose rows leave directions free may
 // state that stiffness itself, geometric_stiffness(effect, i, x, p, convex): -sum_r p_r d2c_r/dx2 (N s/m),
-// all of it, or what of it is positive semidefinite. One whose forces may have bounds states how quickly its
-// bodies come to a stop, approach(effect, i, x, gap), which is `gap` (of c, above 0) away there.
+// all of it, or what of it is positive semidefinite. One whose forces may have bounds states
+// approach(effect, i, x, gap): how much of `gap`, the way of c to its stop (above 0), its bodies close by a
+// metre, a unit of turn and a second.
 #pragma once
 
 #include <Eigen/Core>

@@ -77,6 +77,17 @@ class EffectRows final : public Source {
     return false;
   }
 
+  void add_bodies_that_wait(std::vector<bool>& body) const override {
+    if constexpr (has_bounds)
+      for (std::size_t i = 0; i < constraint_count(effect_); ++i)
+        if (waiting_.waits(i))
+          for (const int own : C::body(effect_, i)) body[static_cast<std::size_t>(own)] = true;
+  }
+
+  void take_effect() override {
+    if constexpr (has_bounds) waiting_.take(effect_);
+  }
+
   bool call_all(const std::vector<double>& inverse_mass, BlockSpan blocks) override {
     bool others = false;
     if constexpr (has_bounds)

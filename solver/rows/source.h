@@ -210,6 +210,12 @@ class Source {
   /// Gives those rows, too; true if there are any.
   virtual bool call_all(const std::vector<double>& /*inverse_mass*/, BlockSpan) { return false; }
 
+  /// Marks the bodies of those.
+  virtual void add_bodies_that_wait(std::vector<bool>& /*body*/) const {}
+
+  /// The effect has been replaced where it stands, while nothing waits.
+  virtual void take_effect() {}
+
   /// Finds rows anew where the iterate went farther than was thought of, which is solved to
   /// `StepBegin::tolerance`, or something overlaps that no row tells of; they are to be linearised again
   /// then.

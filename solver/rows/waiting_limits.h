@@ -21,9 +21,15 @@ class WaitingLimits {
   void allocate(const E& effect, const std::vector<std::size_t>& entries) {
     entries_ = entries;
     waits_.assign(constraint_count(effect), false);
+    take(effect);
+  }
+
+  /// Takes bounds and bodies of the effect, while nothing waits.
+  void take(const E& effect) {
     one_sided_.clear();
+    to_look_ = 1;
     std::vector<int> bodies;
-    for (const std::size_t entry : entries) {
+    for (const std::size_t entry : entries_) {
       const auto& [lower, upper] = effect.bounds[entry];
       if ((lower == 0) == (upper == 0)) continue;
       one_sided_.push_back(entry);
@@ -92,19 +98,24 @@ class WaitingLimits {
     return effect.bounds[entry][0] == 0 ? value[0] : -value[0];
   }
 
-  /// Rows of what does not wait; those that had one keep their impulses.
+  /// Rows of what does not wait; those that had one keep what is in it.
   bool put(const Scene& scene, const E& effect, const std::vector<double>& inverse_mass,
            const std::vector<bool>& waits, Block& block) {
     if (waits == waits_) return false;
-    std::vector<typename C::Value> impulse(waits.size(), C::Value::Zero());
-    for (std::size_t i = 0; i < block.size(); ++i) impulse[block.entry(i)] = block.impulse[i];
+    const Block before = block;
     block.entries = entries_;
     std::erase_if(block.entries, [&](std::size_t entry) { return waits[entry]; });
     block.resize(block.entries.size());
     block.bounds.resize(block.size());
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    for (std::size_t i = 0, k = 0; i < block.size(); ++i) {
       block.node[i] = columns_of(scene, effect, block.entries[i]);
-      block.impulse[i] = impulse[block.entries[i]];
+      while (k < before.size() && before.entry(k) < block.entries[i]) ++k;
+      if (k == before.size() || before.entry(k) != block.entries[i]) continue;
+      block.impulse[i] = before.impulse[k];
+      block.jacobian[i] = before.jacobian[k];
+      block.bias[i] = before.bias[k];
+      block.compliance.set(i, before.compliance.factor(k));
+      block.inverse_diagonal[i] = before.inverse_diagonal[k];
     }
     if (block.size() == waits.size()) block.entries.clear();
     block.divide(inverse_mass, block.chunks.threads);

@@ -24,7 +24,7 @@ Wandered SeenBodies::wandered(const Configuration& to) const {
   for (std::size_t k = 0; k < pose_.size(); ++k) {
     const Pose &from = pose_[k], &now = to.pose[body_[k]];
     way = larger(way, (now.x - from.x).squaredNorm());
-    turn = larger(turn, (now.rotation - from.rotation).squaredNorm());
+    turn = larger(turn, (now.rotation - from.rotation).squaredNorm() / 2);  // singular values: two, and 0
   }
   return {std::sqrt(way), std::sqrt(turn), std::abs(to.time - time_)};
 }
@@ -40,7 +40,7 @@ Wandered SeenBodies::free_motion(const StepBegin& begin) const {
     const Vec3 arc = motion(begin.bodies.column(body));
     angle = larger(angle, (begin.at.pose[body].turn_per_arc * arc).squaredNorm());
   }
-  return {std::sqrt(way), std::sqrt(2 * angle), map.h};  // |R' - R|^2 = 8 sin(angle/2)^2
+  return {std::sqrt(way), std::sqrt(angle), map.h};  // |R' - R| = 2 sin(angle/2)
 }
 
 }  // namespace pbd

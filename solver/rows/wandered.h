@@ -13,7 +13,7 @@ struct StepBegin;
 /// The farthest ways of some bodies.
 struct Wandered {
   double way = 0;   // m, of a centre of mass
-  double turn = 0;  // the Frobenius norm of a rotation's change: no unit vector's end goes farther
+  double turn = 0;  // norm of a rotation's change: no unit vector's end goes farther
   double time = 0;  // s
 };
 

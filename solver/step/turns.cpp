@@ -6,12 +6,13 @@
 namespace pbd {
 namespace {
 
-/// Of each body: whether a row acts on its rotation that is no contact's.
+/// Of each body: whether a row acts on its rotation that is no contact's, or a limit waits for it.
 std::vector<bool> held_rotations(const StepSystem& system) {
   const Bodies& bodies = system.problem.bodies;
   std::vector<bool> held(static_cast<std::size_t>(bodies.count()), false);
   for (const Slot& slot : system.slots) {
     if (slot.source->kind().contacts) continue;
+    slot.source->add_bodies_that_wait(held);
     for_each_block(slot.view(system.rows), [&](const auto& block) {
       for (const auto& columns : block.node)
         for (const int column : columns)

@@ -172,16 +172,18 @@ void Workspace::change(std::size_t index, const Effect& effect) {
   const auto& slots = data_->system.slots;
   const auto slot =
       std::find_if(slots.begin(), slots.end(), [&](const Slot& own) { return own.effect == index; });
+  StepSystem& system = data_->system;
+  if (slot != slots.end() && slot->source->call_all(system.problem.inverse_mass, slot->blocks(system.rows)))
+    ++system.rows.generation;
   effects[index] = effect;  // in place: the sources refer to it
   try {
     validate_effect(data_->scene, index);
     data_->system.problem.implicit_gyroscopic =
         implicit_gyroscopic(data_->scene, data_->history.integrator());
     if (slot == slots.end()) return;
-    if (slot->source->call_all(data_->system.problem.inverse_mass, slot->blocks(data_->system.rows)))
-      ++data_->system.rows.generation;
     const auto source = make_source(data_->scene, effects[index], Friction::coulomb);
-    if (source->kind() != slot->source->kind() || !same_hard(before, effect) ||
+    if (source->kind() != slot->source->kind() || damped(before) != damped(effect) ||
+        !same_hard(before, effect) ||
         !same_rows(*source, data_->history.integrator().explicit_forces, slot->view(data_->system.rows)))
       throw SetupError(
           where, name,
@@ -190,6 +192,7 @@ void Workspace::change(std::size_t index, const Effect& effect) {
     effects[index] = before;
     throw;
   }
+  slot->source->take_effect();
   if (same_stiffness(before, effect)) return;
   ++data_->system.rows.generation;
   forget(data_->system.solver);
@@ -223,7 +226,7 @@ std::vector<double> Workspace::impulses(std::size_t index) const {
 std::vector<double> Workspace::forces(std::size_t index) const {
   std::vector<double> flat = impulses(index);
   const double s = data_->system.problem.map.s;
-  for (double& each : flat) each = s > 0 ? each / s : 0.0;  // before the first step there is none
+  for (double& each : flat) each /= s > 0 ? s : 1;  // before the first step there are none
   return flat;
 }
 

@@ -158,7 +158,7 @@ Scene linked_rods(double more, double compliance, const std::optional<ForceBound
   return scene;
 }
 
-/// The rods with limits: ropes that are never near being taut, and rows whose impulses are cut to no bounds.
+/// The rods with limits: ropes that are never near being taut, and rows whose bounds are infinite.
 void add_limits(std::vector<Added>& all) {
   constexpr double soft = 1e-3;  // m/N
   const std::string name(BodyDistance::name);

@@ -69,7 +69,8 @@ class EffectRows final : public Source {
         others = true;
         if (is_angle) keep_values(effect_, begin, block);
       }
-    return others ? Widened::others : Widened::no;
+    if (!others) return Widened::no;
+    return is_angle ? Widened::others_from_start : Widened::others;
   }
 
   bool waits(std::size_t constraint) const override {

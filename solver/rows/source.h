@@ -107,8 +107,9 @@ inline constexpr double pressed_speed = 1e-3;
 /// stops, at limits always.
 enum class Impact : std::uint8_t { none, rebound, stop };
 
-/// Whether rows have been found anew, and whether they connect other columns than before.
-enum class Widened : std::uint8_t { no, alike, others };
+/// Whether rows have been found anew, whether they connect other columns than before, and whether the iterate
+/// has gone where these do not tell how it came.
+enum class Widened : std::uint8_t { no, alike, others, others_from_start };
 
 using BlockSpan = std::span<AnyBlock>;
 using ConstBlockSpan = std::span<const AnyBlock>;

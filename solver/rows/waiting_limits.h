@@ -63,20 +63,23 @@ class WaitingLimits {
     return put(scene, effect, begin.inverse_mass, waits, block);
   }
 
-  /// Calls those that a solved iterate has passed; true if there are any.
+  /// Calls those that a solved iterate has passed, of angles all that it may have; true if there are any.
   bool call(const Scene& scene, const E& effect, const StepBegin& begin, const Configuration& reached,
             Block& block) {
-    if (waiting_ == 0 || approach_.part(seen_.wandered(reached)) < 1) return false;
+    if (waiting_ == 0) return false;
+    const Wandered step = seen_.way_of_step(begin, reached.x);
+    if (approach_.part(seen_.wandered(begin.at) + step) < 1) return false;
     std::vector<bool> waits = waits_;
     for (const std::size_t entry : one_sided_) {
       if (!waits[entry]) continue;
       const auto columns = columns_of(scene, effect, entry);
-      const auto at = [&](const Configuration& place) {
-        return typename C::Value(open(effect, entry, local_at(effect, entry, columns, place)));
-      };
-      typename C::Value gap = at(reached);
-      unwrap<E>(at(begin.at), gap);
-      waits[entry] = gap[0] > 0;
+      if constexpr (is_angle<E>) {
+        const auto start = local_at(effect, entry, columns, begin.at);
+        const double gap = open(effect, entry, start);
+        waits[entry] = gap > 0 && C::approach(effect, entry, start, gap).part(step) < 1;
+      } else {
+        waits[entry] = open(effect, entry, local_at(effect, entry, columns, reached)) > 0;
+      }
     }
     return put(scene, effect, begin.inverse_mass, waits, block);
   }

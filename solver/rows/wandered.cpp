@@ -29,18 +29,28 @@ Wandered SeenBodies::wandered(const Configuration& to) const {
   return {std::sqrt(way), std::sqrt(turn), std::abs(to.time - time_)};
 }
 
-Wandered SeenBodies::free_motion(const StepBegin& begin) const {
-  const StepMap& map = begin.map;
-  const auto motion = [&](Eigen::Index column) {
-    return Vec3(map.x0.col(column) + map.d * map.v_free.col(column) - begin.at.x.col(column));
-  };
+/// to(column) is where a column ends.
+template <class At>
+Wandered SeenBodies::way(const StepBegin& begin, At&& to) const {
   double way = 0, angle = 0;  // squared
   for (const int body : body_) {
-    way = larger(way, motion(begin.bodies.node(body)).squaredNorm());
-    const Vec3 arc = motion(begin.bodies.column(body));
+    const Eigen::Index node = begin.bodies.node(body), rotation = begin.bodies.column(body);
+    way = larger(way, (to(node) - begin.at.x.col(node)).squaredNorm());
+    const Vec3 arc = to(rotation) - begin.at.x.col(rotation);
     angle = larger(angle, (begin.at.pose[body].turn_per_arc * arc).squaredNorm());
   }
-  return {std::sqrt(way), std::sqrt(angle), map.h};  // |R' - R| = 2 sin(angle/2)
+  return {std::sqrt(way), std::sqrt(angle), begin.map.h};  // |R' - R| = 2 sin(angle/2)
+}
+
+Wandered SeenBodies::way_of_step(const StepBegin& begin, const Points& to) const {
+  return way(begin, [&](Eigen::Index column) -> Vec3 { return to.col(column); });
+}
+
+Wandered SeenBodies::free_motion(const StepBegin& begin) const {
+  const StepMap& map = begin.map;
+  return way(begin, [&](Eigen::Index column) -> Vec3 {
+    return map.x0.col(column) + map.d * map.v_free.col(column);
+  });
 }
 
 }  // namespace pbd

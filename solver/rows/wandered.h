@@ -50,10 +50,16 @@ class SeenBodies {
   /// NaN where a number is.
   Wandered wandered(const Configuration& to) const;
 
-  /// Of a step: where it leads by its free motion.
+  /// From where a step begins to `to`, of all columns: by its arcs, which a whole turn does not take back.
+  Wandered way_of_step(const StepBegin& begin, const Points& to) const;
+
+  /// The same to where the step leads by its free motion.
   Wandered free_motion(const StepBegin& begin) const;
 
  private:
+  template <class At>
+  Wandered way(const StepBegin& begin, At&& to) const;
+
   std::vector<int> body_;   // each once
   std::vector<Pose> pose_;  // of these
   double time_ = 0;         // s

@@ -153,17 +153,17 @@ StepBegin History::step_begin(const Problem& problem, const Configuration& start
           .after_miss = after_miss()};
 }
 
-bool History::widen(StepSystem& system, double tolerance) const {
+Widened History::widen(StepSystem& system, double tolerance) const {
   const Configuration start = system.problem.start();
   StepBegin begin = step_begin(system.problem, start, start, start);
   begin.tolerance = tolerance;
   begin.solved = tolerance <= system.problem.method.tolerance;
   const Configuration reached{system.at.x, system.at.poses, system.problem.x_time};
-  bool widened = false;
+  Widened widened = Widened::no;
   for (Slot& slot : system.slots) {
     const Widened found = slot.source->widen(begin, reached, slot.blocks(system.rows));
-    widened |= found != Widened::no;
-    if (found == Widened::others) ++system.rows.generation;
+    if (found >= Widened::others) ++system.rows.generation;
+    widened = std::max(widened, found);
   }
   return widened;
 }

@@ -19,9 +19,8 @@ class History {
   /// the map of implicit Euler.
   bool begin_again_if_struck(StepSystem& system);
 
-  /// Lets sources find rows anew that the iterate calls for, which is solved to a tolerance of the scale:
-  /// true if one did, perhaps the same rows.
-  bool widen(StepSystem& system, double tolerance) const;
+  /// Lets sources find rows anew that the iterate calls for, which is solved to a tolerance of the scale.
+  Widened widen(StepSystem& system, double tolerance) const;
 
   /// Lowers the share of its way to the iterate that each column may go, so that nothing passes what it
   /// begins apart from where ways are looked at; true if any is lower.

@@ -57,6 +57,7 @@ struct StepRun {
   bool settle_here(bool stalled);
   bool stalls();
   bool looks_early();
+  bool widen(double tolerance);
   bool find_other_rows();
   void begin_rows();
   void begin_iteration();
@@ -118,10 +119,17 @@ bool StepRun::looks_early() {
   return looked;
 }
 
-/// Finds rows that the solved iterate calls for; true if there are any.
+/// Finds rows that an iterate calls for which is solved to a tolerance; true if there are any. Where they do
+/// not tell how it came where it is, the iterate begins anew.
+bool StepRun::widen(double tolerance) {
+  const Widened found = w.history.widen(w.system, tolerance);
+  if (found == Widened::others_from_start) begin_iteration();
+  return found != Widened::no;
+}
+
+/// True if the solved iterate calls for other rows.
 bool StepRun::find_other_rows() {
-  return w.history.widen(w.system, w.method.tolerance) ||
-         collide(w.system, w.method.tolerance * progress.scale);
+  return widen(w.method.tolerance) || collide(w.system, w.method.tolerance * progress.scale);
 }
 
 /// The step begins, with these rows, at the iterate.
@@ -163,7 +171,7 @@ void StepRun::solve(const Observer& observer) {
       report.reason = "a joint turns a body over or by more than half a turn, which it cannot tell from less";
     }
     if (ended) break;
-    if (solved_anew < w.method.max_outer && looks_early() && w.history.widen(system, nearly(w.method))) {
+    if (solved_anew < w.method.max_outer && looks_early() && widen(nearly(w.method))) {
       ++solved_anew;
       forget(w.outer);
       begin_rows();

@@ -337,3 +337,31 @@ TEST_CASE("a limit that waits is called before it is reached where no iterate is
   CHECK(state.x(0, scene.bodies[static_cast<std::size_t>(body)].node) == Approx(1).epsilon(1e-9));
   CHECK(rows <= 50 + 8);  // it rests for 50 steps, and 4 of both bodies are 8 of one
 }
+
+TEST_CASE("a stop that waits holds a ball that friction turns past it by a whole turn in a step") {
+  constexpr double most = 1;  // rad
+  const auto down =
+      GENERATE(9.6, 9.8, 10.04, 10.4);  // m/s; friction makes 25 rad/s of each, at 1/40 s a turn
+  pbdcheck::BodyScene build({.friction = 1});
+  build.ground();
+  const int ball = build.ball(0.1, 1, {Vec3(0, 0, 0.101), Eigen::Quaterniond::Identity(), Vec3(0, 0, -down)});
+  Scene scene = build.finish();
+  for (Effect& effect : scene.effects)
+    if (auto* contact = std::get_if<Contact>(&effect))
+      contact->collider[0].surface_velocity = Vec3(400, 0, 0);
+  const Vec3 y = Vec3::UnitY(), x = Vec3::UnitX();
+  scene.effects.emplace_back(
+      AngleJoint{{{add_world(scene), ball}}, {y}, {{x, x}}, {-most}, {0}, {0}, {}, idle_above_0});
+  INFO(down << " m/s");
+  for (const std::string integrator : {"implicit_euler", "bdf2", "newmark", "generalised_alpha"}) {
+    INFO(integrator);
+    Method method;
+    method.integrator = integrator;
+    Workspace workspace(scene, method);
+    State state = scene.initial;
+    CHECK(step(workspace, 0.025, state).status == Status::ok);
+    const Vec3 turned = state.orientation[static_cast<std::size_t>(ball)] * x;
+    CHECK(std::atan2(-turned.z(), turned.x()) >= -most - 1e-6);
+    CHECK(workspace.forces(scene.effects.size() - 1).at(0) > 0);
+  }
+}

@@ -305,8 +305,10 @@ TEST_CASE("a limit that is made a motor between steps drives from then on") {
   scene.effects.emplace_back(slide);
   Workspace workspace(scene, {});
   State state = scene.initial;
-  CHECK(step(workspace, waiting_step_s, state).status == Status::ok);
-  CHECK(workspace.forces(0) == std::vector<double>{0});
+  if (GENERATE(true, false)) {
+    CHECK(step(workspace, waiting_step_s, state).status == Status::ok);
+    CHECK(workspace.forces(0) == std::vector<double>{0});
+  }
   slide.bounds = {{-5, 5}};
   slide.rest_position = {2};
   workspace.change(0, slide);

@@ -21,17 +21,19 @@ Nodes<Element::nodes> gather(const Points& x, const std::array<int, Element::nod
   return local;
 }
 
-/// The sign of an element's value whose energy is half its square: of what has two sides.
+/// The sign of an element's value whose energy is half its square, and has this gradient: of what has two
+/// sides.
 template <class Element>
-double side(const Element&, const Nodes<Element::nodes>&) {
+double side(const Element&, const Nodes<Element::nodes>&, const Nodes<Element::nodes>&) {
   return 1;
 }
-double side(const SpringElement& spring, const Nodes<2>& x) {
-  return (x.col(1) - x.col(0)).norm() < spring.length ? -1 : 1;
+double side(const SpringElement&, const Nodes<2>& x, const Nodes<2>& gradient) {
+  return gradient.col(1).dot(x.col(1) - x.col(0)) < 0 ? -1 : 1;
 }
-double side(const HingeElement& hinge, const Nodes<4>& x) {
-  Nodes<4> unused;
-  return hinge.angle(x, unused) < 0 ? -1 : 1;
+/// The angle falls where its third node goes along the normal there.
+double side(const HingeElement&, const Nodes<4>& x, const Nodes<4>& gradient) {
+  const Vec3 normal = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0));
+  return gradient.col(2).dot(normal) > 0 ? -1 : 1;
 }
 
 /// Shape gradients and constants of a simplex from its edges at rest in D dimensions (m).
@@ -212,7 +214,7 @@ void Potential::sweep(const Eigen::RowVectorXd& inverse_mass, double h, std::vec
       Nodes<Element::nodes> slope;
       const double size = std::sqrt(2 * std::max(0.0, group.element[i].energy(local, slope)));
       if (size == 0 && *own == 0) continue;
-      const double value = side(group.element[i], local) * size;
+      const double value = side(group.element[i], local, slope) * size;
       slope /= value != 0 ? value : 1;  // of the value; zero where the energy's own is
       double mobility = compliance;
       for (int a = 0; a < Element::nodes; ++a)

@@ -14,7 +14,8 @@ def dual(final):
     return Finding(
         judge(len(near) == len(ours), len(near) == len(solved) > 0, f"steps that are solved, {share(len(solved), len(ours))}"),
         f"`plain` with `nesterov_jacobi`, the paper's method, ends at the primal minimum to {span(near['error'])} in "
-        f"{share(len(near), len(ours))} runs. `incremental` ends at {span(others['error'])}, XPBD with one row a tetrahedron at {span(xpbd['error'])} after {span(xpbd['sweeps'])} sweeps.",
+        f"{share(len(near), len(ours))} runs. `incremental` ends at {span(others['error'])}, XPBD with one row a tetrahedron at "
+        f"{span(xpbd['error'])} after {span(xpbd['sweeps'])} sweeps.",
         share(len(near), len(ours)), f"{len(ours)} of {len(ours)} within 1e-8")
 
 

@@ -33,8 +33,9 @@ def dual_vs_primal(results):
         "Is the dual solution the primal one?",
         "Regularised constraints [@servin2006interactive] are the dual form of an elasticity problem. Does relaxation "
         "reach the minimum of the incremental potential, found by Newton's method on the energy?",
-        paragraphs=["`xpbd` is a rival: XPBD as engines do it [@macklin2016xpbd], from no multipliers, one row sqrt(2 U) a tetrahedron where `incremental` has six strains. Its sweeps are the "
-                    "quickest, and end beside the solution, since what they add up was moved along the directions of all the places on the way."],
+        paragraphs=["`xpbd` is a rival: XPBD as engines do it [@macklin2016xpbd]. It begins without multipliers, and has one row sqrt(2 U) a "
+                    "tetrahedron where `incremental` has six strains. It ends beside the solution, since its corrections were made along the "
+                    "directions of all places on the way."],
         figures=[
             Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
                    "of the step, over the sweeps, at the middle stiffness of each mesh and strain."),

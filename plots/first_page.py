@@ -56,9 +56,11 @@ def unused(absent):
         return None
     dearest = empty.loc[empty["change"].abs().idxmax()]
     chart, ax = plt.subplots(figsize=SIZE)
-    ax.barh([f"{len(empty)} effects, empty (the dearest)", *others["name"]], [dearest["change"], *others["change"]], height=0.6,
-            color=[GREEN, *[BLUE] * len(others)])
+    changes = [dearest["change"], *others["change"]]
+    bars = ax.barh([f"{len(empty)} effects, empty (the dearest)", *others["name"]], changes, height=0.6, color=[GREEN, *[BLUE] * len(others)])
+    ax.bar_label(bars, [number(change) for change in changes], padding=2, fontsize=6)
     ax.set_xscale("symlog", linthresh=1)
+    ax.margins(x=0.15)
     ax.set(xlabel="change of a step's time (%)")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.tick_params(axis="y", labelsize=6)

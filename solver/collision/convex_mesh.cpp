@@ -10,6 +10,8 @@ void convex_mesh(const RoundedPolyhedron& a, const ClosedMesh& b, const ContactW
   pair.nodes();
   pair.edges();
   pair.nodes_of_mesh();
+  if (writer.least() < -pair.flush - a.radius) return;
+  pair.nodes_inside();
   write_overlap(pair);
 }
 

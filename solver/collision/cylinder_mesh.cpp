@@ -8,16 +8,15 @@
 namespace pbd {
 namespace {
 
-/// How deep the edge is below the cap or the side that is nearest to its deepest point, m.
-double below_part(const Segment& edge, const PlacedCylinder::Place& deepest, const PlacedCylinder& cylinder) {
+/// How deep the edge is below the caps or the side, whichever is least, m.
+double below_parts(const Segment& edge, const PlacedCylinder& cylinder) {
   const Vec3 from = edge.from - cylinder.centre;
   const double height = cylinder.axis.dot(from), rise = cylinder.axis.dot(edge.along);
-  if (deepest.part == PlacedCylinder::Part::cap)
-    return cylinder.half - std::min(deepest.end * height, deepest.end * (height + rise * edge.length));
+  const double other = height + rise * edge.length, low = std::min(height, other), high = std::max(height, other);
   const Vec3 across = from - height * cylinder.axis, along = edge.along - rise * cylinder.axis;
   const double bent = along.squaredNorm();
   const double arc = bent > 0 ? std::clamp(-across.dot(along) / bent, 0.0, edge.length) : 0.0;
-  return cylinder.radius - (across + arc * along).norm();
+  return std::min({cylinder.half - low, cylinder.half + high, cylinder.radius - (across + arc * along).norm()});
 }
 
 /// Of an edge whose point y is in the cylinder: across it and the rim next to y, if both are lowest along
@@ -34,8 +33,10 @@ bool write_across_rim(const Segment& edge, const Vec3& y, double most, int numbe
   const double gap = normal.dot(y - on_rim);
   if (end * normal.dot(cylinder.axis) < 0 || -gap > most || !lowest(normal)) return false;
   const auto key = writer.key(Feature::edge, number, Feature::rim, end + 1);
-  if (!write_beside_rim(edge, 0, y, cylinder, end, -infinity, key, writer, lowest))
-    writer.write(on_edges(y, edge.along, 0, on_rim, tangent, 0, normal), key, gap);
+  if (write_beside_rim(edge, 0, y, cylinder, end, -most, key, writer, lowest)) return true;
+  const ContactPoint crossing = on_edges(y, edge.along, 0, on_rim, tangent, 0, normal);
+  if (!(cylinder.place(touching(crossing, {}, {}).point_a).distance <= rounding * cylinder.size())) return false;
+  writer.write(crossing, key, gap);
   return true;
 }
 
@@ -77,15 +78,16 @@ double write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cy
   const auto lowest = [&](const Vec3& apart) {
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
-  const bool level = at.part == PlacedCylinder::Part::cap && lowest(at.normal) &&
+  // Of a level edge rounding tells whether it is nearest to the cap or, where it leaves that, to the rim.
+  const bool level = at.part != PlacedCylinder::Part::side && lowest(at.end * cylinder.axis) &&
                      write_across_cap(all, at, j, cylinder, writer, lowest);
   if (at.distance <= 0) {
-    const double most = below_part(all, at, cylinder) + rounding * cylinder.size();
+    const double most = below_parts(all, cylinder) + rounding * cylinder.size();
     const bool told = write_across_rim(all, all.at(arc), most, j, cylinder, writer, lowest);
     return told || level ? 0 : -at.distance;
   }
   write_where_it_leaves(all, 0, j, cylinder, writer, lowest);
-  if (arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
+  if (!level && arc > 0 && arc < length && at.part == PlacedCylinder::Part::rim && lowest(at.normal))
     writer.exchanged().write(rim_on_line(cylinder, at.end, at.nearest, all.at(arc), along, 0),
                              writer.key(Feature::edge, j, Feature::rim, at.end + 1), at.distance);
   return 0;

@@ -93,7 +93,7 @@ bool MeshPair::write_flush(int node) const {
 
 void MeshPair::nodes() const {
   const auto write = [&](int i, const MeshPlace& at) {
-    if (mesh_a == nullptr || lies_above(i, direction(b, at, a.node(i))))
+    if (lies_above(i, direction(b, at, a.node(i))))
       write_place(a.node(i), a.radius, i, b, at, writer);
   };
   for (int i = 0; i < a.node_count(); ++i) {

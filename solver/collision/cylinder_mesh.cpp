@@ -56,7 +56,7 @@ bool write_across_cap(const Segment& edge, const PlacedCylinder::Place& nearest,
   bool any = false;
   for (const int sign : {-1, 1}) {
     const double s = middle + sign * std::sqrt(left / sine_squared);
-    if (!(s > 0 && s < edge.length)) continue;
+    if (!(s > 0 && s < edge.length) || cylinder.end_at(edge.at(s)) != nearest.end) continue;
     const auto key = writer.key(Feature::edge, number, Feature::cap, crossed_cap(nearest.end, sign));
     any |= write_beside_rim(edge, 0, edge.at(s), cylinder, nearest.end,
                             nearest.distance - rounding * cylinder.size(), key, writer, lowest);
@@ -78,8 +78,12 @@ double write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cy
   const auto lowest = [&](const Vec3& apart) {
     return minimum(edge, along, -apart, writer.reach.turn, [&](int f) { return mesh.solid.faces[f].normal; });
   };
-  // Of a level edge rounding tells whether it is nearest to the cap or, where it leaves that, to the rim.
-  const bool level = at.part != PlacedCylinder::Part::side && lowest(at.end * cylinder.axis) &&
+  // Of a level edge rounding tells whether it is nearest to the cap or, where it leaves that, to the rim or
+  // the side.
+  const double above_cap = at.end * cylinder.axis.dot(all.at(arc) - cylinder.centre) - cylinder.half;
+  const bool at_cap = at.part != PlacedCylinder::Part::side ||
+                      above_cap >= at.distance - rounding * cylinder.size();
+  const bool level = at_cap && lowest(at.end * cylinder.axis) &&
                      write_across_cap(all, at, j, cylinder, writer, lowest);
   if (at.distance <= 0) {
     const double most = below_parts(all, cylinder) + rounding * cylinder.size();

@@ -12,11 +12,13 @@ namespace {
 double below_parts(const Segment& edge, const PlacedCylinder& cylinder) {
   const Vec3 from = edge.from - cylinder.centre;
   const double height = cylinder.axis.dot(from), rise = cylinder.axis.dot(edge.along);
-  const double other = height + rise * edge.length, low = std::min(height, other), high = std::max(height, other);
+  const double other = height + rise * edge.length, low = std::min(height, other),
+               high = std::max(height, other);
   const Vec3 across = from - height * cylinder.axis, along = edge.along - rise * cylinder.axis;
   const double bent = along.squaredNorm();
   const double arc = bent > 0 ? std::clamp(-across.dot(along) / bent, 0.0, edge.length) : 0.0;
-  return std::min({cylinder.half - low, cylinder.half + high, cylinder.radius - (across + arc * along).norm()});
+  return std::min(
+      {cylinder.half - low, cylinder.half + high, cylinder.radius - (across + arc * along).norm()});
 }
 
 /// Of an edge whose point y is in the cylinder: across it and the rim next to y, if both are lowest along
@@ -35,7 +37,8 @@ bool write_across_rim(const Segment& edge, const Vec3& y, double most, int numbe
   const auto key = writer.key(Feature::edge, number, Feature::rim, end + 1);
   if (write_beside_rim(edge, 0, y, cylinder, end, -most, key, writer, lowest)) return true;
   const ContactPoint crossing = on_edges(y, edge.along, 0, on_rim, tangent, 0, normal);
-  if (!(cylinder.place(touching(crossing, {}, {}).point_a).distance <= rounding * cylinder.size())) return false;
+  if (!(cylinder.place(touching(crossing, {}, {}).point_a).distance <= rounding * cylinder.size()))
+    return false;
   writer.write(crossing, key, gap);
   return true;
 }
@@ -81,10 +84,10 @@ double write_edge_beside(const ClosedMesh& mesh, int j, const PlacedCylinder& cy
   // Of a level edge rounding tells whether it is nearest to the cap or, where it leaves that, to the rim or
   // the side.
   const double above_cap = at.end * cylinder.axis.dot(all.at(arc) - cylinder.centre) - cylinder.half;
-  const bool at_cap = at.part != PlacedCylinder::Part::side ||
-                      above_cap >= at.distance - rounding * cylinder.size();
-  const bool level = at_cap && lowest(at.end * cylinder.axis) &&
-                     write_across_cap(all, at, j, cylinder, writer, lowest);
+  const bool at_cap =
+      at.part != PlacedCylinder::Part::side || above_cap >= at.distance - rounding * cylinder.size();
+  const bool level =
+      at_cap && lowest(at.end * cylinder.axis) && write_across_cap(all, at, j, cylinder, writer, lowest);
   if (at.distance <= 0) {
     const double most = below_parts(all, cylinder) + rounding * cylinder.size();
     const bool told = write_across_rim(all, all.at(arc), most, j, cylinder, writer, lowest);

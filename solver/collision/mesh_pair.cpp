@@ -93,8 +93,7 @@ bool MeshPair::write_flush(int node) const {
 
 void MeshPair::nodes() const {
   const auto write = [&](int i, const MeshPlace& at) {
-    if (lies_above(i, direction(b, at, a.node(i))))
-      write_place(a.node(i), a.radius, i, b, at, writer);
+    if (lies_above(i, direction(b, at, a.node(i)))) write_place(a.node(i), a.radius, i, b, at, writer);
   };
   for (int i = 0; i < a.node_count(); ++i) {
     MeshPlace nearest{};

@@ -140,8 +140,9 @@ struct CylinderPair {
   }
 
   void rims(int f, double floor) const {
+    const auto above = [&](const Vec3& x) { return a.above(f, x, tiny); };
     write_rims(b, a.node(a.corner(f, 0)), a.face_normal(f), a.radius, Feature::face, f, floor,
-               writer.exchanged(), [&](const Vec3& x) { return a.above(f, x, tiny); });
+               writer.exchanged(), above, above);
   }
 
   /// What the best direction says, wherever its features end.

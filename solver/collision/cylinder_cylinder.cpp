@@ -41,9 +41,9 @@ void write_rim_point(const PlacedCylinder& a, int end, double angle, int number,
 void rims_on_cylinder(const PlacedCylinder& a, const PlacedCylinder& b, double floor,
                       const ContactWriter& writer) {
   const double slack = rounding * (a.size() + b.size());
+  const auto over = [&](const Vec3& x) { return (x - b.centre).cross(b.axis).norm() <= b.radius + slack; };
   for (const int end : {-1, 1})
-    write_rims(a, b.cap(end), end * b.axis, 0, Feature::cap, end + 1, floor, writer,
-               [&](const Vec3& x) { return (x - b.centre).cross(b.axis).norm() <= b.radius + slack; });
+    write_rims(a, b.cap(end), end * b.axis, 0, Feature::cap, end + 1, floor, writer, over, over);
   for (const int end : {-1, 1}) {
     const NearestAngles angles = nearest_angles(a, end, b, writer.reach.margin);
     const bool side = (a.on_rim(end, angles.angle[0]) - a.cap(end)).dot(b.axis) > 0;

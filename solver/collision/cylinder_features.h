@@ -3,11 +3,13 @@
 // called for every point.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "collision/contact_writer.h"
 #include "collision/placed_cylinder.h"
+#include "collision/tolerances.h"
 
 namespace pbd {
 
@@ -69,19 +71,28 @@ void write_deepest_rim(const PlacedCylinder& a, const Vec3& on_plane, const Vec3
                        int j, const ContactWriter& writer);
 
 /// Cylinder a's rim at `end` and, where that disc faces the plane, eight of its points against b's plane,
-/// where `above` says that a point is over b's face, gaps at least `floor` (m).
-template <class Above>
+/// where `above` says that a point is over b's face, gaps at least `floor` (m). The deepest point of a disc
+/// that leans by no more than it turns goes anywhere round the rim, which `around` must say of a point.
+template <class Above, class Around>
 void write_rims(const PlacedCylinder& a, const Vec3& on_plane, const Vec3& normal, double radius_b,
-                Feature feature, int j, double floor, const ContactWriter& writer, Above&& above) {
+                Feature feature, int j, double floor, const ContactWriter& writer, Above&& above,
+                Around&& around) {
   constexpr double facing = 0.7;  // cosine: discs at less than 45 degrees to the plane
+  const auto on_rim = [&](int end, int k) { return a.on_rim(end, 2 * std::numbers::pi * k / rim_points); };
+  const auto holds_all = [&](int end) {
+    for (int k = 0; k < rim_points; ++k)
+      if (!around(on_rim(end, k))) return false;
+    return true;
+  };
+  const bool level = a.axis.cross(normal).norm() <= std::max(writer.reach.turn, rounding);
   for (const int end : {-1, 1}) {
     const ContactPoint contact = on_plane_by_rim(a, end, on_plane, normal, radius_b);
     const Touching rim = touching(contact, {}, {});
-    if (rim.gap >= floor && above(rim.point_a))
+    if (rim.gap >= floor && above(rim.point_a) && (!level || holds_all(end)))
       writer.write(contact, writer.key(Feature::rim, rim_point(end, rim_points), feature, j), rim.gap);
     if (-end * a.axis.dot(normal) < facing) continue;
     for (int k = 0; k < rim_points; ++k) {
-      const Vec3 point = a.on_rim(end, 2 * std::numbers::pi * k / rim_points);
+      const Vec3 point = on_rim(end, k);
       const double gap = normal.dot(point - on_plane) - radius_b;
       if (gap >= floor && above(point))
         writer.write(on_face(point, 0, on_plane, normal, radius_b),

@@ -137,11 +137,18 @@ void cylinder_mesh(const Cylinder& cylinder, const ClosedMesh& b, const ContactW
     const auto& nodes = b.surface.triangles[triangle];
     const Vec3 on_plane = b.surface.x.col(nodes[0]);
     const double above = face.normal.dot(a.centre - on_plane), support = a.support(face.normal);
+    const auto over_face = [&](const Vec3& x) {
+      if (nearest_of_triangle(b, triangle, x).feature != MeshPlace::Feature::face) return false;
+      return is_nearest(b, x, face.normal.dot(x - on_plane), tiny);
+    };
+    const auto over_plane = [&](const Vec3& x) {
+      const double over = face.normal.dot(x - on_plane);
+      MeshPlace place{};
+      return nearest_of_mesh(b, x, std::abs(over) + tiny, place) && std::abs(place.distance - over) <= tiny;
+    };
     if (above >= 0)
-      write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, [&](const Vec3& x) {
-        if (nearest_of_triangle(b, triangle, x).feature != MeshPlace::Feature::face) return false;
-        return is_nearest(b, x, face.normal.dot(x - on_plane), tiny);
-      });
+      write_rims(a, on_plane, face.normal, 0, Feature::face, triangle, -support, writer, over_face,
+                 over_plane);
     for (const int node : nodes) {
       const Vec3 y = b.surface.x.col(node);
       const PlacedCylinder::Place at = a.place(y);

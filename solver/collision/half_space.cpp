@@ -13,8 +13,9 @@ void polyhedron_half_space(const RoundedPolyhedron& a, const ContactWriter& writ
 }
 
 void cylinder_half_space(const Cylinder& a, const ContactWriter& writer) {
+  const auto anywhere = [](const Vec3&) { return true; };
   write_rims(PlacedCylinder(a, writer.frame_a), writer.frame_b.origin, writer.frame_b.rotation.col(2), 0,
-             Feature::face, 0, -infinity, writer, [](const Vec3&) { return true; });
+             Feature::face, 0, -infinity, writer, anywhere, anywhere);
 }
 
 }  // namespace pbd

@@ -57,6 +57,9 @@ bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const P
   const Touching found = touching(contact, {}, {});
   const double arc = edge.along.dot(found.point_b - edge.from);
   if (!(found.gap >= floor && arc >= 0 && arc <= edge.length)) return false;
+  // Next to y there may be no nearest place.
+  const Vec3 apart = found.point_a - found.point_b;
+  if (!((apart - found.gap * found.normal).norm() <= rounding * b.size())) return false;
   if (!b.is_beside_rim(end, found.point_a, -found.normal) || !minimum(Vec3(-found.normal))) return false;
   writer.exchanged().write(contact, key, found.gap);
   return true;

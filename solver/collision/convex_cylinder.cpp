@@ -208,8 +208,10 @@ struct CylinderPair {
     if (best.apart <= 0) side_axes(best);
     if (best.apart >= limit) return;
     for (int i = 0; i < a.node_count(); ++i) {
-      const auto part = b.place(a.node(i)).part;
-      if (part != PlacedCylinder::Part::rim) write_point(a.node(i), a.radius, Feature::node, i, b, writer);
+      const PlacedCylinder::Place at = b.place(a.node(i));
+      if (at.part == PlacedCylinder::Part::rim || at.distance > limit) continue;
+      if (at.distance <= 0 || a.rises_from(i, at.normal, tilted + writer.reach.turn))
+        write_point(a.node(i), a.radius, Feature::node, i, b, writer);
     }
     if (face.apart > -infinity) rims(face.i, best.apart - a.radius - tiny);
     edges(best);

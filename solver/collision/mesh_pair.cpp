@@ -8,9 +8,6 @@
 namespace pbd {
 namespace {
 
-/// Faces of two meshes that are tilted by less touch with all their corners (rad, as that of a crossing).
-constexpr double tilted = crossing_sine;
-
 Feature feature(MeshPlace::Feature of) {
   if (of == MeshPlace::Feature::face) return Feature::face;
   return of == MeshPlace::Feature::edge ? Feature::edge : Feature::node;
@@ -64,12 +61,7 @@ bool lowest_about(const ClosedMesh& mesh, int node, const Vec3& normal, double s
 bool MeshPair::lies_above(int node, const Vec3& normal) const {
   if (mesh_a != nullptr)
     return lowest_about(*mesh_a, node, writer.frame_a.rotation.transpose() * normal, tilted + turn);
-  for (int e = 0; e < a.edge_count(); ++e) {
-    const auto& ends = a.edge(e).node;
-    if (ends[0] != node && ends[1] != node) continue;
-    if ((ends[0] == node ? 1 : -1) * normal.dot(a.along[e]) < -(tilted + turn)) return false;
-  }
-  return true;
+  return a.rises_from(node, normal, tilted + turn);
 }
 
 bool MeshPair::write_flush(int node) const {

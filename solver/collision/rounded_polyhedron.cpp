@@ -79,4 +79,13 @@ bool RoundedPolyhedron::above(int f, const Vec3& x, double slack) const {
   return true;
 }
 
+bool RoundedPolyhedron::rises_from(int node, const Vec3& normal, double slope) const {
+  for (int e = 0; e < edge_count(); ++e) {
+    const auto& ends = edge(e).node;
+    if (ends[0] != node && ends[1] != node) continue;
+    if ((ends[0] == node ? 1 : -1) * normal.dot(along[e]) < -slope) return false;
+  }
+  return true;
+}
+
 }  // namespace pbd

@@ -38,6 +38,10 @@ struct RoundedPolyhedron {
 
   /// That the point, moved along the face's normal, is on the face, to `slack` (m).
   bool above(int f, const Vec3& point, double slack) const;
+
+  /// That each edge from the node rises along the normal, or falls less than by `slope` (sine): of a node
+  /// that is nearest to what is below.
+  bool rises_from(int node, const Vec3& normal, double slope) const;
 };
 
 }  // namespace pbd

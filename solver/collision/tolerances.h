@@ -13,6 +13,9 @@ inline constexpr double rounding = 1e-9;
 /// the angle ten times as much as on the edges' places.
 inline constexpr double crossing_sine = 0.1;
 
+/// Faces that are tilted by less touch with all their corners (rad, as that of a crossing).
+inline constexpr double tilted = crossing_sine;
+
 /// The sine of the angle of a rim's tangent and an edge or another rim's up to which they are parallel: their
 /// product tells no normal of them.
 inline constexpr double parallel_to_rim = 1e-3;

@@ -97,6 +97,33 @@ TEST_CASE("a ball of triangles on a plate of triangles gets the impulse that sto
   CHECK(state.x(2, 1) >= 0.93 * radius);  // no lower than one on a face of a twice refined octahedron
 }
 
+TEST_CASE("what comes flush over a mesh's border without friction keeps its speed") {
+  constexpr double width = 1, size = 0.4, speed = 1, h = 0.01;  // m, m/s, s
+  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh", "cylinder");
+  const bool fine = GENERATE(false, true);
+  const TriangleMesh table = box_surface(Vec3::Constant(width)), cube = box_surface(Vec3::Constant(size));
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  for (int draw = 0; draw < 5; ++draw) {
+    BodyScene build({.friction = 0});
+    build.fixed(ClosedMesh(fine ? refined(table) : table), {Vec3::Zero()});
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(uniform(engine), Vec3::UnitZ()));
+    const double inside = 0.1 + 0.08 * uniform(engine);  // m, of the centre: it overhangs, and does not tip
+    const Placing at{{-width / 2 + inside, 0.2 * uniform(engine), (width + size) / 2},
+                     turned,
+                     speed * Vec3(1, uniform(engine), 0)};
+    if (kind == "box") build.box(Vec3::Constant(size), 1, at);
+    if (kind == "hull") build.hull(ConvexHull(cube), 10, at);
+    if (kind == "mesh") build.mesh(ClosedMesh(cube), 10, at);
+    if (kind == "cylinder") build.cylinder(size / 2, size, 1, at);
+    const Scene scene = build.finish();
+    INFO(kind << ", fine " << fine << ", draw " << draw);
+    const State end = run(scene, contact_method("direct"), h, 30);
+    CHECK((end.v.col(1) - at.velocity).norm() <= 1e-9 * speed);
+    CHECK(end.spin.col(1).norm() * size <= 1e-9 * speed);
+  }
+}
+
 TEST_CASE("of a cloud of balls no pair overlaps after a step") {
   constexpr double radius = 0.1;
   constexpr int count = 150;

@@ -1,0 +1,111 @@
+// Shapes that lie flush on each other and overhang: the plane between them parts them wherever they slide.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "contact_shapes.h"
+#include "refined.h"
+
+using namespace pbd;
+using namespace pbd::test;
+
+namespace {
+
+/// With flat faces at z = +-size/2, m.
+Shape block(const std::string& kind, double size) {
+  const TriangleMesh cube = box_surface(Vec3::Constant(size));
+  if (kind == "box") return Box{Vec3::Constant(size)};
+  if (kind == "hull") return ConvexHull(cube);
+  if (kind == "cylinder") return Cylinder{size / 2, size};
+  return ClosedMesh(kind == "mesh" ? cube : refined(cube));
+}
+
+}  // namespace
+
+TEST_CASE("what slides flush on a shape is not held by what is beside it") {
+  constexpr double reach = 0.01, width = 1, size = 0.4;  // m
+  constexpr double rounded = 1e-12;                      // m
+  const auto above = GENERATE(as<std::string>(), "box", "hull", "mesh", "refined mesh", "cylinder");
+  const auto below = GENERATE(as<std::string>(), "box", "hull", "mesh", "refined mesh", "cylinder");
+  const Shape slider = block(above, size), table = block(below, width);
+  Random random(41);
+  int lying = 0;
+  for (int draw = 0; draw < 100; ++draw) {
+    const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(random.uniform(0, 2 * std::acos(-1.0)), Vec3::UnitZ()).toRotationMatrix();
+    const double most = (width + size) / 2, lift = draw % 2 == 0 ? 0.0 : random.uniform(-1e-15, 1e-15);
+    const Frame at{{random.uniform(-most, most), random.uniform(-most, most), (width + size) / 2 + lift},
+                   turned};
+    for (const bool first : {true, false}) {
+      INFO(above << " on " << below << ", draw " << draw << ", first " << first);
+      const auto found =
+          first ? contacts(slider, at, table, {}, reach) : contacts(table, {}, slider, at, reach);
+      std::vector<Touching> touching;
+      for (const ContactPoint& contact : found)
+        touching.push_back(first ? touch(contact, at, {}) : touch(contact, {}, at));
+      const bool lies = std::any_of(touching.begin(), touching.end(),
+                                    [](const Touching& t) { return std::abs(t.gap) <= rounded; });
+      for (const Touching& t : touching)
+        CHECK((!lies || t.gap >= reach * t.normal.head<2>().norm() - rounded));
+      lying += lies ? 1 : 0;
+    }
+  }
+  CHECK(lying > 100);
+}
+
+// Its nearest place to the cap is anywhere along it but for rounding: on the cap, or on the rim or the side
+// where it leaves that.
+TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and goes out") {
+  constexpr double reach = 0.01, radius = 0.2, half = 0.2;  // m
+  constexpr double rounded = 1e-9;                          // m
+  const auto kind = GENERATE(as<std::string>(), "box", "mesh", "refined mesh");
+  const Shape table = block(kind, 1), cylinder = Cylinder{radius, 2 * half};
+  Random random(43);
+  for (int draw = 0; draw < 200; ++draw) {
+    // About the border x = 0.5 m, at z = 0.5 m, which the cap's chord of half length `chord` lies on.
+    const double over = random.uniform(0.01, 0.19), chord = std::sqrt(radius * radius - over * over);
+    const double lean = random.uniform(0.001, 0.05), spin = random.uniform(0, 6);
+    const Vec3 middle(0.5, random.uniform(-0.1, 0.1), 0.5);
+    const Eigen::Matrix3d leaning = Eigen::AngleAxisd(lean, Vec3::UnitY()).toRotationMatrix();
+    const double gap = random.uniform(-1e-11, 1e-11);  // m, as steps leave it
+    const Frame at{middle + leaning * Vec3(over, 0, half + gap),
+                   leaning * Eigen::AngleAxisd(spin, Vec3::UnitZ()).toRotationMatrix()};
+    INFO(kind << ", draw " << draw << ", over " << over << ", lean " << lean << ", gap " << gap);
+    std::array<bool, 2> held{};
+    for (const ContactPoint& contact : contacts(cylinder, at, table, {}, reach)) {
+      const Touching t = touch(contact, at, {});
+      if (std::abs(t.gap) > rounded) continue;
+      const Vec3 from = t.point_a - middle;
+      CHECK(from.norm() <= chord + rounded);  // it is in the disc
+      for (const int side : {0, 1})
+        if ((from - Vec3(0, side == 0 ? -chord : chord, 0)).norm() <= 1e-6) held[side] = true;
+    }
+    CHECK((held[0] && held[1]));
+  }
+}
+
+TEST_CASE("no point of a level disc's rim that may come beside a face is held by it") {
+  constexpr double reach = 0.01, turn = 0.01, radius = 0.2, half = 0.2, width = 1;  // m, rad
+  const auto kind = GENERATE(as<std::string>(), "box", "mesh", "refined mesh", "cylinder");
+  const Shape table = block(kind, width), cylinder = Cylinder{radius, 2 * half};
+  Random random(47);
+  CollisionScratch scratch;
+  for (int draw = 0; draw < 200; ++draw) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(random.uniform(0, 6), Vec3::UnitZ()).toRotationMatrix();
+    const Frame at{{random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2), width / 2 + half}, turned};
+    std::vector<ContactPoint> found;
+    generate(cylinder, at, table, {}, Reach{reach, turn}, scratch, found);
+    // As it leans to any side within the step.
+    const double to = random.uniform(0, 6);
+    const Frame leaning{
+        at.origin, Eigen::AngleAxisd(turn, Vec3(std::cos(to), std::sin(to), 0)).toRotationMatrix() * turned};
+    for (const ContactPoint& contact : found) {
+      const Touching t = touch(contact, leaning, {});
+      if (t.normal.z() < 0.9) continue;
+      INFO(kind << ", draw " << draw << ", touches at " << t.point_a.transpose());
+      const double beside = kind == "cylinder" ? t.point_a.head<2>().norm() - width / 2
+                                               : t.point_a.head<2>().cwiseAbs().maxCoeff() - width / 2;
+      CHECK(beside <= turn * 2 * half);  // what moves sideways as the whole leans
+    }
+  }
+}

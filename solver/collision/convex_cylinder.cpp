@@ -174,8 +174,8 @@ struct CylinderPair {
   bool write_across_rim(int edge, double arc, double apart) const {
     const Vec3 y = point(edge, arc), tangent = b.rim_tangent(y);
     const int node = end(edge, arc);
-    const Vec3 on_rim = b.rim_at(y);
     const int rim = b.end_at(y);
+    const Vec3 on_rim = b.rim_at(rim, y);
     CylinderAxis best{apart + tiny, CylinderAxis::Of::edge, -1, {}};
     for (int e = 0; e < a.edge_count(); ++e) {
       const Vec3 across = a.along[e].cross(tangent);

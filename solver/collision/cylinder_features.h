@@ -53,7 +53,7 @@ ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, co
 template <class Minimum>
 bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const PlacedCylinder& b, int end,
                       double floor, std::uint64_t key, const ContactWriter& writer, Minimum&& minimum) {
-  const ContactPoint contact = rim_on_line(b, end, b.rim_at(y), y, edge.along, radius);
+  const ContactPoint contact = rim_on_line(b, end, b.rim_at(end, y), y, edge.along, radius);
   const Touching found = touching(contact, {}, {});
   const double arc = edge.along.dot(found.point_b - edge.from);
   if (!(found.gap >= floor && arc >= 0 && arc <= edge.length)) return false;

@@ -27,8 +27,8 @@ double below_parts(const Segment& edge, const PlacedCylinder& cylinder) {
 template <class Lowest>
 bool write_across_rim(const Segment& edge, const Vec3& y, double most, int number,
                       const PlacedCylinder& cylinder, const ContactWriter& writer, Lowest&& lowest) {
-  const Vec3 tangent = cylinder.rim_tangent(y), on_rim = cylinder.rim_at(y);
   const int end = cylinder.end_at(y);
+  const Vec3 tangent = cylinder.rim_tangent(y), on_rim = cylinder.rim_at(end, y);
   Vec3 normal = edge.along.cross(tangent);
   if (!(normal.norm() > rounding)) return false;
   normal = (normal.dot(tangent.cross(cylinder.axis)) < 0 ? -1 : 1) * normal.normalized();
@@ -59,7 +59,7 @@ bool write_across_cap(const Segment& edge, const PlacedCylinder::Place& nearest,
   bool any = false;
   for (const int sign : {-1, 1}) {
     const double s = middle + sign * std::sqrt(left / sine_squared);
-    if (!(s > 0 && s < edge.length) || cylinder.end_at(edge.at(s)) != nearest.end) continue;
+    if (!(s > 0 && s < edge.length)) continue;
     const auto key = writer.key(Feature::edge, number, Feature::cap, crossed_cap(nearest.end, sign));
     any |= write_beside_rim(edge, 0, edge.at(s), cylinder, nearest.end,
                             nearest.distance - rounding * cylinder.size(), key, writer, lowest);

@@ -36,8 +36,8 @@ struct PlacedCylinder {
   Vec3 rim_tangent(const Vec3& x) const { return axis.cross(x - centre).normalized(); }
   /// The rim on x's side of the middle: 1 or -1.
   int end_at(const Vec3& x) const { return axis.dot(x - centre) < 0 ? -1 : 1; }
-  /// Of that rim, the point nearest to x; the cap's middle if x is on the axis.
-  Vec3 rim_at(const Vec3& x) const { return cap(end_at(x)) + radius * rim_tangent(x).cross(axis); }
+  /// Of the rim at `end`, the point nearest to x; the cap's middle if x is on the axis.
+  Vec3 rim_at(int end, const Vec3& x) const { return cap(end) + radius * rim_tangent(x).cross(axis); }
   Place place(const Vec3& x) const;
   /// True if the outward normal of a point of the rim at `end` is between those of side and cap, or leans out
   /// of them by no more than 0.2 rad: a turn in one step may bring it there.

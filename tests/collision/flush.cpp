@@ -65,9 +65,11 @@ TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and g
     // About the border x = 0.5 m, at z = 0.5 m, which the cap's chord of half length `chord` lies on.
     const double over = random.uniform(0.01, 0.19), chord = std::sqrt(radius * radius - over * over);
     const double lean = random.uniform(0.001, 0.05), spin = random.uniform(0, 6);
+    // As steps leave it.
+    const double gap = random.uniform(-1e-11, 1e-11), tilt = random.uniform(-1e-10, 1e-10);  // m, rad
     const Vec3 middle(0.5, random.uniform(-0.1, 0.1), 0.5);
-    const Eigen::Matrix3d leaning = Eigen::AngleAxisd(lean, Vec3::UnitY()).toRotationMatrix();
-    const double gap = random.uniform(-1e-11, 1e-11);  // m, as steps leave it
+    const Eigen::Matrix3d leaning =
+        (Eigen::AngleAxisd(tilt, Vec3::UnitX()) * Eigen::AngleAxisd(lean, Vec3::UnitY())).toRotationMatrix();
     const Frame at{middle + leaning * Vec3(over, 0, half + gap),
                    leaning * Eigen::AngleAxisd(spin, Vec3::UnitZ()).toRotationMatrix()};
     INFO(kind << ", draw " << draw << ", over " << over << ", lean " << lean << ", gap " << gap);
@@ -76,7 +78,8 @@ TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and g
       const Touching t = touch(contact, at, {});
       if (std::abs(t.gap) > rounded) continue;
       const Vec3 from = t.point_a - middle;
-      CHECK(from.norm() <= chord + rounded);  // it is in the disc
+      CHECK(std::abs(from.y()) <= chord + rounded);  // in the disc
+      CHECK(std::hypot(from.x(), from.z()) <= 1e-6);
       for (const int side : {0, 1})
         if ((from - Vec3(0, side == 0 ? -chord : chord, 0)).norm() <= 1e-6) held[side] = true;
     }

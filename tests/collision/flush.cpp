@@ -56,28 +56,36 @@ TEST_CASE("what slides flush on a shape is not held by what is beside it") {
 // Its nearest place to the cap is anywhere along it but for rounding: on the cap, or on the rim or the side
 // where it leaves that.
 TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and goes out") {
-  constexpr double reach = 0.01, radius = 0.2, half = 0.2;  // m
-  constexpr double rounded = 1e-9;                          // m
+  constexpr double reach = 0.01, turn = 0.03, radius = 0.2, half = 0.2;  // m, rad
+  constexpr double rounded = 1e-9;                                       // m
   const auto kind = GENERATE(as<std::string>(), "box", "mesh", "refined mesh");
   const Shape table = block(kind, 1), cylinder = Cylinder{radius, 2 * half};
   Random random(43);
+  CollisionScratch scratch;
+  std::vector<ContactPoint> found;
   for (int draw = 0; draw < 200; ++draw) {
     // About the border x = 0.5 m, at z = 0.5 m, which the cap's chord of half length `chord` lies on.
-    const double over = random.uniform(0.01, 0.19), chord = std::sqrt(radius * radius - over * over);
+    const double over = std::pow(10, random.uniform(-3, -0.75)),
+                 chord = std::sqrt(radius * radius - over * over);
     const double lean = random.uniform(0.001, 0.05), spin = random.uniform(0, 6);
     // As steps leave it.
-    const double gap = random.uniform(-1e-11, 1e-11), tilt = random.uniform(-1e-10, 1e-10);  // m, rad
-    const Vec3 middle(0.5, random.uniform(-0.1, 0.1), 0.5);
+    const double gap = random.uniform(-1e-15, 1e-15),
+                 tilt = (draw % 8 < 4 ? 0 : 1) * random.uniform(-1e-10, 1e-10);  // m, rad
+    const Vec3 middle(0.5, random.uniform(-0.02, 0.02), 0.5);
     const Eigen::Matrix3d leaning =
         (Eigen::AngleAxisd(tilt, Vec3::UnitX()) * Eigen::AngleAxisd(lean, Vec3::UnitY())).toRotationMatrix();
-    const Frame at{middle + leaning * Vec3(over, 0, half + gap),
-                   leaning * Eigen::AngleAxisd(spin, Vec3::UnitZ()).toRotationMatrix()};
+    const Eigen::Matrix3d border =  // or one of the other three
+        Eigen::AngleAxisd(draw % 4 * std::acos(0.0), Vec3::UnitZ()).toRotationMatrix().array().round();
+    const Frame at{border * (middle + leaning * Vec3(over, 0, half + gap)),
+                   border * leaning * Eigen::AngleAxisd(spin, Vec3::UnitZ()).toRotationMatrix()};
     INFO(kind << ", draw " << draw << ", over " << over << ", lean " << lean << ", gap " << gap);
     std::array<bool, 2> held{};
-    for (const ContactPoint& contact : contacts(cylinder, at, table, {}, reach)) {
+    found.clear();
+    generate(cylinder, at, table, {}, Reach{reach, turn}, scratch, found);
+    for (const ContactPoint& contact : found) {
       const Touching t = touch(contact, at, {});
       if (std::abs(t.gap) > rounded) continue;
-      const Vec3 from = t.point_a - middle;
+      const Vec3 from = border.transpose() * t.point_a - middle;
       CHECK(std::abs(from.y()) <= chord + rounded);  // in the disc
       CHECK(std::hypot(from.x(), from.z()) <= 1e-6);
       for (const int side : {0, 1})
@@ -87,16 +95,35 @@ TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and g
   }
 }
 
+// It leans over the border x = -0.5 m, of which an edge begins below its middle: next to the place there that
+// is nearest to the rim, no place of the rim is nearest to the edge's line.
+TEST_CASE("a rim touches an edge where they are nearest to each other, or not at all") {
+  const Shape cylinder = Cylinder{0.2, 0.4}, table = block("refined mesh", 1);
+  const double beside = GENERATE(0.009, 0.0103, 0.0104, 0.0105, 0.011);  // m
+  const Eigen::Quaterniond turned(0.95735055315549988, -0.001195631376434417, -0.0039620672679251939,
+                                  0.28889927459485698);
+  const Frame at{{-0.5149827144170851, beside, 0.69988283493415926}, turned.toRotationMatrix()};
+  int touching = 0;
+  for (const ContactPoint& contact : contacts(cylinder, at, table, {}, 0.01)) {
+    const Touching t = touch(contact, at, {});
+    if (std::abs(t.gap) > 1e-9) continue;
+    ++touching;
+    CHECK(std::hypot(t.point_a.x() + 0.5, t.point_a.z() - 0.5) <= 1e-6);
+  }
+  CHECK(touching >= 2);
+}
+
 TEST_CASE("no point of a level disc's rim that may come beside a face is held by it") {
   constexpr double reach = 0.01, turn = 0.01, radius = 0.2, half = 0.2, width = 1;  // m, rad
   const auto kind = GENERATE(as<std::string>(), "box", "mesh", "refined mesh", "cylinder");
   const Shape table = block(kind, width), cylinder = Cylinder{radius, 2 * half};
   Random random(47);
   CollisionScratch scratch;
+  std::vector<ContactPoint> found;
   for (int draw = 0; draw < 200; ++draw) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(random.uniform(0, 6), Vec3::UnitZ()).toRotationMatrix();
     const Frame at{{random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2), width / 2 + half}, turned};
-    std::vector<ContactPoint> found;
+    found.clear();
     generate(cylinder, at, table, {}, Reach{reach, turn}, scratch, found);
     // As it leans to any side within the step.
     const double to = random.uniform(0, 6);

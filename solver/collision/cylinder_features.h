@@ -53,15 +53,14 @@ ContactPoint rim_on_rim(const PlacedCylinder& a, int end, const Vec3& on_rim, co
 template <class Minimum>
 bool write_beside_rim(const Segment& edge, double radius, const Vec3& y, const PlacedCylinder& b, int end,
                       double floor, std::uint64_t key, const ContactWriter& writer, Minimum&& minimum) {
-  const ContactPoint contact = rim_on_line(b, end, b.rim_at(end, y), y, edge.along, radius);
-  const Touching found = touching(contact, {}, {});
+  const Touching found = touching(rim_on_line(b, end, b.rim_at(end, y), y, edge.along, radius), {}, {});
   const double arc = edge.along.dot(found.point_b - edge.from);
   if (!(found.gap >= floor && arc >= 0 && arc <= edge.length)) return false;
   // Next to y there may be no nearest place.
   const Vec3 apart = found.point_a - found.point_b;
   if (!((apart - found.gap * found.normal).norm() <= rounding * b.size())) return false;
   if (!b.is_beside_rim(end, found.point_a, -found.normal) || !minimum(Vec3(-found.normal))) return false;
-  writer.exchanged().write(contact, key, found.gap);
+  writer.exchanged().write(rim_on_line(b, end, found.point_a, y, edge.along, radius), key, found.gap);
   return true;
 }
 

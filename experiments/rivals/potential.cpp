@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "error.h"
@@ -170,6 +171,43 @@ void Potential::attach(const BlockCholesky& matrix) {
                                          : typename Group<Element>::Target{b, a, {}};
           if (block(target->b) >= 0) target->slot = matrix.slot(block(target->a), block(target->b));
         }
+    }
+  });
+}
+
+void Potential::attach_nodes(int nodes) {
+  for_each(groups_, [&](auto& group) {
+    group.first.assign(static_cast<std::size_t>(nodes) + 1, 0);
+    const auto each_corner = [&](auto&& visit) {
+      for (std::size_t i = 0; i < group.node.size(); ++i)
+        for (std::size_t a = 0; a < group.node[i].size(); ++a)
+          visit(static_cast<std::size_t>(group.node[i][a]), static_cast<int>(i), static_cast<int>(a));
+    };
+    each_corner([&](std::size_t node, int, int) { ++group.first[node + 1]; });
+    std::partial_sum(group.first.begin(), group.first.end(), group.first.begin());
+    group.corner.resize(static_cast<std::size_t>(group.first.back()));
+    std::vector<int> next(group.first.begin(), group.first.end() - 1);
+    each_corner([&](std::size_t node, int element, int local) {
+      group.corner[static_cast<std::size_t>(next[node]++)] = {element, local};
+    });
+  });
+}
+
+void Potential::add_at(int node, const Points& x, Vec3& gradient, Mat3& stiffness) const {
+  const auto own = static_cast<std::size_t>(node);
+  for_each(groups_, [&]<class Element>(const Group<Element>& group) {
+    for (int k = group.first[own]; k < group.first[own + 1]; ++k) {
+      const auto& [i, a] = group.corner[static_cast<std::size_t>(k)];
+      const auto element = static_cast<std::size_t>(i);
+      const auto local = gather<Element>(x, group.node[element]);
+      if constexpr (requires { group.element[element].add_at(local, a, gradient, stiffness); }) {
+        group.element[element].add_at(local, a, gradient, stiffness);
+      } else {
+        Nodes<Element::nodes> slope;
+        group.element[element].energy(local, slope);
+        gradient += slope.col(a);
+        stiffness += group.element[element].stiffness(local, false)(a, a);
+      }
     }
   });
 }

@@ -9,7 +9,8 @@
 
 namespace pbd::rivals {
 
-/// All elements of one kind. The elements' nodes, and where the blocks of their stiffness go.
+/// All elements of one kind. The elements' nodes, where the blocks of their stiffness go, and which of them a
+/// node has.
 template <class Element>
 struct Group {
   static constexpr std::size_t nodes = Element::nodes;
@@ -20,6 +21,11 @@ struct Group {
   std::vector<Element> element;
   std::vector<std::array<int, nodes>> node;
   std::vector<std::array<Target, nodes*(nodes + 1) / 2>> target;
+  struct Corner {
+    int element, local;
+  };
+  std::vector<Corner> corner;  // node after node
+  std::vector<int> first;      // of a node's corners; one more at the end
 
   void add(const std::array<int, nodes>& nodes_of_it, const Element& it) {
     node.push_back(nodes_of_it);
@@ -46,6 +52,10 @@ class Potential {
   /// Adds d2U/dx2 (N/m), every element's part made positive semidefinite if `projected`.
   void add_stiffness(const Points& x, bool projected, BlockCholesky& matrix) const;
   std::size_t elements() const;
+  /// Makes ready for `add_at`.
+  void attach_nodes(int nodes);
+  /// Adds dU/dx (N) and d2U/dx2 (N/m) of one node.
+  void add_at(int node, const Points& x, Vec3& gradient, Mat3& stiffness) const;
   /// A sweep of XPBD (xpbd.h) over all elements, with the inverse masses of the nodes (1/kg).
   void sweep(const Eigen::RowVectorXd& inverse_mass, double h, std::vector<double>& multiplier,
              Points& x) const;

@@ -1,12 +1,14 @@
 #include "rivals/rival.h"
 
 #include "rivals/newton.h"
+#include "rivals/vbd.h"
 #include "rivals/xpbd.h"
 
 namespace pbd::rivals {
 
 std::span<const NamedRival> rivals() {
-  static constexpr std::array<NamedRival, 2> list{{{"newton", newton, true}, {"xpbd", xpbd, false}}};
+  static constexpr std::array<NamedRival, 3> list{
+      {{"newton", newton, true}, {"vbd", vbd, true}, {"xpbd", xpbd, false}}};
   return list;
 }
 

@@ -69,7 +69,7 @@ struct NamedRival {
   bool solves_step;  // it comes to any tolerance, in enough iterations
 };
 
-/// newton, xpbd.
+/// newton, vbd, xpbd.
 std::span<const NamedRival> rivals();
 
 }  // namespace pbd::rivals

@@ -79,9 +79,8 @@ struct CorotationalElement : Simplex<3> {
   double energy(const Positions& x, Positions& gradient) const {
     const Mat3 F = x * shape.transpose();
     const Polar p = polar(F);
-    const double pressure = lambda * (p.stretch.sum() - 3);
-    gradient.noalias() = (2 * mu * (F - p.rotation) + pressure * p.rotation) * shape;
-    return mu * (p.stretch.array() - 1).square().sum() + pressure * (p.stretch.sum() - 3) / 2;
+    gradient.noalias() = stress(F, p) * shape;
+    return mu * (p.stretch.array() - 1).square().sum() + pressure(p) * (p.stretch.sum() - 3) / 2;
   }
   /// t_k; where sigma_i + sigma_j = 0 the energy has a kink, and the sum is bounded from below.
   Vec3 twists(const Vec3& stretch, bool projected) const {
@@ -90,8 +89,13 @@ struct CorotationalElement : Simplex<3> {
     const Vec3 t = (lambda * (stretch.sum() - 3) - 2 * mu) * sums.cwiseInverse();
     return projected ? Vec3(t.cwiseMax(-mu)) : t;
   }
-  auto stiffness(const Positions& x, bool projected) const {
-    const Polar p = polar(x * shape.transpose());
+
+ private:
+  double pressure(const Polar& p) const { return lambda * (p.stretch.sum() - 3); }
+  Mat3 stress(const Mat3& F, const Polar& p) const {
+    return 2 * mu * (F - p.rotation) + pressure(p) * p.rotation;
+  }
+  auto stiffness(const Polar& p, bool projected) const {
     const Positions r = p.rotation * shape;
     const Mat3 turned = p.rotation * p.axes;  // R n_k
     const Mat3 twist = turned * twists(p.stretch, projected).asDiagonal() * turned.transpose();
@@ -105,12 +109,23 @@ struct CorotationalElement : Simplex<3> {
     };
   }
 
- private:
   /// Columns u x m_j.
   static Mat3 cross_columns(const Vec3& u, const Mat3& m) {
     Mat3 result;
     for (int j = 0; j < 3; ++j) result.col(j) = u.cross(m.col(j));
     return result;
+  }
+
+ public:
+  auto stiffness(const Positions& x, bool projected) const {
+    return stiffness(polar(x * shape.transpose()), projected);
+  }
+  /// Adds the gradient and the block of node a, by one polar decomposition.
+  void add_at(const Positions& x, int a, Vec3& gradient, Mat3& block) const {
+    const Mat3 F = x * shape.transpose();
+    const Polar p = polar(F);
+    gradient += stress(F, p) * shape.col(a);
+    block += stiffness(p, false)(a, a);
   }
 };
 

@@ -176,7 +176,8 @@ TEST_CASE("what the rival cannot do is refused") {
 }
 
 TEST_CASE("the list of rivals") {
-  REQUIRE(rivals::rivals().size() == 2);
+  REQUIRE(rivals::rivals().size() == 3);
   CHECK(rivals::rivals()[0].name == "newton");
-  CHECK(rivals::rivals()[1].name == "xpbd");
+  CHECK(rivals::rivals()[1].name == "vbd");
+  CHECK(rivals::rivals()[2].name == "xpbd");
 }

@@ -35,7 +35,7 @@ def errors(frame):
     for ax, ((scene, strain, young), rows) in zip(axes, groups):
         for (outer, relaxation), trace in rows.groupby(METHOD, sort=False):
             curve(ax, trace, "sweeps", "error", f"{outer}, {relaxation}", look(outer, relaxation))
-            if outer in ("incremental", "rival") and (trace["status"] != "ok").all():
+            if (outer == "incremental" or relaxation == "xpbd") and (trace["status"] != "ok").all():
                 draw_floor(ax, trace)
         ax.set_xscale("symlog", linthresh=1)
         ax.set(xlim=(-0.3, None), yscale="log", title=f"{scene}, {strain}, E = {text_number(young)} Pa")

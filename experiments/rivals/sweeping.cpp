@@ -28,7 +28,7 @@ Report Sweeping::step(State& state, const Budget& budget, const Observer& observ
     timed(seconds, [&] { sweep(now_.x); });
     constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();
     if (!((now_.x - before_).cwiseAbs().maxCoeff() <= rounded * now_.x.cwiseAbs().maxCoeff())) continue;
-    report.reason = "sweeps change nothing beside the solution";
+    report.reason = "sweeps change nothing more";
     break;
   }
   if (report.status != Status::diverged) step_.end(now_.x, state);

@@ -10,12 +10,14 @@ def dual(final):
     solved = ours[ours["status"] == "ok"]
     near = good(ours, "error")
     near = near[near["error"] <= 1e-8]
-    others, xpbd = (final[final["outer"] == outer] for outer in ("incremental", "rival"))
+    others = final[final["outer"] == "incremental"]
+    xpbd, vbd = (final[final["relaxation"] == rival] for rival in ("xpbd", "vbd"))
     return Finding(
         judge(len(near) == len(ours), len(near) == len(solved) > 0, f"steps that are solved, {share(len(solved), len(ours))}"),
         f"`plain` with `nesterov_jacobi`, the paper's method, ends at the primal minimum to {span(near['error'])} in "
         f"{share(len(near), len(ours))} runs. `incremental` ends at {span(others['error'])}, XPBD with one row a tetrahedron at "
-        f"{span(xpbd['error'])} after {span(xpbd['sweeps'])} sweeps.",
+        f"{span(xpbd['error'])} after {span(xpbd['sweeps'])} sweeps, vertex block descent at {span(vbd['error'])} after "
+        f"{span(vbd['sweeps'])}.",
         share(len(near), len(ours)), f"{len(ours)} of {len(ours)} within 1e-8")
 
 

@@ -35,7 +35,9 @@ def dual_vs_primal(results):
         "reach the minimum of the incremental potential, found by Newton's method on the energy?",
         paragraphs=["`xpbd` is a rival: XPBD as engines do it [@macklin2016xpbd]. It begins without multipliers, and has one row sqrt(2 U) a "
                     "tetrahedron where `incremental` has six strains. It ends beside the solution, since its corrections were made along the "
-                    "directions of all places on the way."],
+                    "directions of all places on the way.",
+                    "`vbd` is a rival on the primal side: vertex block descent [@chen2024vbd], a Newton step of the energy by one node after the "
+                    "other. It has no multipliers and comes to the solution itself, by as many sweeps as block Gauss-Seidel takes."],
         figures=[
             Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
                    "of the step, over the sweeps, at the middle stiffness of each mesh and strain."),

@@ -138,6 +138,6 @@ TEST_CASE("VBD leaves a node whose matrix is singular where it is, and refuses i
   State state = scene.initial;
   const Report report = vbd(scene, vbd_step_s)->step(state, {1e-12, 10});
   CHECK(report.status == Status::not_converged);
-  CHECK(report.reason == "sweeps change nothing beside the solution");
+  CHECK(report.reason == "sweeps change nothing more");
   CHECK((state.x - scene.initial.x).norm() == 0);
 }

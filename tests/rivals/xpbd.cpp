@@ -49,7 +49,7 @@ Ended ended(const Scene& scene, MakeRival make, double h, int iterations, double
 /// m, how far XPBD ends from Newton's solution of a step.
 double beside(const Scene& scene, double h) {
   const Ended found = ended(scene, xpbd, h, 20000);
-  CHECK(found.report.reason == "sweeps change nothing beside the solution");
+  CHECK(found.report.reason == "sweeps change nothing more");
   const Ended exact = ended(scene, newton, h, 100);
   CHECK(exact.report.status == Status::ok);
   return (found.state.x - exact.state.x).norm();

@@ -80,8 +80,8 @@ def fastest_table(frame):
     rows = [[f"`{scene}`", step_text(step), *(f"`{r['outer']}`, `{r['relaxation']}`: {number(1e3 * r['wall_s'])}" if r["outer"] else "none"
                                               for _, r in group.iterrows())]
             for (scene, step), group in quickest(frame, SHOWN).groupby(["scene", "step_s"], sort=False)]
-    return Table("Which method to take: the quickest one that reaches an error, and its wall time of a step in ms. `rival` is Newton's "
-                 "method with CHOLMOD, for scenes without hard constraints.",
+    return Table("Which method to take: the quickest one that reaches an error, and its wall time of a step in ms. `rival` is "
+                 "Newton's method with CHOLMOD or vertex block descent (`vbd`), for scenes without hard constraints.",
                  ["scene", "step", *(f"error {number(level)}" for level in SHOWN)], rows, first=True)
 
 

@@ -97,8 +97,9 @@ void method_points(const Case& each, const State& start, const Points& exact, co
   tolerance_points({each, ""}, outer.name, relaxation, solve, table);
 }
 
-void rival_points(const Case& each, const State& start, const Points& exact, int max_iterations,
-                  Table& table) {
+/// As many iterations as a plain method has sweeps in all: rivals that sweep have no inner ones.
+void rival_points(const Case& each, const State& start, const Points& exact, int max_outer, Table& table) {
+  const int max_iterations = max_outer * std::min(Method{}.max_sweeps, 4 * max_outer);
   for (const auto& rival : rivals::rivals()) {
     if (!rival.solves_step) continue;
     const auto solve = [&](double tolerance) {

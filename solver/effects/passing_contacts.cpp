@@ -96,10 +96,10 @@ bool ContactSearch::find_passed(const Pair& pair, const Configuration& start, co
 }
 
 /// Walks the way of a pair that begins apart. True where it is in each other by more than `allowed`
-/// (negative, m), between the shares `touching_` and `inside_`; if ways are not looked at, too, where it
-/// touches by features that overlap at `end` by more than that, to which it sets `overlapping_` then. A gap
-/// falls by no more than both travel, so that no smaller share needs to be looked at; what touches goes on by
-/// half a radius at most. True, and both shares 0, where the way has too many places.
+/// (negative, m), between the shares `touching_` and `inside_`; if ways are not looked at, it sets
+/// `overlapping_` to the features by which it touches there and that overlap at `end` by more than that. A
+/// gap falls by no more than both travel, so that no smaller share needs to be looked at; what touches goes
+/// on by half a radius at most. True, and both shares 0, where the way has too many places.
 bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Configuration& end,
                           double allowed, double slack) {
   const double travel = way_between(pair, start, end),
@@ -121,16 +121,13 @@ bool ContactSearch::meets(const Pair& pair, const Configuration& start, const Co
       apart_ = share;
       continue;
     }
-    const bool inside = gap < allowed;
-    if (effect_.continuous && !inside) continue;
-    if (inside) {
-      inside_ = share;
-      share = touching_ = entering(pair, start, end, std::min(pair.deepest, -slack), apart_, inside_);
-    }
+    if (!(gap < allowed)) continue;
+    inside_ = share;
+    touching_ = entering(pair, start, end, std::min(pair.deepest, -slack), apart_, inside_);
     if (effect_.continuous) return true;
-    generate_between(pair, start, end, share, 2 * slack);
+    generate_between(pair, start, end, touching_, 2 * slack);
     keep_overlapping(pair, start, end, allowed, -slack);
-    if (inside || !overlapping_.empty()) return true;
+    return true;
   }
   overlapping_.clear();
   touching_ = inside_ = 0;

@@ -131,6 +131,8 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   // What touches as they come to overlap is how they met, wherever its planes and lines lie at the start; of
   // triangles they may lie far behind.
   const double least_met = two.kind == Carrier::triangle ? behind : -infinity;
+  // What is round goes round the features that its contacts have left: these tell if nothing else does.
+  const bool goes_round = is_round(pair.collider[0]) || is_round(pair.collider[1]);
   const auto told = [&](double at, double least, bool left_too) {
     generate_between(pair, start, end, at, slack + left);
     keep_overlapping(pair, start, end, allowed, least);
@@ -145,6 +147,7 @@ bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& star
   const bool grazes = two.kind == Carrier::triangle && is_convex(pair.collider[0]) &&
                       !(pair.nearest < -slack) && gap > -effect_.thickness / 2 && travel < 2 * round;
   for (const bool left_too : {false, true}) {
+    if (!left_too && !goes_round) continue;
     if (told(apart, behind, left_too) || told(1, behind, left_too) || told(apart, least_met, left_too))
       return true;
     if ((grazes || goes_round_apart(pair, slack)) && told(1, -infinity, left_too)) return true;

@@ -320,18 +320,3 @@ TEST_CASE("a cube that comes by another one's border without touching keeps its 
   CHECK((end.v.col(1) - free).norm() <= 1e-12 * free.norm());
   CHECK((end.spin.col(1) - cube.spin).norm() <= 1e-12 * cube.spin.norm());
 }
-
-TEST_CASE(
-    "what a cube leaves as it turns over a border does not hold it, whatever the other one is made of") {
-  constexpr double h = 0.01;
-  const BesideCube cube{
-      {0.71052960684596111, 0.034685249954291203, 0.58533165561723977},
-      {1.51058, -1.48451, -1.87495},
-      {0.980783, 2.46759, -0.360221},
-      {0.74073618649861905, -0.51982269251482371, -0.34833648201836165, -0.24445033371462987},
-      0.3};
-  const State of_box = run(beside_cube(cube, "box"), contact_method("direct"), h, 1);
-  const auto table = GENERATE(as<std::string>(), "hull", "mesh");
-  const State end = run(beside_cube(cube, table), contact_method("direct"), h, 1);
-  CHECK((end.x - of_box.x).norm() <= 1e-9);
-}

@@ -66,7 +66,7 @@ using MakeRival = std::unique_ptr<Rival> (*)(const Scene& scene, double h);
 struct NamedRival {
   std::string_view name;
   MakeRival make;
-  bool solves_step;  // it comes to any tolerance, in enough iterations
+  bool solves_step;  // where it ends is the step's solution, whatever the tolerance
 };
 
 /// newton, vbd, xpbd.

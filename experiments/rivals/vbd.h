@@ -6,8 +6,9 @@
 //   x_i -= H_i^-1 dphi/dx_i,   H_i = m_i/h^2 + d2U/dx_i^2
 //
 // with the true second derivatives and no line search, as its authors' code has it; a node whose H_i is
-// singular stays. It is block Gauss-Seidel on phi: where H_i is positive definite phi falls, and sweeps come
-// to the step's solution, the slower the stiffer the scene and the finer its mesh.
+// singular stays. It is block Gauss-Seidel on phi. Near a minimum each sweep lowers phi, and sweeps come to
+// the step's solution, the slower the stiffer the scene and the finer its mesh; from afar nothing holds them
+// to that.
 #pragma once
 
 #include "rivals/rival.h"

@@ -7,8 +7,7 @@
 //
 // What sweeps end at meets c + l/h^2 = 0, but has been moved along the directions of all the places on its
 // way: it is beside the step's solution (measured: `dual_vs_primal`). So a step is `ok` only where directions
-// stay as they are; it ends where sweeps change nothing. An iteration is a sweep. Engines have no test of
-// convergence: the residual is not in the seconds.
+// stay as they are (sweeping.h).
 #pragma once
 
 #include "rivals/rival.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "error.h"
 #include "mesh.h"
+#include "rival_refusals.h"
 #include "rivals/implicit_step.h"
 #include "rivals/newton.h"
 #include "rivals/potential.h"
@@ -122,16 +122,9 @@ TEST_CASE("VBD leaves a node whose matrix is singular where it is, and refuses i
   add_node(scene, Vec3::Zero(), infinity);
   add_node(scene, Vec3(1, 0, 0), 1);
   scene.effects.emplace_back(Distance{.node = {{0, 1}}, .rest_length = {1}, .compliance = {0}});
-  const auto refusal = [&](double h) -> std::string {
-    try {
-      vbd(scene, h);
-    } catch (const SetupError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  CHECK(refusal(0.01) == "vbd: distance compliance[0]: got 0; allowed: a number > 0: no hard constraints");
-  CHECK(refusal(0).rfind("vbd: h: got 0", 0) == 0);
+  CHECK(test::refusal(vbd, scene, 0.01) ==
+        "vbd: distance compliance[0]: got 0; allowed: a number > 0: no hard constraints");
+  CHECK(test::refusal(vbd, scene, 0).rfind("vbd: h: got 0", 0) == 0);
   // Pressed together by a force equal to m/h^2 across: nothing holds the node there.
   const double inertia = 1 / (vbd_step_s * vbd_step_s);
   std::get<Distance>(scene.effects[0]) = {.node = {{0, 1}}, .rest_length = {2}, .compliance = {1 / inertia}};

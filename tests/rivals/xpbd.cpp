@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "error.h"
 #include "mesh.h"
+#include "rival_refusals.h"
 #include "rivals/newton.h"
 #include "scenes/standard.h"
 
@@ -138,16 +138,9 @@ TEST_CASE("XPBD ends nearer to a sheet's or solid's step than it begins, and say
 
 TEST_CASE("XPBD refuses what it cannot do in its own name") {
   Scene scene = sprung({Vec3(1, 0, 0)}, 1, 1, 0);
-  const auto refusal = [&](double h) -> std::string {
-    try {
-      xpbd(scene, h);
-    } catch (const SetupError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  CHECK(refusal(0.01) == "xpbd: distance compliance[0]: got 0; allowed: a number > 0: no hard constraints");
-  CHECK(refusal(0).rfind("xpbd: h: got 0", 0) == 0);
+  CHECK(test::refusal(xpbd, scene, 0.01) ==
+        "xpbd: distance compliance[0]: got 0; allowed: a number > 0: no hard constraints");
+  CHECK(test::refusal(xpbd, scene, 0).rfind("xpbd: h: got 0", 0) == 0);
   std::get<Distance>(scene.effects[1]).node[0] = {0, 99};
-  CHECK(refusal(0.01).find("a node index") != std::string::npos);
+  CHECK(test::refusal(xpbd, scene, 0.01).find("a node index") != std::string::npos);
 }

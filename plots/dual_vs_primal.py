@@ -44,7 +44,7 @@ def errors(frame):
     fig.supylabel("error against Newton on the energy, relative", fontsize=8)
     shared_legend(fig, axes)
     ends = frame.sort_values("sweeps").groupby(MATERIAL + ["elements"] + METHOD, sort=False).tail(1)
-    finding(fig, f"Traces that end within {number(REACHED)} of the energy's minimum: " + solved_by(ends))
+    finding(fig, f"Traces that are ok and end within {number(REACHED)} of the energy's minimum: " + solved_by(ends))
     footnote(fig, f"Poisson's ratio {text_number(frame['poisson'].min())}; grey: where incremental and xpbd stay. {left}" +
              reasons_note(failed(ends, "error")))
     return fig
@@ -56,10 +56,11 @@ def middle(values):
 
 
 def solved_by(ends):
-    """In how many cases each outer iteration ends at the solution."""
+    """In how many cases each outer iteration, and each rival, is ok and at the solution."""
+    names = ends["outer"].where(ends["outer"] != "rival", ends["relaxation"])
     near = good(ends, "error")
-    near = near[near["error"] <= REACHED]
-    return ", ".join(f"{outer} {share(near['outer'].eq(outer).sum(), len(rows))}" for outer, rows in ends.groupby("outer", sort=False))
+    near = names[near.index[near["error"] <= REACHED]]
+    return ", ".join(f"{name} {share(near.eq(name).sum(), len(rows))}" for name, rows in ends.groupby(names, sort=False))
 
 
 def draw_floor(ax, trace):
@@ -82,15 +83,15 @@ def final(frame):
         values[i, j] = on_log(cell["error"]) if cell["error"] <= LARGEST else np.nan
         label = text_number(cell["error"]) if np.isfinite(cell["error"]) else "none"
         dark = np.isfinite(values[i, j]) and values[i, j] < 1e-8
-        ax.text(j, i, label + ("" if cell["status"] == "ok" else " ×"), ha="center", va="center", fontsize=6,
+        ax.text(j, i, label + ("" if cell["status"] == "ok" else "×"), ha="center", va="center", fontsize=5.5,
                 color="white" if dark else "black")
     image = ax.imshow(values, norm=LogNorm(1e-12, 1), cmap="cividis", aspect="auto")
     ax.set_facecolor("#dddddd")
-    ax.set_xticks(range(len(columns)), [name.replace("_", "_\n") for name in columns], fontsize=6)
+    ax.set_xticks(range(len(columns)), [name.replace("_", "_\n") for name in columns], fontsize=5)
     ax.set_yticks(range(len(rows)), rows, fontsize=6)
     ax.grid(False)
     fig.colorbar(image, ax=ax, label="error against Newton, relative", extend="both")
-    finding(fig, f"Runs within {number(REACHED)} of the energy's minimum: " + solved_by(frame))
+    finding(fig, f"Runs that are ok and within {number(REACHED)} of the energy's minimum: " + solved_by(frame))
     footnote(fig, "In brackets the number of elements. " + reasons_note(failed(frame, "error")))
     return fig
 

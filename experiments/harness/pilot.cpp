@@ -91,9 +91,9 @@ class Growth {
     return next < past_contact() && past_contact() < untold_.duration ? past_contact() : next;
   }
 
-  /// Tells the ends of longer pilots. False if there is none. It takes `seconds` at most, twice that until
-  /// any is told, but begins one; the first one past contact and the shortest one that is not told get all
-  /// that is left.
+  /// Tells the ends of longer pilots. False if there is none. It takes `seconds` at most, but begins one.
+  /// Until any is told it takes twice that, half of what is left for each. Then the first one past contact
+  /// and the shortest one that is not told get all that is left.
   bool grows(double seconds) {
     const Stopwatch watch;
     const double before = told_.duration;
@@ -104,7 +104,8 @@ class Growth {
       const bool last = duration == untold_.duration;
       if (last && std::isnan(untold_.truth.error_bar) && untold_.truth.in_time) break;
       Pilot pilot = last ? untold_ : Pilot{.duration = duration};
-      sharpen(pilot, time(), last || duration == past_contact());
+      const bool any = told_.duration > 0;
+      sharpen(pilot, any || last ? time() : time() / 2, last || (any && duration == past_contact()));
       const bool sharp = pilot.truth.least_met() <= error_;
       if (sharp && last) untold_ = {};
       (sharp ? told_ : untold_) = std::move(pilot);

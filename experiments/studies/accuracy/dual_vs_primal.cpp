@@ -62,14 +62,25 @@ struct Solver {
 
 std::vector<Solver> solvers(bool full) {
   const int budget = full ? 1000 : 200;
+  constexpr int rival_sweeps = 10000;  // as many as gauss_seidel has in the quick tier
   return {{"plain", "direct", 200, 10},
           {"plain", "gauss_seidel", budget, 50},
           {"plain", "nesterov_jacobi", budget, 50},
           {"plain", "jacobi", budget / 4, 50},
           {"incremental", "direct", 60, 10},
           {"incremental", "gauss_seidel", 20 * budget / 4, 1},
-          {"rival", "xpbd", 20 * budget / 4, 1},
-          {"rival", "vbd", 20 * budget / 4, 1}};
+          {"rival", "xpbd", rival_sweeps, 1},
+          {"rival", "vbd", rival_sweeps, 1}};
+}
+
+/// Leaves those points out that are less than a twentieth of the sweeps behind the last one; the end stays.
+void thin(std::vector<TracePoint>& points) {
+  std::int64_t next = 0;
+  std::erase_if(points, [&](const TracePoint& point) {
+    if (point.sweeps < next && &point != &points.back()) return true;
+    next = point.sweeps + 1 + point.sweeps / 20;
+    return false;
+  });
 }
 
 /// A step by a solver; of a rival an iteration is a sweep.
@@ -79,6 +90,7 @@ Trace trace_of(const Problem& problem, const State& start, const Solver& solver,
     const auto& rival = find_named(rivals::rivals(), "rival", solver.relaxation);
     Trace trace = measure_once(problem.scene, start, problem.h, rival, {tolerance, solver.max_outer}, exact);
     for (TracePoint& point : trace.points) point.sweeps = point.outer_iterations;
+    thin(trace.points);
     return trace;
   }
   Method method;

@@ -37,8 +37,8 @@ def dual_vs_primal(results):
                     "tetrahedron where `incremental` has six strains. It ends beside the solution, since its corrections were made along the "
                     "directions of all places on the way.",
                     "`vbd` is a rival on the primal side: vertex block descent [@chen2024vbd], a Newton step of the energy by one node after the "
-                    "other. It has no multipliers: its sweeps are block Gauss-Seidel's on the energy, and where they end is the solution. In stiff "
-                    "solids they have not ended when the iterations are spent."],
+                    "other. It has no multipliers: its sweeps are block Gauss-Seidel's on the energy, and where they end is the solution, "
+                    "but for rounding: the stiffer the solid, the more sweeps it takes."],
         figures=[
             Figure("dual_vs_primal_errors", "Error against the primal Newton solution, relative to the largest displacement "
                    "of the step, over the sweeps, at the middle stiffness of each mesh and strain."),

@@ -17,6 +17,10 @@ def method_name(row):
     return f"{row['outer']} {row['relaxation']}" if row["outer"] in ("judge", "rival") else row["outer"]
 
 
+def method_look(row):
+    return style(row["relaxation" if row["outer"] == "rival" else "outer"])
+
+
 def quickest(frame, x):
     """Of each scene and outer iteration the relaxation that comes with least work to within ten times the least error that any
     reaches; one that reaches nothing only where all others do not either."""
@@ -113,7 +117,7 @@ def draw_methods(frame, x, label, names, look):
 
 def draw_points(frame, x, label):
     frame = quickest(frame, x)
-    return draw_methods(frame, x, label, frame.apply(method_name, axis=1), lambda row: style(row["outer"]))
+    return draw_methods(frame, x, label, frame.apply(method_name, axis=1), method_look)
 
 
 @figure("work_precision", "seconds", table="points")

@@ -54,6 +54,7 @@ struct ActiveContact {
   double bounce = 0;                       // e, if the shapes may collide in this step
   double restitution = 0;                  // e where they do, else 0
   double closing = 0;         // m/s, at which they approach each other where it begins; negative: part
+  bool needless = false;      // without a row, until a solved iterate brings its shapes into each other
   bool late = false;          // seen where a solved iterate ended; `target` is set there
   bool restated = false;      // features are those where a solved iterate ended; it began the step
   std::uint64_t heir_of = 0;  // of a late one, the key of a contact of its pair whose impulse it goes on with

@@ -40,6 +40,8 @@ void ContactSearch::search_pair(int first, int second, const Configuration& star
       if (!(nearest > slack)) search_meetings(first, second, start, task);
     }
   }
+  if (two.kind == Carrier::body && !is_fast(one, two))
+    find_needless(std::span(task.near).subspan(before), start, points);
   task.pairs.push_back({{first, second}, nearest, task.near.size()});
 }
 

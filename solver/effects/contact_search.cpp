@@ -156,7 +156,10 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
                                                           : triangles_rough;
     contacts[group + (contact.law.friction > 0 ? 0 : 1)].push_back(contact);
   };
+  bool needless = false;
   for (const ActiveContact& contact : near) {
+    needless |= contact.needless;
+    if (contact.needless) continue;
     const PairFeatures features{pair.collider, contact.features.key};
     if (contact.meeting || (!is_left(features) && late_contact(features) == late_.end())) add(contact);
   }
@@ -167,10 +170,11 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   const double round = round_radius_of(one, two), deepest = std::min(pair.nearest, 0.0);
   const auto of_pair = left_.lower_bound({pair.collider, 0});
   const bool left = of_pair != left_.end() && of_pair->collider == pair.collider;
-  const double depth = (left ? std::min(besides_, overlooked_) : overlooked_) * round;
+  const bool unheld = left || needless;
+  const double depth = (unheld ? std::min(besides_, overlooked_) : overlooked_) * round;
   if ((bounded || is_fast(one, two)) &&
-      (left || wary * travel * travel > 8 * round * (overlooked_ * round + deepest)))
-    far_.push_back({pair.collider, pair.nearest, deepest, depth, left,
+      (unheld || wary * travel * travel > 8 * round * (overlooked_ * round + deepest)))
+    far_.push_back({pair.collider, pair.nearest, deepest, depth, left || (needless && travel > round),
                     effect_.between(pair.collider[0], pair.collider[1]).compliance > 0});
 }
 

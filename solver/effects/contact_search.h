@@ -181,6 +181,14 @@ class ContactSearch {
   bool nearest_of_surface(const ActiveContact& contact, const Configuration& at) const;
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
+  // Contacts that another plane makes needless: needless_contacts.cpp.
+  double apart_along(const std::array<int, 2>& pair, const Vec3& normal) const;
+  void add_to_planes(const Touching& contact, const std::array<int, 2>& pair, double overlooked,
+                     PairPoints& points) const;
+  bool find_parting(PairPlane plane, const std::array<int, 2>& pair, double overlooked,
+                    PairPoints& points) const;
+  void find_needless(std::span<ActiveContact> contacts, const Configuration& start, PairPoints& points) const;
+
   // Late contacts: late_contacts.cpp, passing_contacts.cpp for ways, and meetings.cpp for what meets on them.
   // The way between is straight, and turns by one angular velocity.
   static Vec3 turn_between(int body, const Configuration& start, const Configuration& end);

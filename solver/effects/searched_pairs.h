@@ -20,7 +20,7 @@ struct FarPair {
   double nearest = infinity;    // m, gap as it begins
   double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
   double overlooked = 0;        // m, depth that is not looked at
-  bool left = false;            // by a contact that had held it apart
+  bool left = false;            // by a contact that had held it apart, or goes far without its contacts
   bool gives_way = false;       // by its law's compliance
   double parted = 0;            // m, gap that it may end with
   double least_end = infinity;  // m, gap that its contacts tell of
@@ -43,11 +43,24 @@ struct NearPair {
   std::size_t end;  // of its contacts in `near_`
 };
 
+/// A plane that parts the shapes of a pair, or not, and what contacts with its normal are nearest.
+struct PairPlane {
+  Vec3 normal;             // unit, from the second one to the first
+  double apart;            // m, of the shapes along it; negative: they overlap
+  double gap = infinity;   // m, the least one of contacts
+  Vec3 at = Vec3::Zero();  // m, a place of that gap
+  Vec3 along = at;         // m, the way to another one, or 0
+  bool area = false;       // places are on no line
+  bool needless = false;   // another one parts the shapes where these contacts have closed
+};
+
 /// The points of one pair, and the room to find them.
 struct PairPoints {
   std::vector<ContactPoint> found;
   CollisionScratch scratch;
   RoundedTriangle triangle;  // the one that was placed last
+  std::vector<PairPlane> planes;
+  std::vector<std::size_t> plane_of;  // each contact
 };
 
 /// A pair found before or now, and its contacts.

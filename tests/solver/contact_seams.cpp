@@ -1,0 +1,80 @@
+// Bodies that come flush beside others: the plane in which they slide parts them, and nothing else.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "body_scenes.h"
+#include "contact_runs.h"
+#include "mesh.h"
+#include "refined.h"
+#include "scenes/contacts.h"
+
+using namespace pbd;
+using namespace pbd::test;
+using pbdcheck::BodyScene;
+using pbdcheck::Placing;
+
+namespace {
+
+constexpr double width = 1, size = 0.4, speed = 1, h = 0.01;  // m, m/s, s
+
+Shape table_of(const std::string& kind) {
+  const TriangleMesh cube = box_surface(Vec3::Constant(width));
+  if (kind == "box") return Box{Vec3::Constant(width)};
+  if (kind == "hull") return ConvexHull(cube);
+  return ClosedMesh(kind == "mesh" ? cube : refined(cube));
+}
+
+void add_slider(const std::string& kind, const Placing& at, BodyScene& build) {
+  const TriangleMesh cube = box_surface(Vec3::Constant(size));
+  if (kind == "box") build.box(Vec3::Constant(size), 1, at);
+  if (kind == "hull") build.hull(ConvexHull(cube), 10, at);
+  if (kind == "mesh") build.mesh(ClosedMesh(cube), 10, at);
+}
+
+}  // namespace
+
+// Without friction, and as high as what it comes from, it feels nothing: its velocity and its spin stay.
+TEST_CASE("what slides flush from a table to the next one keeps its speed") {
+  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh");
+  const auto table = GENERATE(as<std::string>(), "box", "hull", "mesh", "refined mesh");
+  const double between = GENERATE(0.0, 0.01), spin = GENERATE(0.0, 3.0);  // m, rad/s
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  for (int draw = 0; draw < 4; ++draw) {
+    BodyScene build({.friction = 0});
+    for (const double x : {0.0, width + between}) build.fixed(table_of(table), {Vec3(x, 0, 0)});
+    const double angle = draw == 0 ? 0 : uniform(engine);
+    const Placing at{{0.2 + 0.1 * uniform(engine), 0.2 * uniform(engine), (width + size) / 2},
+                     Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ())),
+                     speed * Vec3::UnitX(),
+                     spin * Vec3::UnitZ()};
+    add_slider(kind, at, build);
+    const Scene scene = build.finish();
+    INFO(kind << " on " << table << ", " << between << " apart, spin " << spin << ", draw " << draw);
+    const State end = run(scene, contact_method("direct"), h, 30);
+    CHECK((end.v.col(2) - at.velocity).norm() <= 1e-9 * speed);
+    CHECK((end.spin.col(2) - at.spin).norm() * size <= 1e-9 * speed);
+    CHECK(end.x(0, 2) == Approx(at.position.x() + 30 * h * speed).margin(1e-9));
+  }
+}
+
+// It falls within the step in which it comes there, so that the plane of the top parts them no more: its
+// front touches the border.
+TEST_CASE("what comes flush beside a table's border, and nothing carries, strikes its side") {
+  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh");
+  const auto table = GENERATE(as<std::string>(), "box", "hull", "mesh", "refined mesh");
+  constexpr double gap = 0.002;  // m, less than it goes in a step
+  BodyScene build({.friction = 0});
+  build.fixed(table_of(table), {Vec3::Zero()});
+  add_slider(kind,
+             {{-(width + size) / 2 - gap, 0.03, (width + size) / 2},
+              Eigen::Quaterniond::Identity(),
+              speed * Vec3::UnitX()},
+             build);
+  const Scene scene = build.finish();
+  INFO(kind << " beside " << table);
+  const State end = run(scene, contact_method("direct"), h, 1);
+  const Vec3 front = end.orientation[1] * Vec3::UnitX(), border(-width / 2, end.x(1, 1), width / 2);
+  CHECK(std::abs(front.dot(border - end.x.col(1)) - size / 2) <= 1e-9);
+  CHECK(end.x(2, 1) < (width + size) / 2);
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "between_surfaces.h"
+#include "parting_planes.h"
 #include "touching_sides.h"
 
 namespace pbd::reference {
@@ -71,9 +72,11 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Ways
     const double depth = std::min({a.size(), b.size(), extent}) / (yields_[pair] ? of_yielding : of_hard);
     const auto ways_out =
         deep.find({std::min(a.surface.side, b.surface.side), std::max(a.surface.side, b.surface.side)});
-    find_between(
-        a, b,
-        {start, at, found, a.moved + b.moved, depth, ways_out != deep.end() ? &ways_out->second : nullptr});
+    const bool in_each_other = ways_out != deep.end();
+    const std::size_t first = found.size();
+    find_between(a, b,
+                 {start, at, found, a.moved + b.moved, depth, in_each_other ? &ways_out->second : nullptr});
+    if (!in_each_other && !a.surface.deformable && !b.surface.deformable) drop_parted(a, b, at, first, found);
   }
 }
 

@@ -5,7 +5,8 @@
 // what flies side by side is not near for all of its speed. What is near by far less than its motion, and
 // touches neither where the step begins nor where its free motion ends, waits without rows
 // (waiting_contacts.h). Of surfaces what lies beside its features waits, whatever its gap; what then passes
-// is found late.
+// is found late. Contacts of two bodies' shapes have no rows either where another plane parts these, however
+// the features meet (needless_contacts.cpp): such pairs are looked at again where a solved step ends.
 //
 // Why nothing is missed: a point of a body at most r from its centre moves by at most |shift| + r |turn|, the
 // chord being shorter than the arc. A gap therefore falls in a step by at most what both sides travel beside

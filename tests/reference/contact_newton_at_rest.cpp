@@ -12,6 +12,7 @@ using namespace pbd;
 using namespace pbd::reference;
 using namespace pbd::test;
 using pbdcheck::BodyScene;
+using pbdcheck::Placing;
 
 namespace {
 
@@ -34,6 +35,29 @@ TEST_CASE("a mesh that lies flush on another slides off it where nothing rubs") 
     CHECK((j.v.col(2) - velocity).norm() <= 1e-9);
     CHECK(j.v.col(1).norm() <= 1e-9);
   }
+}
+
+// It begins 2 mm in front of the second one's side, and goes farther in the step.
+TEST_CASE("what slides level to the next table is not struck by its side, if the first one carries it") {
+  const auto kind = GENERATE(as<std::string>(), "box", "mesh", "cylinder");
+  const bool carried = kind != "box" || GENERATE(true, false);
+  constexpr double size = 0.2, wide = 1, speed = 1;
+  BodyScene build({.friction = 0}, gravity);
+  if (carried) build.fixed(Box{Vec3::Constant(wide)}, {Vec3::Zero()});
+  build.fixed(Box{Vec3::Constant(wide)}, {wide * Vec3::UnitX()});
+  const Placing at{{(wide - size) / 2 - 0.002, 0.03, (wide + size) / 2},
+                   Eigen::Quaterniond::Identity(),
+                   speed * Vec3::UnitX()};
+  if (kind == "box") build.box(Vec3::Constant(size), 1, at);
+  if (kind == "mesh") build.mesh(ClosedMesh(box_surface(Vec3::Constant(size))), 125, at);
+  if (kind == "cylinder") build.cylinder(size / 2, size, 1, at);
+  INFO(kind << ", carried " << carried);
+  const auto j = judged(build.finish());
+  const Vec3 change = j.v.rightCols<1>() - at.velocity;
+  if (carried)
+    CHECK(change.norm() <= 1e-9 * speed);
+  else
+    CHECK(change.x() < -0.1 * speed);
 }
 
 TEST_CASE("a corner on the diagonal of a mesh's face is over one triangle of it") {

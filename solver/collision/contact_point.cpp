@@ -101,12 +101,14 @@ struct RimPair {
 
   Vector3d apart() const { return y - other.point; }
 
+  bool parallel() const { return !(tangent.cross(other.tangent).norm() > parallel_to_rim); }
+
   /// From b to a: across both tangents, where these are parallel along what parts the points. What touches a
   /// rim does so between its cap and its side.
   Vector3d normal() const {
-    const Vector3d cross = tangent.cross(other.tangent);
-    const bool as_points = !(cross.norm() > parallel_to_rim) && apart().norm() > 0;
-    const Vector3d along = as_points ? Vector3d(apart().normalized()) : unit_across(cross, tangent);
+    const bool as_points = parallel() && apart().norm() > 0;
+    const Vector3d along =
+        as_points ? Vector3d(apart().normalized()) : unit_across(tangent.cross(other.tangent), tangent);
     return (axis + out - other.outward).dot(along) > 0 ? Vector3d(-along) : along;
   }
 
@@ -145,6 +147,12 @@ Touching at_rim(const ContactPoint& contact, const Frame& a, const Frame& b) {
     if (next.apart().norm() > most) break;  // it is there but for rounding
     angle += turn;
     pair = next;
+  }
+  const double beside = -pair.out.dot(pair.apart()), beyond = -pair.axis.dot(pair.apart());
+  if (!(contact.rim_b > 0) && pair.parallel() && !(beside >= 0 && beyond >= 0)) {
+    const Vector3d normal = beside > beyond ? -pair.out : -pair.axis;
+    const double gap = std::max(beside, beyond);
+    return rounded(contact, gap, normal, pair.other.point + gap * normal, pair.other.point);
   }
   const Vector3d normal = pair.normal();
   return rounded(contact, normal.dot(pair.apart()), normal, pair.y, pair.other.point);

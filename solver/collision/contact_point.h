@@ -13,9 +13,10 @@
 // n across the axis; if it lies flat the point R_a across_a, which stays where it is. Against a point it is
 // the nearest one; against a line or rim the one, next to R_a across_a, that is nearest to it or, where they
 // are in each other, as far as any beside it; n leads into a's rim between cap and side, and out of b's.
-// Where the tangents are parallel it is along y_a - y_b. Normals point from b to a: the impulse of a contact
-// pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a - velocity of b) at the
-// touching points.
+// Where the tangents are parallel it is along y_a - y_b, but where a line is over the cap or beside the side
+// it is that one's, as it is in the cylinder: the one that it is less deep below. Normals point from b to a:
+// the impulse of a contact pushes a along n. The gap's derivative by the bodies' motion is n . (velocity of a
+// - velocity of b) at the touching points.
 #pragma once
 
 #include <Eigen/Core>

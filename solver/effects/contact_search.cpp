@@ -170,11 +170,10 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   const double round = round_radius_of(one, two), deepest = std::min(pair.nearest, 0.0);
   const auto of_pair = left_.lower_bound({pair.collider, 0});
   const bool left = of_pair != left_.end() && of_pair->collider == pair.collider;
-  const bool unheld = left || needless;
-  const double depth = (unheld ? std::min(besides_, overlooked_) : overlooked_) * round;
+  const double depth = (left ? std::min(besides_, overlooked_) : overlooked_) * round;
   if ((bounded || is_fast(one, two)) &&
-      (unheld || wary * travel * travel > 8 * round * (overlooked_ * round + deepest)))
-    far_.push_back({pair.collider, pair.nearest, deepest, depth, left,
+      (left || needless || wary * travel * travel > 8 * round * (overlooked_ * round + deepest)))
+    far_.push_back({pair.collider, pair.nearest, deepest, depth, left, needless,
                     effect_.between(pair.collider[0], pair.collider[1]).compliance > 0});
 }
 

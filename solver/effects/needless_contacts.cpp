@@ -51,13 +51,14 @@ void ContactSearch::add_to_planes(const Touching& contact, const std::array<int,
   plane->area |= plane->along.cross(way).norm() > overlooked * plane->along.norm();
 }
 
-/// Looks for planes where the features of one have met, and gone on: true if one parts the shapes, which then
-/// is the last one.
+/// Looks for planes where the features of one have met, and gone on so far that what is over each other there
+/// is no sliver: true if one parts the shapes, which then is the last one.
 bool ContactSearch::find_parting(PairPlane plane, const std::array<int, 2>& pair, double overlooked,
                                  PairPoints& points) const {
+  constexpr double over = 0.1;  // of the round radius
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
   Frame met = two.frame;
-  met.origin += closing(plane, overlooked) * plane.normal;
+  met.origin += (plane.gap + over * round_radius_of(one, two)) * plane.normal;
   find_points(pair, one.frame, met, {effect_.margin + travel_between(one, two), 0}, points);
   return std::any_of(points.found.begin(), points.found.end(), [&](const ContactPoint& point) {
     const Vec3 normal = point.swapped ? Vec3(-touching(point, met, one.frame).normal)

@@ -173,7 +173,7 @@ void ContactSearch::add_pair(const NearPair& pair, std::span<const ActiveContact
   const double depth = (left ? std::min(besides_, overlooked_) : overlooked_) * round;
   if ((bounded || is_fast(one, two)) &&
       (left || needless || wary * travel * travel > 8 * round * (overlooked_ * round + deepest)))
-    far_.push_back({pair.collider, pair.nearest, deepest, depth, left, needless,
+    far_.push_back({pair.collider, pair.nearest, deepest, depth, left,
                     effect_.between(pair.collider[0], pair.collider[1]).compliance > 0});
 }
 

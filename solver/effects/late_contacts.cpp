@@ -100,8 +100,8 @@ double ContactSearch::last_apart(const Pair& pair, const Configuration& start, c
 bool ContactSearch::find_overlapping(const Pair& pair, const Configuration& start, const Configuration& end) {
   const Motion &one = motions_[pair.collider[0]], &two = motions_[pair.collider[1]];
   const double round = round_radius_of(one, two);
-  // No less than what a solved step may miss of a triangle's nodes, or of what holds a pair apart by a plane.
-  const double missed = two.kind == Carrier::triangle || pair.needless ? besides_ * round : 0;
+  // Of triangles no less than what a solved step may miss of their nodes.
+  const double missed = two.kind == Carrier::triangle ? besides_ * round : 0;
   const double slack = std::max(pair.overlooked, missed);
   const auto extent = [](const Motion& own) { return std::isfinite(own.radius) ? own.radius : 0; };
   const double travel = travel_between(one, two), rounded = 1e-12 * (extent(one) + extent(two) + travel);

@@ -21,7 +21,6 @@ struct FarPair {
   double deepest = 0;           // m, the same, at most 0: what overlaps gets no deeper
   double overlooked = 0;        // m, depth that is not looked at
   bool left = false;            // by a contact that had held it apart
-  bool needless = false;        // contacts of it have no row: another plane parts it
   bool gives_way = false;       // by its law's compliance
   double parted = 0;            // m, gap that it may end with
   double least_end = infinity;  // m, gap that its contacts tell of

@@ -95,6 +95,30 @@ TEST_CASE("an edge that lies in a cap's plane touches it where it comes in and g
   }
 }
 
+// In the plane through the axis they are a corner and a point: as far as the point is from the corner, or
+// from the nearer one of its sides where it is beside or within it.
+TEST_CASE("a rim that has come over an edge along it is as far from that as its cap or side") {
+  constexpr double radius = 0.2, half = 0.2, reach = 0.02;  // m
+  const Shape disc = Cylinder{radius, 2 * half}, table = Box{Vec3::Ones()};
+  const Frame below{Vec3(0.5, 0, -0.5), Eigen::Matrix3d::Identity()};  // the edge is at x = z = 0
+  const auto over = [&](double x, double z) {
+    return Frame{Vec3(x - radius, 0.07, half + z), Eigen::Matrix3d::Identity()};
+  };
+  const Frame start = over(-2e-4, 1e-3);
+  int rims = 0;
+  for (const ContactPoint& contact : contacts(disc, start, table, below, reach)) {
+    if (contact.kind != ContactPoint::Kind::rim) continue;
+    ++rims;
+    for (const double x : {-0.01, -2e-4, 1e-3, 0.013})
+      for (const double z : {-5e-3, -1e-5, 1e-5, 1e-3}) {
+        const double gap = x < 0 && z > 0 ? std::hypot(x, z) : std::max(-x, z);
+        INFO(x << ", " << z);
+        CHECK(std::abs(touch(contact, over(x, z), below).gap - gap) <= 1e-12);
+      }
+  }
+  CHECK(rims == 1);
+}
+
 // It leans over the border x = -0.5 m, of which an edge begins below its middle: next to the place there that
 // is nearest to the rim, no place of the rim is nearest to the edge's line.
 TEST_CASE("a rim touches an edge where they are nearest to each other, or not at all") {

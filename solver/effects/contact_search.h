@@ -183,10 +183,10 @@ class ContactSearch {
   void keep_each_once(std::vector<ActiveContact>& contacts);
 
   // Contacts that another plane makes needless: needless_contacts.cpp.
-  double apart_along(const std::array<int, 2>& pair, const Vec3& normal) const;
+  PairPlane plane_along(const std::array<int, 2>& pair, const Vec3& normal, double overlooked) const;
   void add_to_planes(const Touching& contact, const std::array<int, 2>& pair, double overlooked,
                      PairPoints& points) const;
-  bool find_parting(PairPlane plane, const std::array<int, 2>& pair, double overlooked,
+  bool find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
                     PairPoints& points) const;
   void find_needless(std::span<ActiveContact> contacts, const Configuration& start, PairPoints& points) const;
 

@@ -17,16 +17,21 @@ double closing(const PairPlane& plane, double overlooked) {
 
 /// True if a plane parts the shapes, and does so where the features of another one have met, too.
 bool parts(const PairPlane& plane, const PairPlane& other, double overlooked) {
-  return plane.apart >= -overlooked &&
+  return plane.parts &&
          plane.apart - closing(other, overlooked) * plane.normal.dot(other.normal) >= -overlooked;
 }
 
 }  // namespace
 
-/// m, how far the shapes of a pair are apart where the step begins, along a normal from the second one.
-double ContactSearch::apart_along(const std::array<int, 2>& pair, const Vec3& normal) const {
+/// The plane along a normal from the second one of a pair. It parts the shapes if it does where the step
+/// begins and where their courses lead.
+PairPlane ContactSearch::plane_along(const std::array<int, 2>& pair, const Vec3& normal,
+                                     double overlooked) const {
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
-  return least_along(*one.shape, one.frame, normal) + least_along(*two.shape, two.frame, -normal);
+  const double apart =
+      least_along(*one.shape, one.frame, normal) + least_along(*two.shape, two.frame, -normal);
+  const double closed = std::min(normal.dot(one.course - two.course), 0.0);
+  return {.normal = normal, .apart = apart, .parts = apart + closed >= -overlooked};
 }
 
 /// A contact with its normal from the second one of the pair.
@@ -36,7 +41,7 @@ void ContactSearch::add_to_planes(const Touching& contact, const std::array<int,
   const auto same = [&](const PairPlane& plane) { return (plane.normal - contact.normal).norm() <= alike; };
   auto plane = std::find_if(points.planes.begin(), points.planes.end(), same);
   if (plane == points.planes.end())
-    plane = points.planes.insert(plane, {contact.normal, apart_along(pair, contact.normal)});
+    plane = points.planes.insert(plane, plane_along(pair, contact.normal, overlooked));
   points.plane_of.push_back(static_cast<std::size_t>(plane - points.planes.begin()));
   if (contact.gap < plane->gap - overlooked) {
     plane->gap = contact.gap;
@@ -53,7 +58,7 @@ void ContactSearch::add_to_planes(const Touching& contact, const std::array<int,
 
 /// Looks for planes where the features of one have met, and gone on so far that what is over each other there
 /// is no sliver: true if one parts the shapes, which then is the last one.
-bool ContactSearch::find_parting(PairPlane plane, const std::array<int, 2>& pair, double overlooked,
+bool ContactSearch::find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
                                  PairPoints& points) const {
   constexpr double over = 0.1;  // of the round radius
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
@@ -63,17 +68,18 @@ bool ContactSearch::find_parting(PairPlane plane, const std::array<int, 2>& pair
   return std::any_of(points.found.begin(), points.found.end(), [&](const ContactPoint& point) {
     const Vec3 normal = point.swapped ? Vec3(-touching(point, met, one.frame).normal)
                                       : touching(point, one.frame, met).normal;
-    PairPlane other{normal, apart_along(pair, normal)};
+    const PairPlane other = plane_along(pair, normal, overlooked);
     if (!parts(other, plane, overlooked)) return false;
     points.planes.push_back(other);
     return true;
   });
 }
 
-/// Marks which contacts of two bodies are needless. What touches over an area has no other plane.
+/// Marks which contacts of two bodies are needless. What touches over an area has no other plane; of the rest
+/// another one is looked for where the nearest have met.
 void ContactSearch::find_needless(std::span<ActiveContact> contacts, const Configuration& start,
                                   PairPoints& points) const {
-  if (contacts.empty()) return;
+  if (contacts.empty() || contacts.front().law.compliance > 0) return;
   const std::array<int, 2> pair = contacts.front().pair();
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
   if (std::isinf(one.radius) || std::isinf(two.radius)) return;
@@ -85,17 +91,18 @@ void ContactSearch::find_needless(std::span<ActiveContact> contacts, const Confi
     if (contact.collider != pair) found.normal = -found.normal;
     add_to_planes(found, pair, overlooked, points);
   }
-  const auto apart = [&](const PairPlane& plane) { return plane.apart >= -overlooked; };
-  if (std::none_of(points.planes.begin(), points.planes.end(), apart)) return;
-  for (std::size_t i = 0, count = points.planes.size(); i < count; ++i) {
-    const PairPlane plane = points.planes[i];
-    if (plane.area && apart(plane)) continue;
-    const auto parting = [&](const PairPlane& other) { return parts(other, plane, overlooked); };
-    points.planes[i].needless = std::any_of(points.planes.begin(), points.planes.end(), parting) ||
-                                find_parting(plane, pair, overlooked, points);
-  }
+  const auto is_needless = [&](const PairPlane& plane) {
+    return !(plane.area && plane.apart >= -overlooked) &&
+           std::any_of(points.planes.begin(), points.planes.end(),
+                       [&](const PairPlane& other) { return parts(other, plane, overlooked); });
+  };
+  const PairPlane* nearest = nullptr;
+  for (const PairPlane& plane : points.planes)
+    if (!plane.area && !is_needless(plane) && (nearest == nullptr || plane.gap < nearest->gap))
+      nearest = &plane;
+  if (nearest != nullptr) find_parting(*nearest, pair, overlooked, points);
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    contacts[i].needless = points.planes[points.plane_of[i]].needless;
+    contacts[i].needless = is_needless(points.planes[points.plane_of[i]]);
 }
 
 }  // namespace pbd

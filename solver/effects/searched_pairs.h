@@ -43,15 +43,15 @@ struct NearPair {
   std::size_t end;  // of its contacts in `near_`
 };
 
-/// A plane that parts the shapes of a pair, or not, and what contacts with its normal are nearest.
+/// A plane that may part the shapes of a pair, and what contacts with its normal are nearest.
 struct PairPlane {
   Vec3 normal;             // unit, from the second one to the first
-  double apart;            // m, of the shapes along it; negative: they overlap
+  double apart;            // m, of the shapes along it where the step begins; negative: they overlap
+  bool parts = false;      // them, there and on their courses
   double gap = infinity;   // m, the least one of contacts
   Vec3 at = Vec3::Zero();  // m, a place of that gap
   Vec3 along = at;         // m, the way to another one, or 0
   bool area = false;       // places are on no line
-  bool needless = false;   // another one parts the shapes where these contacts have closed
 };
 
 /// The points of one pair, and the room to find them.

@@ -68,6 +68,32 @@ TEST_CASE("what slides flush from a table to the next one keeps its speed") {
   }
 }
 
+// Level with the border sideways, it comes over the plate before it is as low: at 2 m/s down and 1 m/s
+// inwards.
+TEST_CASE("what falls past a plate's border and inwards within a step does not go through") {
+  constexpr double thick = 0.01, wide = 0.1, step = 0.011;  // m, s: farther than both are thick
+  BodyScene build({.friction = 0}, 0);
+  build.fixed(Box{{width, width, thick}}, {Vec3::Zero()});
+  const Placing at{{(width + wide) / 2, 0, 1.2 * thick}, Eigen::Quaterniond::Identity(), {-1, 0, -2}};
+  build.box({wide, wide, thick}, 1, at);
+  const State end = run(build.finish(), contact_method("direct"), step, 1);
+  CHECK(end.v(2, 1) >= at.velocity.z() + 0.1);
+}
+
+// It sinks into the tables, so that the second one's side is in front of it.
+TEST_CASE("what slides on a table that yields is not thrown by the next one") {
+  BodyScene build({.friction = 0, .compliance = 1e-6});
+  for (const double x : {0.0, width}) build.fixed(table_of("box"), {Vec3(x, 0, 0)});
+  const Placing at{
+      {0.3, 0.05, (width + size) / 2}, Eigen::Quaterniond::Identity(), 2 * speed * Vec3::UnitX()};
+  add_slider("mesh", at, build);
+  const Scene scene = build.finish();
+  const State end = run(scene, contact_method("direct"), h, steps);
+  const double risen = scene.mass[2] * pbdcheck::gravity * (end.x(2, 2) - at.position.z());
+  const double moving = scene.mass[2] * end.v.col(2).squaredNorm() / 2;  // J, of its centre alone
+  CHECK(moving + risen <= scene.mass[2] * at.velocity.squaredNorm() / 2);
+}
+
 // It falls within the step in which it comes there, so that the plane of the top parts them no more: its
 // front touches the border.
 TEST_CASE("what comes flush beside a table's border, and nothing carries, strikes its side") {

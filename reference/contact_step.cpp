@@ -128,8 +128,9 @@ bool ContactStep::can_move(const ContactFeature& feature) const {
 void ContactStep::find_contacts(const Vector& velocity, bool also_start) {
   std::vector<FeaturePair> found;
   const Placement end = step.placement(velocity);
-  search.find(start_, end, deep, found);
-  if (also_start) search.find(end, start_, {}, found);
+  const Points course = step.h * step.start.v;
+  search.find(start_, end, course, deep, found);
+  if (also_start) search.find(end, start_, course, {}, found);
   for (const JudgedContact& own : contacts)
     if (own.collides) found.push_back(own.pair);  // by now it may have left
   std::erase_if(found, [&](const FeaturePair& pair) { return !can_move(pair.a) && !can_move(pair.b); });

@@ -56,8 +56,8 @@ FeatureSearch::FeatureSearch(const Scene& scene, const Contact& contact)
   }
 }
 
-void FeatureSearch::find(const Placement& start, const Placement& at, const WaysOut& deep,
-                         std::vector<FeaturePair>& found) const {
+void FeatureSearch::find(const Placement& start, const Placement& at, const Points& course,
+                         const WaysOut& deep, std::vector<FeaturePair>& found) const {
   std::vector<PlacedSurface> placed;
   placed.reserve(surfaces_.size());
   Bounds all;
@@ -76,7 +76,9 @@ void FeatureSearch::find(const Placement& start, const Placement& at, const Ways
     const std::size_t first = found.size();
     find_between(a, b,
                  {start, at, found, a.moved + b.moved, depth, in_each_other ? &ways_out->second : nullptr});
-    if (!in_each_other && !a.surface.deformable && !b.surface.deformable) drop_parted(a, b, at, first, found);
+    if (in_each_other || yields_[pair] || a.surface.deformable || b.surface.deformable) continue;
+    const Vec3 way = course.col(a.surface.corner[0].node) - course.col(b.surface.corner[0].node);
+    drop_parted(a, b, way, at, first, found);
   }
 }
 

@@ -30,10 +30,10 @@ class FeatureSearch {
   /// Appends the pairs that are valid at `at`, nearer than both surfaces have moved since `start` and a
   /// fiftieth of the smaller one (at most a thousandth of all together), and not deeper in each other than
   /// that fiftieth, of what yields a fifth, or than they have moved where they were not so deep at `start`.
-  /// Sides of what is deformable are those of `start`. Of rigid surfaces features that another plane makes
-  /// needless (parting_planes.h) are not, but of `deep`: surfaces in each other, whose features with normals
-  /// near their ways out are valid however they were at `start`.
-  void find(const Placement& start, const Placement& at, const WaysOut& deep,
+  /// Sides of what is deformable are those of `start`. Features of rigid surfaces are not that another plane
+  /// makes needless (parting_planes.h), by where velocities lead each node in the step, `course` (m). Those
+  /// of `deep` are, surfaces in each other: with normals near their ways out however they were at `start`.
+  void find(const Placement& start, const Placement& at, const Points& course, const WaysOut& deep,
             std::vector<FeaturePair>& found) const;
 
   /// The side of the deformable surface that has a node, -1 of none.

@@ -1,9 +1,9 @@
 // Features of two rigid surfaces that need no force, since a plane parts the surfaces however these features
 // meet: as where one slides level from a table to the next one, whose side is in front of it.
 //
-// Nor does it yield, nor do their velocities lead them through it. Planes are those of faces, both surfaces'
-// that have some: sep(m) as in support.h, but of the surfaces' corners. Features go on by their gap along
-// their normal n, and by `farther`: sep falls by m . n times that.
+// Not so where the contact yields, or velocities lead the surfaces through the plane. Planes are those of the
+// faces of both: sep(m) as in support.h, but of the surfaces' corners. Features close their gap along their
+// normal n, and go on by ten times what is overlooked: sep falls by m . n times that.
 #pragma once
 
 #include "placed_surface.h"

@@ -186,7 +186,7 @@ class ContactSearch {
   PairPlane plane_along(const std::array<int, 2>& pair, const Vec3& normal, double overlooked) const;
   void add_to_planes(const Touching& contact, const std::array<int, 2>& pair, double overlooked,
                      PairPoints& points) const;
-  bool find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
+  void find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
                     PairPoints& points) const;
   void find_needless(std::span<ActiveContact> contacts, const Configuration& start, PairPoints& points) const;
 

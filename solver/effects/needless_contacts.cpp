@@ -37,7 +37,7 @@ PairPlane ContactSearch::plane_along(const std::array<int, 2>& pair, const Vec3&
 /// A contact with its normal from the second one of the pair.
 void ContactSearch::add_to_planes(const Touching& contact, const std::array<int, 2>& pair, double overlooked,
                                   PairPoints& points) const {
-  constexpr double alike = 1e-6;
+  constexpr double alike = 1e-6;  // rad: what a direction is known to (tolerances.h)
   const auto same = [&](const PairPlane& plane) { return (plane.normal - contact.normal).norm() <= alike; };
   auto plane = std::find_if(points.planes.begin(), points.planes.end(), same);
   if (plane == points.planes.end())
@@ -56,23 +56,21 @@ void ContactSearch::add_to_planes(const Touching& contact, const std::array<int,
   plane->area |= plane->along.cross(way).norm() > overlooked * plane->along.norm();
 }
 
-/// Looks for planes where the features of one have met, and gone on so far that what is over each other there
-/// is no sliver: true if one parts the shapes, which then is the last one.
-bool ContactSearch::find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
+/// Adds a plane that parts the shapes, if what touches where the features of one have met tells of any: these
+/// go on so far that what is over each other there is no sliver.
+void ContactSearch::find_parting(const PairPlane& plane, const std::array<int, 2>& pair, double overlooked,
                                  PairPoints& points) const {
   constexpr double over = 0.1;  // of the round radius
   const Motion &one = motions_[pair[0]], &two = motions_[pair[1]];
   Frame met = two.frame;
   met.origin += (plane.gap + over * round_radius_of(one, two)) * plane.normal;
   find_points(pair, one.frame, met, {effect_.margin + travel_between(one, two), 0}, points);
-  return std::any_of(points.found.begin(), points.found.end(), [&](const ContactPoint& point) {
+  for (const ContactPoint& point : points.found) {
     const Vec3 normal = point.swapped ? Vec3(-touching(point, met, one.frame).normal)
                                       : touching(point, one.frame, met).normal;
     const PairPlane other = plane_along(pair, normal, overlooked);
-    if (!parts(other, plane, overlooked)) return false;
-    points.planes.push_back(other);
-    return true;
-  });
+    if (parts(other, plane, overlooked)) return points.planes.push_back(other);
+  }
 }
 
 /// Marks which contacts of two bodies are needless. What touches over an area has no other plane; of the rest
